@@ -7,7 +7,7 @@
 #include "bars.h"
 #include "bench_verbs.h"
 #include "cli/interrupt.h"
-#include "cli/numbers.h"
+#include "cli/values.h"
 #include "cli/output_file.h"
 #include "cli/report.h"
 #include "comparison.h"
@@ -239,13 +239,13 @@ void add_engines(CLI::App& program, app::Run& run) {
   options->add_to(*verb);
   verb->add_option("--engines", options->engines, "Which engines, separated by commas (default: all)")
       ->delimiter(',')
-      ->check(CLI::IsMember(engine_names()));
+      ->check(app::one_of(engine_names()));
   verb->add_option("--wasm-engines", options->places.wasm, "The folder whose node_modules hold PhysX and Jolt")
       ->type_name("DIR");
   verb->add_option("--patience", options->comparison.patience,
                    "Seconds: an engine that needs longer for a set gets the first part of it")
       ->capture_default_str()
-      ->check(app::positive);
+      ->check(app::positive());
   verb->add_option("--picture", options->picture, "Draw the times as bars, to an SVG file")->type_name("FILE");
   verb->add_flag("--json", options->json, "Print one JSON object");
   verb->callback([options, &run] {

@@ -10,7 +10,7 @@ int main(int argc, char** argv) {
   // The user typed `roam bench ...`, so messages use that name.
   CLI::App program{"roam bench: roam measured beside other engines.", "roam bench"};
   program.footer(
-      "\n`roam bench VERB --help` explains a verb, with examples.\n"
+      "`roam bench VERB --help` explains a verb, with examples.\n\n"
       "Exit status: 0 done; 1 failed, the message says what, where and what to do; 2 wrong usage; 3 roam was wrong.\n");
   program.require_subcommand(1);
   roam::app::Run chosen;

@@ -16,7 +16,7 @@
 #include <osgUtil/PolytopeIntersector>
 #include <vector>
 
-#include "cli/numbers.h"
+#include "cli/values.h"
 #include "osgRoam/BoxIntersector.h"
 #include "osg_scene.h"
 #include "roam/generate.h"

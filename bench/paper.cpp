@@ -7,7 +7,7 @@
 
 #include "bench_verbs.h"
 #include "cli/interrupt.h"
-#include "cli/numbers.h"
+#include "cli/values.h"
 #include "cli/output_file.h"
 #include "cli/report.h"
 #include "paper_report.h"
@@ -132,7 +132,7 @@ void add_paper(CLI::App& program, app::Run& run) {
       ->excludes(scene);
   verb->add_option("--rows", options->rows, "Which rows, separated by commas (default: all)")
       ->delimiter(',')
-      ->check(CLI::IsMember(row_names()));
+      ->check(app::one_of(row_names()));
   const CLI::Validator free_at_the_start = app::from_to(0.01, 0.9);  // m: the floor is 0.95 m below the paths
   verb->add_option("--radius", paper.radius, "Of the sphere, metres")->capture_default_str()->check(free_at_the_start);
   verb->add_option("--split-radius", paper.split_radius, "Of the sphere that is to cross the split, metres")
@@ -140,12 +140,12 @@ void add_paper(CLI::App& program, app::Run& run) {
       ->check(free_at_the_start);
   verb->add_option("--patience", paper.patience, "Seconds: a way that takes longer is ended")
       ->capture_default_str()
-      ->check(app::positive);
+      ->check(app::positive());
   verb->add_option("--loading", paper.loading, "Seconds: a row that takes longer until it can move is ended")
       ->capture_default_str()
-      ->check(app::positive);
+      ->check(app::positive());
   verb->add_option("--memory", paper.memory, "A row that takes more is ended (default: three quarters of what is free)")
-      ->transform(CLI::AsSizeValue(false))
+      ->transform(app::bytes())
       ->check(app::from_to<std::uint64_t>(1u << 20, 1ull << 50))
       ->type_name("BYTES");
   verb->add_option("--wasm-engines", paper.wasm, "The folder whose node_modules hold PhysX: physx-js-webidl, from npm")

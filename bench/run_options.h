@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "cli/numbers.h"
+#include "cli/values.h"
 #include "query_sets.h"
 #include "scene.h"
 
@@ -28,7 +28,7 @@ struct RunOptions {
         ->capture_default_str();
     app.add_option("--sets", sets, "which query sets, separated by commas (default: all)")
         ->delimiter(',')
-        ->check(CLI::IsMember(query_set_names()));
+        ->check(app::one_of(query_set_names()));
     app.add_option("--queries", queries, "of each set")->capture_default_str()->check(app::at_least_one());
     app.add_option("--rounds", rounds, "each query's time is the median over these")
         ->capture_default_str()

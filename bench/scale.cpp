@@ -10,9 +10,9 @@
 
 #include "bench_verbs.h"
 #include "cli/interrupt.h"
-#include "cli/numbers.h"
 #include "cli/output_file.h"
 #include "cli/report.h"
+#include "cli/values.h"
 #include "paper_scene.h"
 #include "roam/error.h"
 #include "roam/generate.h"
@@ -212,7 +212,11 @@ app::ExitStatus run(const Options& options) {
   }
   sizes.push_back(make_size(options.triangles, options, scratch.path()));
   const std::vector<Row> rows = measure(sizes, options);
-  app::print(options.json ? to_json(rows, options).dump(2) + "\n" : table(rows, options));
+  if (options.json) {
+    app::print(to_json(rows, options));
+  } else {
+    app::print(table(rows, options));
+  }
   if (!options.picture.empty()) {
     std::vector<StepTimes> curve;
     for (const Row& row : rows) curve.push_back({row.size->triangles, row.times[2].p50, row.times[2].p99});
@@ -239,7 +243,7 @@ void add_scale(CLI::App& program, app::Run& run) {
   app::add_triangles(*verb, "--least", options->least, "Of the smallest");
   verb->add_option("--memory", options->memory_gib, "GiB that building a world in memory may take")
       ->capture_default_str()
-      ->check(app::positive);
+      ->check(app::positive());
   verb->add_option("--pager", options->pager_mib, "MiB of each pager")
       ->capture_default_str()
       ->check(app::from_to<std::uint64_t>(Pager::least_memory >> 20, 1u << 20));

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "cli/numbers.h"
+#include "cli/values.h"
 #include "counted_space.h"
 #include "roam/generate.h"
 #include "roam/pager.h"

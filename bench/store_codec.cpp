@@ -8,7 +8,7 @@
 #include <cstdio>
 #include <exception>
 
-#include "cli/numbers.h"
+#include "cli/values.h"
 #include "roam/error.h"
 #include "scene.h"
 #include "store/codec/made_tiles.h"

@@ -260,7 +260,7 @@ void expect_to_end_on_ctrl_c(std::vector<std::string> arguments, const std::vect
     std::vector<std::string> all = arguments;
     if (all[1] != "engines") all.insert(all.end(), {"--scratch", folder.file("")});
     const ProgramResult result = run_program(ROAM_PROGRAM, all, {.input = {}, .interrupt_after = after});
-    EXPECT_EQ(result.status, 1) << result.err;
+    EXPECT_EQ(result.status, 130) << result.err;
     EXPECT_TRUE(says(result.err, "cancelled")) << result.err;
     EXPECT_TRUE(std::filesystem::is_empty(folder.file(""))) << "after " << after << " s";
   }

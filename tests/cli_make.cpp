@@ -79,7 +79,7 @@ TEST(MakeVerb, IsCancelledInGoodOrder) {
   const TestFolder folder;
   const ProgramResult result = run_program(
       ROAM_PROGRAM, {"make", "terrain", "-o", folder.file("huge.ply"), "--triangles", "100M"}, {.interrupt_after = 1});
-  EXPECT_EQ(result.status, 1);
+  EXPECT_EQ(result.status, 130);
   EXPECT_EQ(result.err, "roam: cancelled\n");
   EXPECT_TRUE(std::filesystem::is_empty(std::filesystem::path(folder.file("huge.ply")).parent_path()));
 }

@@ -109,7 +109,7 @@ TEST(ProfileOfWalk, IsRefusedOnAChangedScene) {
   for (const char* part : {"room.obj.roam.json is not of", "roam train", "--no-profile"}) {
     EXPECT_TRUE(contains(result.err, part)) << result.err;
   }
-  EXPECT_EQ(result.out, "");
+  EXPECT_EQ(parsed(result)["error"]["where"], trained.file) << result.out;
   EXPECT_EQ(trained.walk({"--no-profile"}).status, 0);
   EXPECT_EQ(trained.walk({"--radius", "0.3"}).status, 0);
 }

@@ -295,7 +295,11 @@ TEST_F(StoreVerbs, WhatCannotBeVerifiedIsNamedBehindTheReportOfAWalkThatEnded) {
   // What is advised is a way out.
   const int went = with({}).status;
   EXPECT_EQ(with({"--against", scene()}).status, went);
-  ASSERT_EQ(run({"verify", bad, "--repair", scene()}).status, 0);
+  const ProgramResult mended = run({"verify", bad, "--repair", scene()});
+  ASSERT_EQ(mended.status, 0) << mended.err;
+  EXPECT_TRUE(contains(mended.out, " damaged\n")) << mended.out;
+  EXPECT_TRUE(contains(mended.out, ": whole; ")) << mended.out;
+  EXPECT_FALSE(contains(mended.out, "--repair")) << "what is done needs no advice: " << mended.out;
   EXPECT_EQ(with({"--verify"}).status, 0);
 }
 

@@ -138,7 +138,7 @@ TEST(TrainVerb, WritesNoProfileWhereItHasLearnedNothing) {
     result = run_program(ROAM_PROGRAM, {"train", scene, "--spacing", "0.02"}, {.interrupt_after = seconds});
     EXPECT_FALSE(std::filesystem::exists(scene + ".roam.json")) << result.err;
   }
-  EXPECT_EQ(result.status, 1);
+  EXPECT_EQ(result.status, 130);
   EXPECT_TRUE(contains(result.err, "before it had learned anything")) << result.err;
   EXPECT_TRUE(has_begun()) << result.out;
 }

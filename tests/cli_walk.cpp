@@ -185,26 +185,35 @@ TEST(WalkVerb, WandersFromWhereItIsTold) {
   EXPECT_EQ(run_program(ROAM_PROGRAM, {"walk", scene, "--path", "p.path", "--from", "3,1,0.5"}).status, 2);
 }
 
-TEST(WalkVerb, IsCancelledInGoodOrderAndSaysHowFarItCame) {
+TEST(WalkVerb, WritesAllThatItHasWhenItIsInterrupted) {
   const TestFolder folder;
-  const std::string trace = folder.file("t.csv");
+  const std::string scene = folder.write("room.obj", room_obj());
+  const std::string trace = folder.file("t.csv"), picture = folder.file("way.svg");
   const ProgramResult result =
-      run_program(ROAM_PROGRAM, {"walk", folder.write("room.obj", room_obj()), "--wander", "1e9", "--trace", trace},
+      run_program(ROAM_PROGRAM, {"walk", scene, "--wander", "1e9", "--trace", trace, "--picture", picture, "--json"},
                   {.interrupt_after = 1});
-  EXPECT_EQ(result.status, 1);
-  EXPECT_EQ(result.out, "");
-  double length = 0.0, seconds = 0.0;
-  long long steps = 0;
-  ASSERT_EQ(std::sscanf(result.err.c_str(), "roam: note: came %lf m in %lf s, %lld steps", &length, &seconds, &steps),
-            3)
-      << result.err;
-  EXPECT_TRUE(contains(result.err, "; " + trace + " has its trace\nroam: cancelled\n")) << result.err;
-  EXPECT_GT(length, 0.0);
-  EXPECT_LE(length, 1.4 * seconds + 0.1);
+  EXPECT_EQ(result.status, 130) << result.err;
+  const auto report = nlohmann::json::parse(result.out, nullptr, false);
+  ASSERT_TRUE(report.is_object()) << result.out << result.err;
+  EXPECT_EQ(report["interrupted"], true);
+  EXPECT_EQ(report["outcome"], "interrupted");
+  EXPECT_GT(report["length_m"], 0.0);
+  EXPECT_LE(report["length_m"].get<double>(), 1.4 * report["simulated_s"].get<double>() + 0.1);
   // The last row is that of the last step.
   const std::string rows = folder.read("t.csv");
   const std::string last = rows.substr(rows.rfind('\n', rows.size() - 2) + 1);
-  EXPECT_EQ(std::stoll(last), steps) << last;
+  EXPECT_EQ(std::stoll(last), report["steps"]) << last;
+  EXPECT_TRUE(folder.read("way.svg").ends_with("</svg>\n")) << result.err;
+
+  const ProgramResult words = run_program(ROAM_PROGRAM, {"walk", scene, "--wander", "1e9"}, {.interrupt_after = 1});
+  EXPECT_EQ(words.status, 130);
+  EXPECT_TRUE(words.out.starts_with("interrupted: ")) << words.out;
+  EXPECT_FALSE(contains(words.out, "reached")) << words.out;
+}
+
+TEST(WalkVerb, IsNotMarkedAsInterruptedWhenItEndsByItself) {
+  const Walk walk(room_obj(), "2 0 0.9\n18 0 0.9\n", {"--height", "1.8", "--json"});
+  EXPECT_EQ(walk.json()["interrupted"], false);
 }
 
 TEST(WalkVerb, IsHeldWhereItsTimeEndsWhileItIsHeld) {

@@ -228,6 +228,7 @@ TEST(ImportStreamMemory, KeepsWhatDoesNotFitInTheFolderForTemporaryFiles) {
   }
   EXPECT_TRUE(contains(error, (folder.path() / "none").string())) << error;
   EXPECT_TRUE(contains(error, "TMPDIR")) << error;
+  EXPECT_TRUE(contains(error, "No such file or directory. Make that folder, or name another by ")) << error;
   EXPECT_EQ(triangles, 1'500'000u);
   // Nothing that has a name is left, whether it went well or not.
   EXPECT_EQ(std::distance(fs::directory_iterator(folder.path()), {}), 1);

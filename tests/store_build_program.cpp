@@ -71,7 +71,7 @@ TEST(StoreBuildProgram, IsStoppedByCtrlCAndGoesOn) {
   const TestFolder folder;
   const std::string scene = write_ply(folder.file("a.ply"), field(900, 0.5, {0.0, 0.0, 0.0}));
   const auto stopped = roam({"build", scene, "-o", folder.file("s")}, {.interrupt_after = 0.3});
-  EXPECT_EQ(stopped.status, 1);
+  EXPECT_EQ(stopped.status, 130);
   EXPECT_NE(stopped.err.find("the same command again goes on"), std::string::npos) << stopped.err;
   EXPECT_FALSE(roam::Store::is_store(folder.file("s")));
   const auto rest = roam({"build", scene, "-o", folder.file("s")});

@@ -200,6 +200,8 @@ TEST(ViewUsage, SaysWhatIsWrong) {
   EXPECT_EQ(view.run({"--at", "1,2"}).result.status, 2);
   EXPECT_TRUE(contains(view.result.err, "X,Y,Z[,YAW[,PITCH]]")) << view.result.err;
   EXPECT_EQ(view.run({"--time", "0"}).result.status, 2);
+  EXPECT_EQ(view.run({"--headless", "--time", "1", "--path", "way.path"}).result.status, 2);
+  EXPECT_TRUE(contains(view.result.err, "--path and --time exclude each other")) << view.result.err;
   EXPECT_EQ(run_program(ROAM_PROGRAM, {"view", ""}).status, 2);
   EXPECT_EQ(view.run({"--trace", view.scene + ".new", "--record-path", view.scene + ".new"}).result.status, 2);
   EXPECT_FALSE(std::filesystem::exists(view.scene + ".new"));
@@ -340,7 +342,7 @@ TEST(ViewInterrupt, WhileLoadingEndsAtOnceAndLeavesNoReader) {
   const std::string pids = view.folder.file("pids");
   view.set_reader("echo $$ >> '" + pids + "'\nexec sleep 100\n");
   view.run({"--headless", "--screenshot", view.folder.file("shot.png")}, {.interrupt_after = 1.5});
-  EXPECT_EQ(view.result.status, 1);
+  EXPECT_EQ(view.result.status, 130);
   EXPECT_TRUE(contains(view.result.err, "cancelled")) << view.result.err;
   EXPECT_LT(view.seconds, 1.5 + 1.5);
   std::ifstream in(pids);
@@ -353,7 +355,7 @@ TEST(ViewInterrupt, WhileLoadingEndsAtOnceAndLeavesNoReader) {
 TEST(ViewInterrupt, WhileRoamingStillTellsAndVerifiesWhereThereIsTime) {
   View view;
   view.run({"--headless", "--time", "1e8", "--json", "--verify", "--at", "5,0,0.95,370"}, {.interrupt_after = 4.0});
-  EXPECT_EQ(view.result.status, 1);
+  EXPECT_EQ(view.result.status, 130);
   EXPECT_TRUE(contains(view.result.err, "cancelled")) << view.result.err;
   const nlohmann::json report = view.json();
   ASSERT_TRUE(report.is_object()) << view.result.out;

@@ -17,16 +17,20 @@ namespace fs = std::filesystem;
 
 constexpr const char* program_name = "roam-bench";
 
-constexpr const char* help =
-    "  engines   sweeps through one scene: roam, Bullet, Embree, FCL, OpenSceneGraph, PhysX, Jolt, the paper's method\n"
-    "  paper     Tables 1 and 2 of Xie and Niu (2020), measured here\n"
-    "  scale     the time of a step from 100 thousand to 100 million triangles\n\n"
-    "They are in a program of their own, roam-bench, which is built with -DROAM_BENCH=ON.\n"
-    "`roam bench engines --help` lists what it takes.\n\n"
-    "Examples:\n"
-    "  roam bench engines\n"
-    "  roam bench paper --json\n"
-    "  roam bench scale --triangles 10M --picture scale.svg\n";
+constexpr const char* help = R"(Kinds:
+  engines   sweeps through one scene: roam, Bullet, Embree, FCL, OpenSceneGraph, PhysX, Jolt and
+            the paper's method
+  paper     Tables 1 and 2 of Xie and Niu (2020), measured here
+  scale     the time of a step from 100 thousand to 100 million triangles
+
+They are in a program of their own, roam-bench, which is built with -DROAM_BENCH=ON. `roam help bench engines` lists
+the options of one.
+
+Examples:
+  roam bench engines
+  roam bench paper --json
+  roam bench scale --triangles 10M --picture scale.svg
+)";
 
 /// The one that belongs to the running program. Throws roam::Error when there is none.
 fs::path find_bench() {
@@ -60,12 +64,12 @@ ExitStatus become(std::vector<std::string> arguments) {
 }  // namespace
 
 void add_bench(CLI::App& program, Run& run) {
-  CLI::App* verb = program.add_subcommand("bench", "Measures roam beside other engines: engines, paper, scale");
+  CLI::App* verb = program.add_subcommand("bench", "Measure roam beside other engines: engines, paper or scale");
   verb->footer(help);
   verb->prefix_command();
   verb->callback([verb, &run] {
     const std::vector<std::string> arguments = verb->remaining();
-    if (arguments.empty()) throw CLI::RequiredError("engines, paper or scale");
+    if (arguments.empty()) throw UsageError("bench: what is to be measured? Say engines, paper or scale");
     run = [arguments] { return become(arguments); };
   });
 }

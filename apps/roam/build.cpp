@@ -10,6 +10,7 @@
 #include "cli/progress.h"
 #include "cli/report.h"
 #include "cli/tell.h"
+#include "cli/values.h"
 #include "roam/error.h"
 #include "roam/store.h"
 #include "roam/store_build.h"
@@ -229,50 +230,52 @@ ExitStatus build(BuildVerb verb) {
   } catch (const std::exception&) {
     // Ctrl-C also reaches the reader's process; its end is then no error of the scene.
     if (!interrupted()) throw;
-    tell(fmt::format("stopped; what was done is kept in {}: the same command again goes on from there",
-                     verb.output.string()));
-    return failed;
+    throw Stopped(fmt::format("stopped; what was done is kept in {}: the same command again goes on from there",
+                              verb.output.string()));
   }
 }
 
 constexpr const char* help =
-    "Makes a collision store, a folder that `roam walk`, `view`, `sweep` and `info` take as they take scenes, and "
-    "that\n"
-    "is walked at full detail in little memory. A build may be stopped, or killed, at any moment: the same command\n"
-    "again goes on, and the result is the same to the last byte. When the scene has changed only what changed is "
-    "built\n"
-    "again.\n\n"
-    "A store that is there already is built upon where you built it yourself: a key in $XDG_DATA_HOME/roam or\n"
-    "~/.local/share/roam tells. Any other may lack a wall, and is refused unless --adopt says that you trust it.\n\n"
-    "Many machines that see one folder build one store: --plan first, then each --shard, in any order, then "
-    "--merge.\n\n"
-    "Examples:\n"
-    "  roam build mine.dae\n"
-    "  roam build Data/ -o dam.roam --memory 2G\n"
-    "  roam build Data/ -o dam.roam --plan\n"
-    "  roam build -o dam.roam --shard 17\n"
-    "  roam build -o dam.roam --merge\n";
+    R"(A store is a folder that `roam walk`, `view`, `sweep` and `info` take like a scene. You walk in it at
+full detail in little memory. A build may be stopped or killed at any moment: the same command continues it, and the
+result is the same to the last byte. After a change of the scene only the changed parts are built again.
+
+A store that exists is updated if you built it; a key in $XDG_DATA_HOME/roam or ~/.local/share/roam proves that. Any
+other may lack a wall, and is refused unless --adopt says that you trust it.
+
+Many machines that share a folder can build one store: first --plan, then each --shard in any order, then --merge.
+
+Examples:
+  roam build mine.dae
+  roam build Data/ -o dam.roam --memory 2G
+  roam build Data/ -o dam.roam --plan
+  roam build -o dam.roam --shard 17
+  roam build -o dam.roam --merge
+)";
 
 }  // namespace
 
 void add_build(CLI::App& program, Run& run) {
-  CLI::App* verb = program.add_subcommand("build", "Makes a collision store of a scene of any size");
+  CLI::App* verb = program.add_subcommand("build", "Make a collision store of a scene of any size");
   verb->footer(help);
   const auto options = std::make_shared<BuildVerb>();
   options->scene.add_to(*verb);
-  verb->get_option("SCENE")->required(false);
+  verb->get_option("SCENE")->required(false)->description(
+      "Files, or folders of photogrammetry tiles; several files make one scene");
+  verb->get_option("--memory")->description("Memory for the build and its reader (default: 1G; at least 256M)");
+  verb->option_defaults()->group("Store");
   verb->add_option("-o,--output", options->output, "Folder of the store (default: SCENE.roam beside the scene)")
       ->type_name("FOLDER");
-  verb->get_option("--memory")->description("Memory to keep within, the reader's too (default: 1G; at least 256M)");
-  CLI::Option* plan = verb->add_flag("--plan", options->plan, "Only read what has changed and decide the shards");
+  verb->add_flag("--adopt", options->adopt, "Trust and update a store that somebody else built; it is yours then");
+  verb->add_flag("--json", options->json, "Print one JSON object");
+  verb->option_defaults()->group("Many machines");
+  CLI::Option* plan = verb->add_flag("--plan", options->plan, "Only read what has changed, and plan the shards");
   CLI::Option* shard = verb->add_option("--shard", options->shard, "Only build this shard of the plan, counted from 0")
-                           ->check(CLI::NonNegativeNumber)
+                           ->check(from_to<std::uint64_t>(0, 1'000'000'000))
                            ->type_name("I");
   CLI::Option* merge = verb->add_flag("--merge", options->merge, "Only check all shards and publish the store");
   plan->excludes(shard)->excludes(merge);
   shard->excludes(merge);
-  verb->add_flag("--adopt", options->adopt, "Build upon the store that is there, whoever built it: it is yours then");
-  verb->add_flag("--json", options->json, "Print one JSON object");
   verb->callback([options, verb, &run] {
     for (const char* name : reading_options) {
       if (options->reading.empty() && verb->get_option(name)->count() > 0) options->reading = name;

@@ -161,18 +161,20 @@ ExitStatus info(const SceneOptions& options, bool json) {
 }
 
 constexpr const char* help =
-    "Reads a scene and says what is in it: triangles, objects and box; what was left out on reading, and why; what\n"
-    "the index of it costs and by how much the index moved a vertex at most; and a hash of the triangles, which two\n"
-    "files share, whatever their format, when their triangles are the same to the last digit and in the same order.\n\n"
-    "Examples:\n"
-    "  roam info mine.dae\n"
-    "  roam info Terrain/ plant.glb --json\n"
-    "  roam info house.obj --up y --unit mm --ignore 'Door*'\n";
+    R"(The report has the scene's triangles, objects and box; what was left out, and why; the memory of the
+index, and how far it moves a vertex at most. The hash is of the triangles: two files of any formats share it if their
+triangles are the same to the last digit, in the same order.
+
+Examples:
+  roam info mine.dae
+  roam info Terrain/ plant.glb --json
+  roam info house.obj --up y --unit mm --ignore 'Door*'
+)";
 
 }  // namespace
 
 void add_info(CLI::App& program, Run& run) {
-  CLI::App* verb = program.add_subcommand("info", "Says what a scene holds and what its index costs");
+  CLI::App* verb = program.add_subcommand("info", "Report what a scene holds and how much memory its index takes");
   verb->footer(help);
   struct Options {
     SceneOptions scene;

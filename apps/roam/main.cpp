@@ -2,6 +2,7 @@
 #include <string>
 
 #include "cli/command_line.h"
+#include "cli/help.h"
 #include "roam/error.h"
 #include "roam/import.h"
 #include "roam/version.h"
@@ -11,16 +12,18 @@ namespace {
 
 constexpr const char* description = "roam: walk and fly through any 3D scene without ever passing through a wall.";
 
-constexpr const char* help =
-    "\n`roam VERB --help` explains a verb, with examples.\n\n"
-    "Results go to standard output, progress and notes to standard error.\n"
-    "Exit status: 0 done; 1 failed, the message says what, where and what to do; 2 wrong usage; 3 the answer is no.\n"
-    "Ctrl-C ends every verb in good order (1), or after 0.8 s at once (130).\n\n"
-    "Examples:\n"
-    "  roam view mine.dae\n"
-    "  roam make gallery -o gallery.ply\n"
-    "  roam walk gallery.ply --path gallery-straight.path --mode fly --speed 50 --verify\n"
-    "  roam info mine.dae --json\n";
+constexpr const char* help = R"(`roam help VERB` explains a verb, with examples.
+
+Results go to standard output, progress and notes to standard error.
+Exit status: 0 yes or done; 1 failed, and the message says what, where and what to do; 2 wrong usage; 3 the answer is
+no. Ctrl-C ends every verb in good order, or after 0.8 s at once: 130 (SIGTERM: 143).
+
+Examples:
+  roam view mine.dae
+  roam make gallery -o gallery.ply
+  roam walk gallery.ply --path gallery-straight.path --mode fly --speed 50 --verify
+  roam info mine.dae --json
+)";
 
 /// The version, and which walls stand around readers of scenes on this machine.
 std::string version() {
@@ -43,7 +46,8 @@ std::string version() {
 int main(int argc, char** argv) {
   CLI::App program{description, "roam"};
   program.footer(help);
-  program.set_version_flag("--version", version);
+  program.set_version_flag("-v,--version", version, "Show the version, and the walls around readers of scenes")
+      ->group(roam::app::other_group);
   program.require_subcommand(1);
   roam::app::Run chosen;
   roam::app::add_view(program, chosen);

@@ -7,6 +7,7 @@
 #include "cli/progress.h"
 #include "cli/report.h"
 #include "cli/tell.h"
+#include "cli/values.h"
 #include "files/whole_file.h"
 #include "roam/error.h"
 #include "roam/generate.h"
@@ -82,12 +83,13 @@ using Maker = std::function<generate::Scene(const MakeOptions&)>;
 void add_kind(CLI::App& verb, const std::shared_ptr<MakeOptions>& options, std::uint64_t triangles, bool gallery,
               const Maker& maker, Run& run) {
   options->triangles = triangles;
+  verb.option_defaults()->group("Options");
   verb.add_option("-o,--output", options->output, "File to write: .ply, .obj or .stl")->required()->type_name("FILE");
   verb.add_option("--triangles", options->triangles,
                   fmt::format("About how many, e.g. 500k or 20M (default: {})", short_count(double(triangles))))
-      ->transform(CLI::AsNumberWithUnit(std::map<std::string, std::uint64_t>{{"k", 1'000}, {"m", 1'000'000}}))
+      ->transform(counted())
       ->type_name("N");
-  verb.add_option("--seed", options->seed, "Same seed, same bits (default: 1)")->type_name("S");
+  verb.add_option("--seed", options->seed, "Seed: the same seed gives the same bits (default: 1)")->type_name("S");
   verb.add_option("--origin", options->origin, "Added to all coordinates, in metres (default: 0,0,0)")
       ->expected(3)
       ->delimiter(',')
@@ -108,26 +110,31 @@ void add_kind(CLI::App& verb, const std::shared_ptr<MakeOptions>& options, std::
 }
 
 constexpr const char* gallery_help =
-    "The dam gallery of Xie and Niu (2020) at the coordinates of their Table 1, and beside it that table's paths:\n"
-    "-o gallery.ply also writes gallery-straight.path, gallery-corner.path and gallery-split.path.\n\n"
-    "Examples:\n"
-    "  roam make gallery -o gallery.ply\n"
-    "  roam make gallery -o big.ply --triangles 20M --seed 7\n";
-constexpr const char* terrain_help =
-    "A square of ground with ridges, valleys and scarps.\n\n"
-    "Examples:\n"
-    "  roam make terrain -o terrain.ply --triangles 2M\n"
-    "  roam make terrain -o far.ply --size 10000 --origin 4000000,500000,0\n";
-constexpr const char* city_help =
-    "Blocks of buildings with doors, rooms, passages, bays and bridges between streets with kerbs.\n\n"
-    "Examples:\n"
-    "  roam make city -o city.ply\n"
-    "  roam make city -o city.obj --triangles 100k\n";
+    R"(The gallery has the coordinates of Table 1 in Xie and Niu (2020). The paths of that
+table are written beside it: -o gallery.ply also writes gallery-straight.path, gallery-corner.path and
+gallery-split.path.
+
+Examples:
+  roam make gallery -o gallery.ply
+  roam make gallery -o big.ply --triangles 20M --seed 7
+)";
+constexpr const char* terrain_help = R"(The ground has ridges, valleys and scarps.
+
+Examples:
+  roam make terrain -o terrain.ply --triangles 2M
+  roam make terrain -o far.ply --size 10000 --origin 4000000,500000,0
+)";
+constexpr const char* city_help = R"(Buildings have doors, rooms, passages, bays and bridges; streets have kerbs.
+
+Examples:
+  roam make city -o city.ply
+  roam make city -o city.obj --triangles 100k
+)";
 
 }  // namespace
 
 void add_make(CLI::App& program, Run& run) {
-  CLI::App* verb = program.add_subcommand("make", "Makes a demo scene of a wished size: gallery, terrain or city");
+  CLI::App* verb = program.add_subcommand("make", "Make a demo scene of any size: gallery, terrain or city");
   verb->require_subcommand(1);
   verb->footer("Examples:\n  roam make gallery -o gallery.ply\n  roam make city -o city.ply --triangles 5M\n");
 

@@ -10,12 +10,12 @@
 #include <sstream>
 
 #include "cli/interrupt.h"
-#include "cli/numbers.h"
 #include "cli/output_file.h"
 #include "cli/progress.h"
+#include "cli/standard_streams.h"
 #include "cli/tell.h"
+#include "cli/values.h"
 #include "draw/draw.h"
-#include "files/whole_file.h"
 #include "probe/picture.h"
 #include "probe/text.h"
 #include "roam/path_file.h"
@@ -44,7 +44,7 @@ constexpr std::uint64_t longest_matrix = 1 << 20;
 
 /// Sizes in lines, with comments behind #.
 std::vector<ProbedSize> read_sizes(const std::filesystem::path& file) {
-  std::istringstream in(files::read_named(file, longest_matrix));
+  std::istringstream in(read_input(file, longest_matrix));
   std::vector<ProbedSize> sizes;
   std::string line;
   for (int number = 1; std::getline(in, line); ++number) {
@@ -60,7 +60,7 @@ std::vector<ProbedSize> matrix_sizes(const std::string& text) {
   if (std::filesystem::is_directory(text, none))
     throw UsageError(fmt::format("--matrix {}: that is a folder; name a file of sizes, or sizes", text));
   std::vector<ProbedSize> sizes;
-  if (std::filesystem::exists(text, none)) {
+  if (is_standard(text) || std::filesystem::exists(text, none)) {
     sizes = read_sizes(text);
   } else {
     try {
@@ -125,7 +125,10 @@ void write_path(const ProbeOptions& o, const Survey& survey, const ProbeAnswer& 
   std::vector<Vec3> path = probed_path(survey, o.question, answer);
   if (path.size() == 1) path.push_back(path.front());  // from a place to itself: a path has a start and a goal
   const WalkerSettings body = probed_body(o.question, answer.size, o.slope_degrees());
-  save_path(*o.path, path, &body, o.question.mode);
+  if (!is_standard(*o.path)) return save_path(*o.path, path, &body, o.question.mode);
+  std::string text = body_line(body, o.question.mode) + "\n";
+  for (const Vec3& p : path) text += fmt::format("{} {} {}\n", p.x, p.y, p.z);
+  write_output(text);
 }
 
 Json report_of(const ProbeOptions& o, const Surveyed& scene, std::span<const ProbeAnswer> answers) {
@@ -149,7 +152,8 @@ Json report_of(const ProbeOptions& o, const Surveyed& scene, std::span<const Pro
 ExitStatus probe(ProbeOptions o) {
   o.question = question_of(o);
   const std::vector<ProbedSize> sizes = sizes_of(o);
-  if (o.path) check_output(o.scene.scenes, "--path", *o.path);
+  if (o.path) demand_one_output("--path", *o.path, o.json);
+  if (o.path && !is_standard(*o.path)) check_output(o.scene.scenes, "--path", *o.path);
   if (o.picture) check_output(o.scene.scenes, "--picture", *o.picture);
   if (o.picture) draw::check_picture(*o.picture);
   std::optional<tbb::global_control> limit;
@@ -183,7 +187,7 @@ ExitStatus probe(ProbeOptions o) {
   if (o.json) {
     print(report_of(o, scene, answers));
   } else {
-    print(o.matrix ? table(o.question, answers) : words::explain(o.question, first) + "\n");
+    print_beside(o.path.value_or(""), o.matrix ? table(o.question, answers) : words::explain(o.question, first) + "\n");
   }
   unwritten.raise();
   const bool all = std::all_of(answers.begin(), answers.end(), [](const ProbeAnswer& a) { return a.passable; });
@@ -191,61 +195,60 @@ ExitStatus probe(ProbeOptions o) {
 }
 
 constexpr const char* help =
-    "Says whether a body of a given size gets from one place to another: yes with the way and its narrowest place, or\n"
-    "no with the opening that stops it and what is missing. The widest way there is decides, not where some walker\n"
-    "stopped; the way is certified, and a walker has gone it before a yes is said. Exit status 0 for yes; 3 for no, "
-    "and\n"
-    "where the walker contradicts the way; of --matrix 0 when all sizes get there; 1 when it failed, as for a place\n"
-    "where nobody can be; 2 for wrong usage.\n\n"
-    "Places are of the feet or the eyes of a person, taken down to the floor; flying, of the centre. What is lower "
-    "than\n"
-    "--step above the floor is walked over: a sphere climbs at most its radius. --path writes the way as the body's\n"
-    "centre goes, with the body, for `roam walk --path FILE --verify`. --matrix takes sizes, R or RxH, separated by\n"
-    "commas, or a file with some in each line; one survey serves all.\n\n"
-    "Examples:\n"
-    "  roam probe house.glb --from 1,2,1 --to 8,3,1 --radius 0.3 --height 1.9\n"
-    "  roam probe mine.dae --from 5,5,1 --to 90,40,1 --radius 0.4 --height 1.9 --path way.path --picture door.png\n"
-    "  roam probe pipe.ply --from 0,0,5 --to 9,0,5 --radius 0.5 --mode fly --json\n"
-    "  roam probe house.glb --from 1,2,1 --to 8,3,1 --matrix 0.25x1.9,0.4x1.9,0.4x1.2\n";
+    R"(The answer is yes with the way and its narrowest place, or no with the opening that stops the body
+and the missing width. The widest way decides. It is certified, and a walker follows it before the answer is yes. Exit
+status 0 for yes; 3 for no, and if the walker does not get through; with --matrix, 0 if all sizes get there.
+
+Places are of a person's feet or eyes, and are moved down to the floor; in flight, of the centre. The body steps over
+anything lower than --step; a sphere climbs at most its radius. --path writes the way of the body's centre, with the
+body, for `roam walk --path FILE --verify`. --matrix takes sizes R or RxH with commas between, or a file of them.
+
+Examples:
+  roam probe house.glb --from 1,2,1 --to 8,3,1 --radius 0.3 --height 1.9
+  roam probe mine.dae --from 5,5,1 --to 90,40,1 --radius 0.4 --height 1.9 --picture door.png
+  roam probe pipe.ply --from 0,0,5 --to 9,0,5 --radius 0.5 --mode fly --json
+  roam probe house.glb --from 1,2,1 --to 8,3,1 --matrix 0.25x1.9,0.4x1.9,0.4x1.2
+)";
 
 }  // namespace
 
 void add_probe(CLI::App& program, Run& run) {
-  CLI::App* verb = program.add_subcommand("probe", "Says whether a body of a given size gets from A to B");
+  CLI::App* verb = program.add_subcommand("probe", "Find out whether a body of a given size gets from A to B");
   verb->footer(help);
   const auto options = std::make_shared<ProbeOptions>();
   ProbeOptions& o = *options;
   add_surveyed_to(*verb, o.scene);
+  verb->option_defaults()->group("Way");
   const auto place = [&](const char* name, std::vector<double>& value, const char* text) {
     verb->add_option(name, value, text)->expected(3)->delimiter(',')->type_name("X,Y,Z")->required();
   };
-  place("--from", o.from, "Where it starts");
-  place("--to", o.to, "Where it is to get");
-  verb->add_option("--radius", o.radius, "Of the body, in metres")->check(positive)->type_name("R");
-  verb->add_option("--height", o.height, "Whole height, in metres (default: 2 R, a sphere)")
-      ->check(positive)
-      ->type_name("H");
+  place("--from", o.from, "Start");
+  place("--to", o.to, "Target");
+  verb->add_option("--spacing", o.spacing,
+                   "Metres between tested places (default: 0.2); openings under 0.7 of it may be missed")
+      ->check(from_to(0.001, 100.0))
+      ->type_name("M");
+  verb->option_defaults()->group("Body, in metres");
+  verb->add_option("--radius", o.radius, "Radius")->check(positive())->type_name("R");
+  verb->add_option("--height", o.height, "Whole height (default: 2 R, a sphere)")->check(positive())->type_name("H");
   verb->add_option("--matrix", o.matrix, "Several sizes in one run: 0.3,0.4x1.9 or a file of them")->type_name("SIZES");
   verb->add_option("--mode", o.mode, "walk: on the ground; fly: through the air (default: walk)")
-      ->check(CLI::IsMember({"walk", "fly"}))
+      ->check(one_of({"walk", "fly"}))
       ->type_name("MODE");
-  verb->add_option("--step", o.step, "What walking steps up and down, in metres (default: 0.3)")
+  verb->add_option("--step", o.step, "Height of steps that the body climbs (default: 0.3)")
       ->check(from_to(0.0, 1000.0))
       ->type_name("M");
-  verb->add_option("--slope", o.slope, "What walking climbs, in degrees (default: 45)")
+  verb->add_option("--slope", o.slope, "Slope that the body climbs, in degrees (default: 45)")
       ->check(from_to(0.0, 89.0))
       ->type_name("DEG");
   verb->add_option("--support-radius", o.support_radius,
-                   "Of a foot that carries over gaps of the floor, in metres (default: none of its own)")
-      ->check(positive)
+                   "Radius of the support disc, which carries the body over cracks (default: none)")
+      ->check(positive())
       ->type_name("RS");
-  verb->add_option("--spacing", o.spacing,
-                   "Between the places that are looked at, in metres (default: 0.2); openings under 0.7 of it may be "
-                   "overlooked")
-      ->check(from_to(0.001, 100.0))
-      ->type_name("M");
-  verb->add_option("--path", o.path, "Write the way as a path file, for `roam walk`")->type_name("FILE");
-  verb->add_option("--picture", o.picture, "Draw the opening that decides, as .svg or .png")->type_name("FILE");
+  verb->option_defaults()->group("Results");
+  verb->add_option("--path", o.path, "Write the way as a path file, for `roam walk` (-: standard output)")
+      ->type_name("FILE");
+  verb->add_option("--picture", o.picture, "Draw the opening that decides (.svg or .png)")->type_name("FILE");
   verb->add_flag("--json", o.json, "Print one JSON object");
   verb->callback([options, &run] { run = [options] { return probe(*options); }; });
 }

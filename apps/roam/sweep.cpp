@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "cli/interrupt.h"
+#include "cli/standard_streams.h"
 #include "cli/tell.h"
 #include "roam/error.h"
 #include "scenes/open_scene.h"
@@ -141,19 +142,6 @@ Answers answer(Scene&& scene, const Rows& rows) {
   return answers;
 }
 
-void write(std::string_view text) {
-  while (!text.empty()) {
-    const ssize_t put = ::write(STDOUT_FILENO, text.data(), text.size());
-    if (put < 0) {
-      if (errno == EPIPE) throw BrokenPipe();
-      if (errno != EINTR) throw Error(std::string("cannot write the answers: ") + std::strerror(errno));
-      stop_if_interrupted();
-      continue;
-    }
-    text.remove_prefix(static_cast<std::size_t>(put));
-  }
-}
-
 /// Tells what could not be read: each thing once, with the first line that needed it.
 class Missing {
  public:
@@ -189,7 +177,7 @@ ExitStatus sweep(const SceneOptions& options) {
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
 
   PagedSweep paged(scene);
-  write(answer_header);
+  write_output(answer_header);
   RowReader reader;
   std::atomic<bool> failed_row{false};
   const auto read = [&](tbb::flow_control& flow) {
@@ -204,7 +192,7 @@ ExitStatus sweep(const SceneOptions& options) {
   };
   Missing missing;
   const auto put = [&](const Answers& answers) {
-    write(answers.text);
+    write_output(answers.text);
     missing.add(answers);
     if (answers.error) throw Error(*answers.error);
   };
@@ -217,24 +205,28 @@ ExitStatus sweep(const SceneOptions& options) {
 }
 
 constexpr const char* help =
-    "Reads queries from standard input, one a line, and writes one answer a line in the same order:\n"
-    "  in   x,y,z,dx,dy,dz,radius[,half_height]   a header of these names may come first\n"
-    "  out  hit,t,px,py,pz,nx,ny,nz,triangle,feature,distance\n"
-    "The body's centre moves from (x,y,z) by (dx,dy,dz) while t runs from 0 to 1. half_height is half the length of\n"
-    "a vertical capsule's axis; 0, or left out, is a sphere. distance is a certified lower bound of the gap between\n"
-    "the body and the scene: at t for a hit, over the whole motion for a miss, where it is told up to 10 m, or less\n"
-    "where the --memory of a store does not hold what lies around the way. A row that cannot be understood ends the\n"
-    "program with status 1 and a message that names its line.\n"
-    "What of a store cannot be read is solid: the way ends there, its feature is `unknown`, its triangle -1, and a\n"
-    "note says what it is; all rows are answered, and the exit status is 3.\n\n"
-    "Examples:\n"
-    "  echo '0,0,1.5,10,0,0,0.3' | roam sweep mine.dae\n"
-    "  roam sweep --lossless gallery.ply < queries.csv > answers.csv\n";
+    R"(Queries come from standard input, one a line; answers go to standard output in the same order:
+
+  in   x,y,z,dx,dy,dz,radius[,half_height]   a header of these names may come first
+  out  hit,t,px,py,pz,nx,ny,nz,triangle,feature,distance
+
+The body's centre moves from (x,y,z) by (dx,dy,dz) while t runs from 0 to 1. half_height is half the length of a
+vertical capsule's axis; 0, or none, means a sphere. distance is a certified lower bound of the gap between body and
+scene: at t for a hit, over the whole motion for a miss. It is at most 10 m, or less if the --memory of a store does
+not hold the surroundings of the motion. A malformed row ends the program with status 1; the message names its line.
+
+Unreadable parts of a store are solid: the motion ends there, the feature is `unknown`, the triangle -1, and a note
+names the cause. All rows are answered then, with exit status 3.
+
+Examples:
+  echo '0,0,1.5,10,0,0,0.3' | roam sweep mine.dae
+  roam sweep --lossless gallery.ply < queries.csv > answers.csv
+)";
 
 }  // namespace
 
 void add_sweep(CLI::App& program, Run& run) {
-  CLI::App* verb = program.add_subcommand("sweep", "Answers sweeps of a body through a scene, from CSV to CSV");
+  CLI::App* verb = program.add_subcommand("sweep", "Sweep bodies through a scene: queries and answers as CSV");
   verb->footer(help);
   const auto options = std::make_shared<SceneOptions>();
   options->add_to(*verb);

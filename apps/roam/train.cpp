@@ -9,10 +9,10 @@
 #include <optional>
 
 #include "cli/interrupt.h"
-#include "cli/numbers.h"
 #include "cli/output_file.h"
 #include "cli/progress.h"
 #include "cli/tell.h"
+#include "cli/values.h"
 #include "draw/picture.h"
 #include "roam/error.h"
 #include "scenes/surveyed.h"
@@ -32,16 +32,6 @@ struct TrainVerbOptions {
   bool no_profile = false;
   bool json = false;
 };
-
-/// A whole number from `least` to `most`.
-CLI::Validator whole_number(std::int64_t least, std::int64_t most) {
-  return {[=](std::string& text) {
-            std::int64_t value = 0;
-            const bool within = CLI::detail::lexical_cast(text, value) && value >= least && value <= most;
-            return within ? std::string() : fmt::format("'{}' is not a whole number from {} to {}", text, least, most);
-          },
-          ""};
-}
 
 /// Training in the stages that it names, on standard error. Stages take what they take in each scene: no time left
 /// follows from the share that is done.
@@ -139,69 +129,73 @@ ExitStatus train(TrainVerbOptions o) {
 }
 
 constexpr const char* help =
-    "Finds the sizes of a body that go everywhere in a scene and fall nowhere: paths between its rooms, the narrowest\n"
-    "opening on them (the largest radius), the widest crack they cross (the smallest), proven by bodies that walk "
-    "them.\n"
-    "What it answers is kept beside the scene, in SCENE.roam.json, for `roam walk` and `roam view`. Exit status 0 "
-    "when\n"
-    "one body serves all paths, 3 when none does: then the report says why, where and what to use. Ctrl-C ends it "
-    "with\n"
-    "what is known by then, marked as such.\n\n"
-    "--method paper is Xie and Niu's: paths are roamed in turn with a radius that goes down where it cannot enter and\n"
-    "up where it falls. Without --height the body is their sphere.\n\n"
-    "Examples:\n"
-    "  roam train gallery.ply --height 1.8\n"
-    "  roam train gallery.ply --method paper --seed 7 --json --no-profile\n"
-    "  roam train mine.dae --height 1.9 --picture decides.svg\n"
-    "  roam train pipes.ply --mode fly --radius-max 0.8\n";
+    R"(Training plans paths between the scene's rooms. The narrowest opening on them gives the largest
+radius, the widest crack the smallest. Bodies of these sizes then walk the paths as proof. The result is saved beside
+the scene, in SCENE.roam.json, for `roam walk` and `roam view`. Exit status 0 when one body serves all paths, 3 when
+none does; the report then says why, where, and what to use. Ctrl-C ends training with the best result so far.
+
+--method paper is that of Xie and Niu: bodies roam the paths in turn. The radius shrinks where a body cannot enter and
+grows where it falls. Without --height the body is their sphere.
+
+Examples:
+  roam train gallery.ply --height 1.7
+  roam train gallery.ply --method paper --seed 7 --json --no-profile
+  roam train mine.dae --height 1.7 --picture decides.svg
+  roam train pipes.ply --mode fly --radius-max 0.8
+)";
 
 }  // namespace
 
 void add_train(CLI::App& program, Run& run) {
-  CLI::App* verb = program.add_subcommand("train", "Finds which sizes of a body serve a scene");
+  CLI::App* verb =
+      program.add_subcommand("train", "Find the sizes of a body that get everywhere in a scene and fall nowhere");
   verb->footer(help);
   const auto options = std::make_shared<TrainVerbOptions>();
   TrainVerbOptions& o = *options;
   add_surveyed_to(*verb, o.scene);
-  verb->add_option("--paths", o.train.paths, "To plan (default: 5, or one for each dead end where there are more)")
-      ->check(whole_number(1, 10'000))
-      ->type_name("N");
-  verb->add_option("--seed", o.train.seed, "Of the paths: the same seed, the same answer (default: 1)")
-      ->check(whole_number(0, std::numeric_limits<std::int64_t>::max()))
-      ->type_name("S");
-  verb->add_option("--radius-min", o.train.radius_min,
-                   "In metres: what lets less through decides nothing and gets no region (default: 0.15)")
-      ->check(from_to(0.01, 100.0))
-      ->type_name("R");
-  verb->add_option("--radius-max", o.train.radius_max, "The largest radius looked for, in metres (default: 1)")
-      ->check(from_to(0.01, 100.0))
-      ->type_name("R");
-  verb->add_option("--support-max", o.train.support_max,
-                   "The largest foot, in metres: wider cracks are open drops (default: 1)")
-      ->check(from_to(0.1, 100.0))
-      ->type_name("R");
-  verb->add_option("--height", o.train.height, "Whole height, in metres (default: a sphere)")
+  verb->option_defaults()->group("Body, in metres");
+  verb->add_option("--height", o.train.height, "Whole height (default: a sphere)")
       ->check(from_to(0.1, 100.0))
       ->type_name("H");
+  verb->add_option("--radius-min", o.train.radius_min, "Smallest radius; narrower openings are ignored (default: 0.15)")
+      ->check(from_to(0.01, 100.0))
+      ->type_name("R");
+  verb->add_option("--radius-max", o.train.radius_max, "Largest radius (default: 1)")
+      ->check(from_to(0.01, 100.0))
+      ->type_name("R");
+  verb->add_option(
+          "--support-max", o.train.support_max,
+          "Largest radius of the support disc, which carries the body over cracks; wider cracks are open drops "
+          "(default: 1)")
+      ->check(from_to(0.1, 100.0))
+      ->type_name("R");
   verb->add_option("--mode", o.mode, "walk: on the ground; fly: through the air (default: walk)")
-      ->check(CLI::IsMember({"walk", "fly"}))
+      ->check(one_of({"walk", "fly"}))
       ->type_name("MODE");
-  verb->add_option("--method", o.method, "interval: from the scene; paper: by trials (default: interval)")
-      ->check(CLI::IsMember({"interval", "paper"}))
-      ->type_name("METHOD");
-  verb->add_option("--step", o.train.step, "What walking steps up and down, in metres (default: 0.3)")
+  verb->add_option("--step", o.train.step, "Height of steps that the body climbs (default: 0.3)")
       ->check(from_to(0.0, 100.0))
       ->type_name("M");
-  verb->add_option("--slope", o.slope, "What walking climbs, in degrees (default: 45)")
+  verb->add_option("--slope", o.slope, "Slope that the body climbs, in degrees (default: 45)")
       ->check(from_to(0.0, 89.0))
       ->type_name("DEG");
+  verb->option_defaults()->group("Method");
+  verb->add_option("--method", o.method, "interval: from the scene; paper: by trials (default: interval)")
+      ->check(one_of({"interval", "paper"}))
+      ->type_name("METHOD");
+  verb->add_option("--paths", o.train.paths, "Number of paths (default: 5, or one for each dead end if these are more)")
+      ->check(from_to<std::int64_t>(1, 10'000))
+      ->type_name("N");
+  verb->add_option("--seed", o.train.seed, "Seed of the paths: the same seed, the same result (default: 1)")
+      ->check(from_to<std::int64_t>(0, std::numeric_limits<std::int64_t>::max()))
+      ->type_name("S");
   verb->add_option("--spacing", o.train.spacing,
-                   "Between the places that are looked at, in metres (default: 0.2); openings under 0.7 of it may be "
-                   "overlooked")
+                   "Metres between tested places (default: 0.2); openings under 0.7 of it may be missed")
       ->check(from_to(0.02, 100.0))
       ->type_name("M");
-  verb->add_option("--picture", o.picture, "Draw what decides, as .svg or .png")->type_name("FILE");
-  verb->add_option("-o,--output", o.profile, "Write the profile there (default: SCENE.roam.json)")->type_name("FILE");
+  verb->option_defaults()->group("Results");
+  verb->add_option("--picture", o.picture, "Draw the openings that decide (.svg or .png)")->type_name("FILE");
+  verb->add_option("-o,--output", o.profile, "Write the profile to this file (default: SCENE.roam.json)")
+      ->type_name("FILE");
   verb->add_flag("--no-profile", o.no_profile, "Write no profile");
   verb->add_flag("--json", o.json, "Print one JSON object");
   verb->callback([options, &run] { run = [options] { return train(*options); }; });

@@ -5,6 +5,7 @@
 #include "cli/progress.h"
 #include "cli/report.h"
 #include "cli/tell.h"
+#include "cli/values.h"
 #include "roam/error.h"
 #include "roam/store.h"
 #include "roam/store_build.h"
@@ -54,6 +55,20 @@ Json json_report(const VerifyOptions& options, const StoreVerification& found, c
           {"shards_repaired", repaired},     {"yours", origin.yours}};
 }
 
+/// The damage, one thing a line, and how much it is.
+std::string damage_text(const VerifyOptions& options, const StoreVerification& found) {
+  std::string text;
+  for (std::size_t i = 0; i < std::min(most_lines, found.damage.size()); ++i) {
+    text += fmt::format("{}: {}\n", printable_part(found.damage[i].what), printable_part(found.damage[i].why));
+  }
+  if (found.damage.size() > most_lines) {
+    text += fmt::format("... and {} more (--json tells all)\n", found.damage.size() - most_lines);
+  }
+  return text +
+         fmt::format("{}: {} damaged\n", printable_part(options.store.string()),
+                     found.damage.size() == 1 ? "1 thing is" : fmt::format("{} things are", found.damage.size()));
+}
+
 std::string text_report(const VerifyOptions& options, const StoreVerification& found, const Origin& origin) {
   const std::string store = printable_part(options.store.string());
   if (!found.complete) {
@@ -62,21 +77,13 @@ std::string text_report(const VerifyOptions& options, const StoreVerification& f
         "where it stopped\n",
         store);
   }
-  std::string text;
-  for (std::size_t i = 0; i < std::min(most_lines, found.damage.size()); ++i) {
-    text += fmt::format("{}: {}\n", printable_part(found.damage[i].what), printable_part(found.damage[i].why));
-  }
-  if (found.damage.size() > most_lines) {
-    text += fmt::format("... and {} more (--json tells all)\n", found.damage.size() - most_lines);
-  }
   if (found.damage.empty()) {
     return fmt::format("{}: whole; {}B and {} tiles are what was written{}\n", store,
                        short_count(static_cast<double>(found.bytes)), found.tiles,
                        origin.yours ? " by you" : "; by whom is not known: " + printable_part(origin.why_not));
   }
-  return text +
-         fmt::format("{0}: {1} damaged; tiles that are, are solid; `roam verify {0} --repair SCENE` mends it\n", store,
-                     found.damage.size() == 1 ? "1 thing is" : fmt::format("{} things are", found.damage.size()));
+  return damage_text(options, found) +
+         fmt::format("tiles that are damaged are solid; `roam verify {} --repair SCENE` mends the store\n", store);
 }
 
 StoreVerification look(const VerifyOptions& options, const store::Folder& folder) {
@@ -108,7 +115,7 @@ ExitStatus verify_or_repair(const VerifyOptions& options) {
   StoreVerification found = look(options, folder);
   std::uint64_t repaired = 0;
   if (!found.whole() && !options.scene.empty()) {
-    if (!options.json) print(text_report(options, found, {}));
+    if (!options.json && !found.damage.empty()) print(damage_text(options, found));
     repaired = repair(options);
     found = look(options, folder);
   }
@@ -122,31 +129,34 @@ ExitStatus verify_or_repair(const VerifyOptions& options) {
 }
 
 constexpr const char* help =
-    "Reads every byte of a store: the hash of every file, the checksum of every tile and page; decodes every tile, "
-    "and\n"
-    "compares counts, boxes and the hash of all triangles. What is damaged is named by tile and place: there the "
-    "store\n"
-    "is solid, everywhere else it can be walked. With --repair just the shards with damage are built again, from the\n"
-    "scene that the store was made of, read as it was then: the store knows --up, --unit, --ignore and --lossless.\n"
-    "A store that is whole is what was written, by you or by somebody else: it says which.\n"
-    "Exit status 0 when the store is whole, 3 when not, or when its build has not ended.\n\n"
-    "Examples:\n"
-    "  roam verify dam.roam\n"
-    "  roam verify dam.roam --repair Data/\n"
-    "  roam verify dam.roam --json\n";
+    R"(Verifying reads every byte of a store: the hash of each file, the checksum of each tile and page. It
+decodes every tile, and compares counts, boxes and the hash of all triangles. Damage is named by tile and place. The
+store is solid there; everywhere else you can walk in it.
+
+--repair builds only the damaged shards again, from the scene that the store was made of. The store knows its --up,
+--unit, --ignore and --lossless. The report also says whether you built the store or somebody else.
+
+Exit status 0 when the store is whole, 3 when it is not, or when its build is not finished.
+
+Examples:
+  roam verify dam.roam
+  roam verify dam.roam --repair Data/
+  roam verify dam.roam --json
+)";
 
 }  // namespace
 
 void add_verify(CLI::App& program, Run& run) {
-  CLI::App* verb = program.add_subcommand("verify", "Says whether a store is whole, and repairs it");
+  CLI::App* verb = program.add_subcommand("verify", "Check whether a store is whole, and repair it");
   verb->footer(help);
   const auto options = std::make_shared<VerifyOptions>();
   VerifyOptions& o = *options;
   verb->add_option("STORE", o.store, "The store's folder")->required()->type_name("");
-  verb->add_option("--repair", o.scene, "The scene that the store was made of: build what is damaged again")
-      ->type_name("SCENE...");
-  verb->add_option("--threads", o.threads, "Threads to build with (default: all cores)")
-      ->check(CLI::Range(1, 4096))
+  verb->option_defaults()->group("Options");
+  verb->add_option("--repair", o.scene, "Build damaged parts again from this scene, which the store was made of")
+      ->type_name("SCENE");
+  verb->add_option("--threads", o.threads, "Threads for the repair (default: one per core)")
+      ->check(thread_count())
       ->type_name("N");
   verb->add_flag("--json", o.json, "Print one JSON object");
   verb->callback([options, &run] { run = [options] { return verify_or_repair(*options); }; });

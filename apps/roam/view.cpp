@@ -9,6 +9,7 @@
 #include "cli/interrupt.h"
 #include "cli/progress.h"
 #include "cli/report.h"
+#include "cli/standard_streams.h"
 #include "cli/tell.h"
 #include "roam/error.h"
 #include "verbs.h"
@@ -101,7 +102,7 @@ ExitStatus view(const ViewOptions& options) {
   if (options.json) {
     print(json_report(report));
   } else {
-    print(text_report(report));
+    print_beside(options.trace, text_report(report));
   }
   if (cancelled) throw Cancelled();
   if (report.verified) verification::demand_all_read(*report.verified, report.store);
@@ -110,32 +111,31 @@ ExitStatus view(const ViewOptions& options) {
 }
 
 constexpr const char* help =
-    "Opens a window and lets you roam: W A S D and the mouse, H shows all keys. Gravity and walls hold you; what does\n"
-    "is told at the lower edge. The window opens at once, walls are there as soon as they are loaded: until then you\n"
-    "are held.\n\n"
-    "Positions are of the body's centre, in metres, as in the file. A body that you do not describe is a person, 0.3 "
-    "m\n"
-    "in radius and 1.8 m high; with --radius or --path alone it is a sphere, as for `roam walk`. A path that was "
-    "recorded\n"
-    "here says its body.\n\n"
-    "A scene's collision store (roam build) is used when it lies beside the scene and you built it: then the walls "
-    "are\n"
-    "there at once, in little memory, whatever the size of the scene.\n\n"
-    "Keys, mouse and body can be changed in roam/settings.json in $XDG_CONFIG_HOME or ~/.config; bookmarks are kept\n"
-    "beside it. --path, --screenshot and --time end by themselves, and work with --headless. Exit status 3 when a "
-    "path\n"
-    "does not reach its end.\n\n"
-    "Examples:\n"
-    "  roam view mine.dae\n"
-    "  roam view house.glb --mode fly --at 1,2,1.5,90\n"
-    "  roam view mine.dae --path tour.path --record tour.mp4\n"
-    "  roam view Data/ --store dam.roam --memory 256M\n"
-    "  roam view Terrain/ --headless --screenshot terrain.png --size 1920x1080\n";
+    R"(W A S D and the mouse move you, H shows all keys. Gravity and walls hold you, and the display
+says what does. The window opens at once; you are held until the walls are loaded.
+
+Positions are of the body's centre, in metres, as in the file. The body is a person of radius 0.3 m and height 1.8 m.
+With --radius or --path alone it is a sphere, as for `roam walk`. A path that was recorded here names its body.
+
+A collision store (`roam build`) beside the scene is used if you built it: then the walls are there at once, in little
+memory, for scenes of any size.
+
+Keys, mouse and body can be changed in roam/settings.json in $XDG_CONFIG_HOME or ~/.config. Bookmarks are kept beside
+it. With --path, --screenshot or --time the program ends by itself, and works with --headless. Exit status 3 when a
+path does not reach its end.
+
+Examples:
+  roam view mine.dae
+  roam view house.glb --mode fly --at 1,2,1.5,90
+  roam view mine.dae --path tour.path --record tour.mp4
+  roam view Data/ --store dam.roam --memory 256M
+  roam view Terrain/ --headless --screenshot terrain.png --size 1920x1080
+)";
 
 }  // namespace
 
 void add_view(CLI::App& program, Run& run) {
-  CLI::App* verb = program.add_subcommand("view", "Opens a window on a scene and lets you roam in it");
+  CLI::App* verb = program.add_subcommand("view", "Open a window on a scene and roam in it");
   verb->footer(help);
   const auto options = std::make_shared<ViewOptions>();
   options->add_to(*verb);

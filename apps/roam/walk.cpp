@@ -12,6 +12,7 @@
 #include "cli/histogram.h"
 #include "cli/interrupt.h"
 #include "cli/progress.h"
+#include "cli/standard_streams.h"
 #include "cli/tell.h"
 #include "cli/trace_file.h"
 #include "draw/picture.h"
@@ -55,21 +56,15 @@ class Recorder {
     tally_.add_step(report);
     take(report, begun);
     scene_.follow(walker);
-    progress_->at(tally_.steps, std::max(tally_.steps, expected_steps_));
+    goes_on_ = progress_->goes_on(tally_.steps, std::max(tally_.steps, expected_steps_));
     return report;
   }
 
+  /// False after Ctrl-C.
+  [[nodiscard]] bool goes_on() const { return goes_on_; }
   void finish() {
     if (trace_) trace_->close();
-  }
-  /// Of a walk that is cancelled: writes what is left of its trace, and says how far it came.
-  void cancel(const Walker& walker) {
-    finish();
-    progress_.reset();  // its line on the terminal goes away before
-    const Vec3 end = walker.position();
-    tell(fmt::format("note: came {:.2f} m in {:.1f} s, {} steps, to ({:.3f}, {:.3f}, {:.3f}){}", tally_.length,
-                     tally_.simulated, tally_.steps, end.x, end.y, end.z,
-                     trace_ ? "; " + options_.trace.string() + " has its trace" : ""));
+    progress_.reset();  // its line on the terminal goes away before the report
   }
   [[nodiscard]] StepTimes times() const {
     return {nanoseconds_.quantile(0.5), nanoseconds_.quantile(0.99), nanoseconds_.largest()};
@@ -89,6 +84,7 @@ class Recorder {
   OpenScene& scene_;
   std::optional<Progress> progress_;
   std::uint64_t expected_steps_;
+  bool goes_on_ = true;
   std::optional<TraceFile> trace_;
   Histogram nanoseconds_;
   verification::PieceLog pieces_;
@@ -108,13 +104,14 @@ RouteResult haunt(Walker& walker, std::span<const Vec3> waypoints, const RouteOp
   result.waypoints = 1;
   for (const Vec3& waypoint : waypoints.subspan(1)) {
     double seconds = glm::distance(walker.position(), waypoint) / options.speed;
-    while (seconds > 0.0) {
+    while (seconds > 0.0 && recorder.goes_on()) {
       const double dt = std::min(seconds, options.dt);
       const Vec3 velocity = (waypoint - walker.position()) / seconds;
       result.add_step(
           recorder.step(walker, [&]() -> const StepReport& { return walker.step({.velocity = velocity}, dt); }));
       seconds = dt < seconds ? seconds - dt : 0.0;
     }
+    if (!recorder.goes_on()) break;
     ++result.waypoints;
   }
   result.end = walker.position();
@@ -124,14 +121,16 @@ RouteResult haunt(Walker& walker, std::span<const Vec3> waypoints, const RouteOp
 RouteResult follow(Walker& walker, std::span<const Vec3> waypoints, const RouteOptions& options, Recorder& recorder) {
   Route route(walker, waypoints, options);
   recorder.start(walker.report());
-  while (!route.done()) recorder.step(walker, [&]() -> const StepReport& { return route.advance(); });
+  while (!route.done() && recorder.goes_on()) {
+    recorder.step(walker, [&]() -> const StepReport& { return route.advance(); });
+  }
   return route.result();
 }
 
 RouteResult roam_about(Walker& walker, const RouteOptions& options, double seconds, Recorder& recorder) {
   Wander wander(walker, {.speed = options.speed, .dt = options.dt, .seconds = seconds});
   recorder.start(walker.report());
-  while (!wander.done()) {
+  while (!wander.done() && recorder.goes_on()) {
     wander.look();
     if (wander.done()) break;
     recorder.step(walker, [&]() -> const StepReport& { return wander.advance(); });
@@ -139,7 +138,7 @@ RouteResult roam_about(Walker& walker, const RouteOptions& options, double secon
   return wander.result();
 }
 
-/// The whole walk. Throws roam::Cancelled after Ctrl-C.
+/// The whole walk, or as far as it came before Ctrl-C.
 RouteResult go(const WalkOptions& options, Walker& walker, std::span<const Vec3> path, Recorder& recorder) {
   if (options.wander) return roam_about(walker, options.route, *options.wander, recorder);
   if (walker.mode() != Mode::ghost) return follow(walker, path, options.route, recorder);
@@ -158,11 +157,12 @@ verification::Verification verified(const WalkOptions& options, const OpenScene&
                                     const verification::PieceLog& pieces) {
   if (!options.against.scenes.empty()) {
     Progress progress("verifying against " + options.against.names(), "B");
-    return verify_against(options.against, scene, pieces,
-                          [&](std::uint64_t done, std::uint64_t total) { return progress.goes_on(done, total); });
+    return verify_against(options.against, scene, pieces, [&](std::uint64_t done, std::uint64_t total) {
+      return progress.goes_on(done, total) || has_time();
+    });
   }
   Progress progress("verifying", "pieces");
-  const auto goes_on = [&](std::uint64_t done) { return progress.goes_on(done, pieces.size()); };
+  const auto goes_on = [&](std::uint64_t done) { return progress.goes_on(done, pieces.size()) || has_time(); };
   return scene.store() ? verify(*scene.store(), pieces, goes_on) : verify(scene.loaded().meshes, pieces, goes_on);
 }
 
@@ -171,9 +171,11 @@ constexpr std::uint64_t bytes_a_segment = 2048;
 
 draw::Measured measured(OpenScene& scene, const WalkReport& report, const draw::Record& record) {
   Surroundings around(scene);
-  // Of a store, what lies along the way has left the pager's memory again: a picture would call it unknown.
+  // Of a store, what lies along the way has left the pager's memory again: a picture would call it unknown. After
+  // Ctrl-C there is no time to wait for it.
   const auto arrive = [&](const Vec3& place, double reach) { around.wait(place, reach); };
-  return draw::measure(scene.space(), report, record, scene.store() ? draw::Arrive(arrive) : draw::Arrive());
+  return draw::measure(scene.space(), report, record,
+                       scene.store() && !interrupted() ? draw::Arrive(arrive) : draw::Arrive());
 }
 
 /// The sheet of what was measured. Of a store, after OpenScene::leave.
@@ -185,7 +187,7 @@ draw::Sheet sheet(const WalkOptions& options, const OpenScene& scene, const Walk
     store::each_mesh(
         *scene.store(), box,
         [&](const Mesh& mesh) {
-          stop_if_interrupted();
+          if (!report.interrupted) stop_if_interrupted();
           take({&mesh, 1});
         },
         missing);
@@ -196,7 +198,33 @@ draw::Sheet sheet(const WalkOptions& options, const OpenScene& scene, const Walk
                            report.triangles});
 }
 
+/// Verifies all moves. After Ctrl-C, if there is time.
+void check_moves(const WalkOptions& options, const OpenScene& scene, const verification::PieceLog& pieces,
+                 WalkReport& report) {
+  const auto begin = std::chrono::steady_clock::now();
+  try {
+    report.verified = verified(options, scene, pieces);
+  } catch (const Cancelled&) {
+    if (!report.interrupted) throw;
+    tell(fmt::format("note: the {} moves were not all verified: Ctrl-C came before", pieces.size()));
+  }
+  report.verify_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
+
+void print_report(const WalkOptions& options, const WalkReport& report) {
+  if (options.json) {
+    Json json = json_report(report);
+    json["interrupted"] = report.interrupted;
+    if (report.interrupted) json["outcome"] = words::outcome(report);
+    return print(json);
+  }
+  std::string text = text_report(report);
+  if (report.interrupted) text.replace(0, text.find(':'), words::outcome(report));
+  print_beside(options.trace, text);
+}
+
 ExitStatus walk(WalkOptions options) {
+  check_way(options);
   if (!options.against.scenes.empty()) {
     // Of a store, they can only mean the scene that it is checked against.
     SceneOptions& scene = options.scene;
@@ -249,11 +277,11 @@ ExitStatus walk(WalkOptions options) {
   Walker walker(scene.space(), options.settings, mode, start);
   if (options.profile) walker.set_regions(options.profile->profile.regions);
   WalkReport report;
-  try {
-    report.result = go(options, walker, path, recorder);
-  } catch (const Cancelled&) {
-    recorder.cancel(walker);
-    throw;
+  report.result = go(options, walker, path, recorder);
+  report.interrupted = !recorder.goes_on();
+  if (report.interrupted) {
+    give_time_to_write();
+    report.result.end = walker.position();
   }
   recorder.finish();
 
@@ -282,17 +310,13 @@ ExitStatus walk(WalkOptions options) {
   std::optional<draw::Measured> seen;
   if (drawing) seen = measured(scene, report, recorder.record());
   scene.leave();
-  if (options.checks()) {
-    const auto begin = std::chrono::steady_clock::now();
-    report.verified = verified(options, scene, recorder.pieces());
-    report.verify_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  }
-  if (drawing) drawing->write(sheet(options, scene, report, recorder.record(), *seen));
-  if (options.json) {
-    print(json_report(report));
-  } else {
-    print(text_report(report));
-  }
+  if (options.checks()) check_moves(options, scene, recorder.pieces(), report);
+  const auto draw_way = [&] { drawing->write(sheet(options, scene, report, recorder.record(), *seen)); };
+  // After Ctrl-C the picture may take more time than there is.
+  if (drawing && !report.interrupted) draw_way();
+  print_report(options, report);
+  if (drawing && report.interrupted) draw_way();
+  if (report.interrupted) return failed;
   if (report.verified) {
     verification::demand_all_read(*report.verified, options.scene.names(), "check it by --against SCENE");
   }
@@ -300,28 +324,30 @@ ExitStatus walk(WalkOptions options) {
 }
 
 constexpr const char* help =
-    "Sends a body along a path and tells how it ended: reached, blocked where and by what, fell, left_scene or held;\n"
-    "how near it came to anything, certified; and how long its steps took. Exit status 0 when reached, 3 when not.\n\n"
-    "A path file holds waypoints `x y z`, one a line, or the lines `t x y z qx qy qz qw` that osgViewer records; "
-    "times\n"
-    "and rotations are not used, --speed and --dt say how it is walked. Positions are of the body's centre. A "
-    "waypoint\n"
-    "counts as reached within the body's radius, and, walking, within the step height above and below. A path that\n"
-    "`roam view` recorded says its body and mode: they are taken where --radius or --mode do not say another.\n\n"
-    "Without --radius the body is the one that `roam train` found for the scene, SCENE.roam.json beside it, smaller\n"
-    "where only a smaller one fits; --height, --step and --slope change it in that. A profile of another scene is\n"
-    "refused; --no-profile does without.\n\n"
-    "Examples:\n"
-    "  roam walk mine.dae --path tour.path\n"
-    "  roam walk gallery.ply --path gallery-straight.path --mode fly --speed 50 --verify\n"
-    "  roam walk house.glb --path in.path --radius 0.25 --height 1.8 --json --trace in.csv\n"
-    "  roam walk house.glb --path in.path --height 1.8 --picture in.svg\n"
-    "  roam walk Terrain/ --wander 60 --height 1.8 --verify\n";
+    R"(The report says how the walk ended: reached, blocked (where and by what), fell, left_scene
+or held. It gives the least clearance on the way, certified, and the time of the steps. Exit status 0 when the end is
+reached, 3 when not. After Ctrl-C, report, trace and picture of the way so far are still written (130).
+
+A path file has one waypoint `x y z` in each line, or the lines `t x y z qx qy qz qw` that osgViewer records. Times and
+rotations are ignored: --speed and --dt set the pace. Positions are of the body's centre. A waypoint counts as reached
+within the body's radius; on foot, also within the step height above and below. A path that `roam view` recorded names
+its body and mode; --radius and --mode override them.
+
+Without --radius, the body is the one that `roam train` saved beside the scene, in SCENE.roam.json. It is smaller in
+places where only a smaller one fits. --height, --step and --slope change it. A profile of another scene is refused.
+
+Examples:
+  roam walk mine.dae --path tour.path --height 1.8
+  roam walk gallery.ply --path gallery-straight.path --mode fly --speed 50 --verify
+  roam walk house.glb --path in.path --radius 0.25 --height 1.8 --json --trace in.csv
+  roam walk house.glb --path in.path --height 1.8 --picture in.svg
+  roam walk Terrain/ --wander 60 --height 1.8 --verify
+)";
 
 }  // namespace
 
 void add_walk(CLI::App& program, Run& run) {
-  CLI::App* verb = program.add_subcommand("walk", "Sends a body through a scene and tells how it went");
+  CLI::App* verb = program.add_subcommand("walk", "Send a body along a path through a scene and report how it went");
   verb->footer(help);
   const auto options = std::make_shared<WalkOptions>();
   options->add_to(*verb);

@@ -2,70 +2,108 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cstdio>
 #include <exception>
 #include <new>
-#include <sstream>
 
+#include "cli/failure.h"
+#include "cli/help.h"
 #include "cli/interrupt.h"
 #include "cli/report.h"
 #include "cli/tell.h"
+#include "cli/usage.h"
 #include "roam/error.h"
 
 namespace roam::app {
 namespace {
 
-/// What CLI11 found wrong, and where to look it up.
-std::string usage_message(const CLI::App* app, const CLI::Error& error) {
-  while (!app->get_subcommands().empty()) app = app->get_subcommands().front();
-  std::string verb = app->get_name();
-  for (const CLI::App* above = app->get_parent(); above != nullptr; above = above->get_parent()) {
-    verb = above->get_name() + " " + verb;
+using Arguments = std::vector<std::string>;
+
+/// The arguments as CLI11 takes them, last first. `help VERB` is `VERB --help`.
+Arguments reversed(Arguments arguments) {
+  if (!arguments.empty() && arguments.front() == "help") {
+    arguments.erase(arguments.begin());
+    arguments.emplace_back("--help");
   }
-  std::string what = error.what();
-  if (const auto* extras = dynamic_cast<const CLI::ExtrasError*>(&error)) {
-    what = std::string("unknown option or argument:") +
-           std::string(extras->what()).substr(std::string(what).find(':') + 1);
-  }
-  return fmt::format("{}: {}\n`{} --help` lists what it takes.\n", verb, printable_part(what), verb);
+  std::reverse(arguments.begin(), arguments.end());
+  return arguments;
 }
 
-int run(CLI::App& program, const Run& chosen, int argc, char** argv) {
-  program.failure_message(usage_message);
+/// Says why the program `name` fails. If JSON is wanted and nothing was printed, also as JSON.
+void tell_failure(const std::string& message, const std::string& name, const Arguments& arguments) {
+  tell(message, name);
+  if (!wants_json(arguments) || has_printed_json()) return;
   try {
-    program.parse(argc, argv);
+    print(failure_report(message, arguments));
+  } catch (const std::exception&) {
+    // Standard output may be what fails.
+  }
+}
+
+ExitStatus refuse(const CLI::App& app, const std::string& sentence, const Arguments& arguments) {
+  const std::string name = full_name(app);
+  tell_failure(sentence, name, arguments);
+  std::fputs(fmt::format("`{} --help` lists what it takes.\n", name).c_str(), stderr);
+  return bad_usage;
+}
+
+ExitStatus run(CLI::App& program, const Run& chosen, const Arguments& arguments) {
+  set_up_help(program);
+  try {
+    program.parse(reversed(arguments));
+  } catch (const CLI::CallForHelp&) {
+    // Not of a verb that there is not.
+    const auto unknown = unknown_word(program);
+    if (unknown && !unknown->is_option) return refuse(*unknown->app, unknown->sentence, arguments);
+    print(program.help());
+    return done;
+  } catch (const CLI::CallForVersion& version) {
+    print(std::string(version.what()) + "\n");
+    return done;
   } catch (const CLI::ParseError& error) {
-    // Help and version are results like others: written whole, or it is said that they are not.
-    std::ostringstream told;
-    const bool wanted = program.exit(error, told) == 0;
-    if (wanted) print(told.str());
-    return wanted ? done : bad_usage;
+    const auto unknown = unknown_word(program);
+    if (unknown) return refuse(*unknown->app, unknown->sentence, arguments);
+    return refuse(reached(program), sentence_of(reached(program), error), arguments);
   }
   return chosen();
+}
+
+/// The message of the running exception.
+std::string message_of_exception() {
+  try {
+    throw;
+  } catch (const Stopped& stopped) {
+    return stopped.what();
+  } catch (const std::bad_alloc&) {
+    return "out of memory; take a smaller scene or a machine with more memory";
+  } catch (const std::exception& error) {
+    // Ctrl-C also reaches the reader's process; its end is then no error of the file.
+    return interrupted() ? "cancelled" : error.what();
+  }
+}
+
+int run_and_tell(CLI::App& program, const Run& chosen, const Arguments& arguments) {
+  const std::string name = program.get_name();
+  try {
+    return run(program, chosen, arguments);
+  } catch (const UsageError& error) {
+    tell_failure(error.what(), name, arguments);
+    return bad_usage;
+  } catch (const BrokenPipe&) {
+    return failed;
+  } catch (const std::exception&) {
+    tell_failure(message_of_exception(), name, arguments);
+    return failed;
+  }
 }
 
 }  // namespace
 
 int run_command_line(CLI::App& program, Run& chosen, int argc, char** argv) {
   catch_signals();
-  const std::string name = program.get_name();
-  try {
-    return run(program, chosen, argc, argv);
-  } catch (const UsageError& error) {
-    tell(error.what(), name);
-    return bad_usage;
-  } catch (const BrokenPipe&) {
-    return failed;
-  } catch (const Cancelled&) {
-    tell("cancelled", name);
-    return failed;
-  } catch (const std::bad_alloc&) {
-    tell("out of memory; take a smaller scene or a machine with more memory", name);
-    return failed;
-  } catch (const std::exception& error) {
-    // Ctrl-C also reaches the reader's process; its end is then no error of the file.
-    tell(interrupted() ? "cancelled" : error.what(), name);
-    return failed;
-  }
+  const int status = run_and_tell(program, chosen, Arguments(argv + 1, argv + argc));
+  return status == failed && interrupted() ? interrupted_status() : status;
 }
 
 }  // namespace roam::app

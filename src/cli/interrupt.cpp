@@ -28,6 +28,7 @@ constexpr std::int64_t patience_with_watchdog = 2'000'000'000;
 
 std::atomic<int> signal_came = 0;      ///< its number
 std::atomic<std::int64_t> came_at{0};  ///< of the steady clock, nanoseconds
+std::atomic<bool> writing = false;     ///< give_time_to_write() was called
 sem_t signals;                         ///< one for each signal that arrived
 
 extern "C" void take_signal(int number) {
@@ -51,15 +52,18 @@ void wait_for_signal() {
   }
 }
 
-/// Waits until another signal arrives, at most `longest`.
-void wait_for_signal(std::chrono::milliseconds longest) {
+/// Waits until another signal arrives, at most `longest`. Returns whether one arrived.
+bool wait_for_signal(std::chrono::milliseconds longest) {
   timespec until{};
   clock_gettime(CLOCK_REALTIME, &until);
   const auto nanoseconds = until.tv_nsec + std::chrono::nanoseconds(longest).count();
   until.tv_sec += nanoseconds / 1'000'000'000;
   until.tv_nsec = nanoseconds % 1'000'000'000;
-  while (sem_timedwait(&signals, &until) != 0 && errno == EINTR) {
-  }
+  int failed = 0;
+  do {
+    failed = sem_timedwait(&signals, &until);
+  } while (failed != 0 && errno == EINTR);
+  return failed == 0;
 }
 
 [[noreturn]] void end_at_once(int number) {
@@ -82,7 +86,7 @@ void wait_for_signal(std::chrono::milliseconds longest) {
 
 void watch() {
   wait_for_signal();
-  wait_for_signal(longest_good_order);
+  if (!wait_for_signal(longest_good_order) && writing) wait_for_signal(longest_writing);
   end_at_once(signal_came);
 }
 
@@ -116,6 +120,10 @@ void catch_signals() {
 }
 
 bool interrupted() { return signal_came != 0; }
+
+int interrupted_status() { return 128 + signal_came; }
+
+void give_time_to_write() { writing = true; }
 
 void stop_if_interrupted() {
   if (interrupted()) throw Cancelled();

@@ -18,6 +18,13 @@ void catch_signals();
 /// Whether a signal has arrived: running work should end.
 [[nodiscard]] bool interrupted();
 
+/// 128 + the number of the signal, as shells expect it of a program that a signal ended. Only after interrupted().
+[[nodiscard]] int interrupted_status();
+
+/// After a signal: gives the program longest_writing more to write its results. A further signal still ends it at once.
+void give_time_to_write();
+inline constexpr std::chrono::milliseconds longest_writing{2000};
+
 /// Throws roam::Cancelled if a signal has arrived.
 void stop_if_interrupted();
 

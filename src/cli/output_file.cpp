@@ -7,6 +7,7 @@
 #include <cstring>
 
 #include "cli/exit_status.h"
+#include "cli/standard_streams.h"
 
 namespace roam::app {
 
@@ -27,6 +28,7 @@ void check_output(std::span<const std::filesystem::path> scenes, const std::stri
                   const std::filesystem::path& file) {
   namespace fs = std::filesystem;
   if (file.empty()) throw UsageError(option + ": a file needs a name");
+  if (is_standard(file)) throw UsageError(option + " -: standard output takes paths and traces only; name a file");
   std::error_code none;
   for (const fs::path& scene : scenes) {
     if (fs::equivalent(scene, file, none))

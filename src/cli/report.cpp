@@ -10,11 +10,14 @@
 #include "cli/exit_status.h"
 #include "cli/tell.h"
 #include "roam/error.h"
+#include "roam/version.h"
 #include "text/printable.h"
 
 namespace roam::app {
 
 namespace {
+
+bool json_printed = false;
 
 void write(const std::string& text) {
   if (std::fwrite(text.data(), 1, text.size(), stdout) == text.size() && std::fflush(stdout) == 0) return;
@@ -60,10 +63,15 @@ Json to_json(const PagerStats& paging) {
 }
 
 void print(const Json& report) {
+  json_printed = true;
+  Json stamped = {{"roam", ROAM_VERSION_STRING}, {"schema", json_schema}};
+  stamped.update(report);
   // Names come from files and may be any bytes; what is no UTF-8 is shown as U+FFFD.
-  write(without_controls(report.dump(2, ' ', false, Json::error_handler_t::replace)) + "\n");
+  write(without_controls(stamped.dump(2, ' ', false, Json::error_handler_t::replace)) + "\n");
 }
 
 void print(const std::string& text) { write(printable_lines(text)); }
+
+bool has_printed_json() { return json_printed; }
 
 }  // namespace roam::app

@@ -21,10 +21,16 @@ using Json = nlohmann::ordered_json;
 /// What a pager held and did.
 [[nodiscard]] Json to_json(const PagerStats& paging);
 
-/// Writes the report to standard output. Throws BrokenPipe when nobody reads it, roam::Error when it cannot be
-/// written, e.g. to a disk that is full.
+/// The form of the JSON objects that the program prints. It grows when a member goes or changes its meaning; further
+/// members do not count.
+inline constexpr int json_schema = 1;
+
+/// Writes the report to standard output, after the members "roam", the version, and "schema". Throws BrokenPipe when
+/// nobody reads it, roam::Error when it cannot be written, e.g. to a disk that is full.
 void print(const Json& report);
 /// The same of lines for people, made printable.
 void print(const std::string& text);
+/// Whether a JSON report was printed: a program prints one at most.
+[[nodiscard]] bool has_printed_json();
 
 }  // namespace roam::app

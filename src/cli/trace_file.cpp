@@ -5,6 +5,7 @@
 #include <iterator>
 #include <span>
 
+#include "cli/standard_streams.h"
 #include "roam/error.h"
 
 namespace roam::app {
@@ -24,7 +25,8 @@ std::string joined_events(const StepReport& report) {
 
 }  // namespace
 
-TraceFile::TraceFile(const std::filesystem::path& file) : out_(file) {
+TraceFile::TraceFile(const std::filesystem::path& file) {
+  if (!is_standard(file)) out_.emplace(file);
   rows_ = "step,t,x,y,z,radius,height,clearance,contacts,event,teleport\n";
 }
 
@@ -55,7 +57,8 @@ void TraceFile::add(std::uint64_t step, double step_start, const StepReport& rep
 
 void TraceFile::write_rows() {
   try {
-    if (!failure_) out_.write(std::as_bytes(std::span(rows_)));
+    if (!failure_ && out_) out_->write(std::as_bytes(std::span(rows_)));
+    if (!failure_ && !out_) write_output(rows_);
   } catch (const Error&) {
     failure_ = std::current_exception();
   }
@@ -65,7 +68,7 @@ void TraceFile::write_rows() {
 void TraceFile::close() {
   write_rows();
   if (failure_) std::rethrow_exception(failure_);
-  out_.commit();
+  if (out_) out_->commit();
 }
 
 }  // namespace roam::app

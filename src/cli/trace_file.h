@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <exception>
 #include <filesystem>
+#include <optional>
 #include <string>
 
 #include "files/whole_file.h"
@@ -15,13 +16,13 @@ namespace roam::app {
 /// Writes `--trace`: a row for the start and one or more for each step. A step has a row for each corner of its way.
 /// Contacts and events stand in its last row, several events joined by `+`. `clearance` is certified along the straight
 /// piece that ends in its row; 0 if nothing is certified. `radius` and `height` are the body's on that piece. Until
-/// close() an earlier file stays unchanged.
+/// close() an earlier file stays unchanged. `-` is standard output, where rows are written block by block.
 class TraceFile {
  public:
   /// Throws roam::Error if it cannot be written.
   explicit TraceFile(const std::filesystem::path& file);
 
-  /// `step_start` is the time in seconds when the step began.
+  /// `step_start` is the time in seconds when the step began. Throws BrokenPipe when nobody reads standard output.
   void add(std::uint64_t step, double step_start, const StepReport& report);
   /// Throws roam::Error if a row could not be written.
   void close();
@@ -29,7 +30,7 @@ class TraceFile {
  private:
   void write_rows();
 
-  files::WholeFile out_;
+  std::optional<files::WholeFile> out_;  ///< none: standard output
   std::string rows_;
   std::exception_ptr failure_;  ///< the first failure; later rows are not written
 };

@@ -56,10 +56,9 @@ class Composer {
     y_ = 0.5 * sheet_margin;
     text_lines("title", c_.title, title_size, true, ink);
     y_ += 8.0;
-    text_lines(
-        "outcome", fmt::format("{}: {}", to_string(c_.report.result.outcome), words::explain(c_.report)), text_size,
-        false,
-        c_.report.result.outcome == Outcome::reached ? mark_colour(MarkKind::start) : mark_colour(MarkKind::blocked));
+    text_lines("outcome", fmt::format("{}: {}", words::outcome(c_.report), words::explain(c_.report)), text_size, false,
+               !c_.report.interrupted && c_.report.result.outcome == Outcome::reached ? mark_colour(MarkKind::start)
+                                                                                      : mark_colour(MarkKind::blocked));
     y_ += 4.0;
     text_lines("facts", facts(), text_size, false, pale_ink);
   }

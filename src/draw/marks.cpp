@@ -68,7 +68,8 @@ std::vector<Mark> find_marks(const words::EndedWalk& report, const Record& recor
     marks.push_back({MarkKind::blocked, result.blocked_at->point, last.position, last.height, last.along, "blocked",
                      blocked_note(report)});
   } else if (marks.back().kind != MarkKind::fell || result.outcome != Outcome::fell) {
-    const char* how = result.outcome == Outcome::reached ? "" : to_string(result.outcome);
+    const bool reached = !report.interrupted && result.outcome == Outcome::reached;
+    const char* how = reached ? "" : words::outcome(report);
     marks.push_back({MarkKind::end, last.position, last.position, last.height, last.along, "end", how});
   }
   std::stable_sort(marks.begin(), marks.end(), [](const Mark& a, const Mark& b) { return a.along < b.along; });

@@ -76,7 +76,9 @@ Sheet make_sheet(const Walked& walked) {
   app::Progress progress("cutting", "triangles");
   Cutter cutter(frames.turn, views, section, held_for_each_shown * walked.most_segments);
   walked.triangles(cutter.box(), [&](std::span<const Mesh> meshes) {
-    cutter.add(meshes, [&](std::uint64_t done) { progress.at(done, walked.triangle_count); });
+    cutter.add(meshes, [&](std::uint64_t done) {
+      if (!walked.report.interrupted) progress.at(done, walked.triangle_count);
+    });
   });
   const Cuts cuts = cutter.take();
   return compose(

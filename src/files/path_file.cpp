@@ -2,12 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <cerrno>
 #include <charconv>
 #include <cmath>
 #include <istream>
 #include <sstream>
 #include <string_view>
 
+#include "files/file_error.h"
 #include "files/whole_file.h"
 #include "roam/error.h"
 #include "text/printable.h"

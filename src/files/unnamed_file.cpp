@@ -24,11 +24,29 @@ Descriptor open_one() {
   return named;
 }
 
+/// Advice for people.
+const char* advice(int reason) {
+  switch (reason) {
+    case ENOSPC:
+    case EDQUOT:
+    case EFBIG:
+      return "Free some space, or name a folder that has some";
+    case ENOENT:
+    case ENOTDIR:
+      return "Make that folder, or name another";
+    case EACCES:
+    case EPERM:
+    case EROFS:
+      return "Name a folder that you may write to";
+    default:
+      return "Name another folder";
+  }
+}
+
 Error refused(const std::string& what, const char* verb, int reason) {
-  return Error(fmt::format(
-      "{}: {} cannot be {} there: {}. Free some space, or name a folder that has some by the environment variable "
-      "TMPDIR, or allow more memory.",
-      temporary_folder(), what, verb, std::strerror(reason)));
+  return Error(
+      fmt::format("{}: {} cannot be {} there: {}. {} by the environment variable TMPDIR, or allow more memory.",
+                  temporary_folder(), what, verb, std::strerror(reason), advice(reason)));
 }
 
 }  // namespace

@@ -6,7 +6,7 @@
 #include <locale>
 #include <sstream>
 
-#include "files/whole_file.h"
+#include "cli/standard_streams.h"
 #include "roam/error.h"
 #include "text/printable.h"
 
@@ -89,10 +89,11 @@ RecordedPath load_recorded_path(const std::filesystem::path& file) {
   RecordedPath path;
   if (file.empty()) return path;
   try {
-    const std::string text = files::read_named(file, longest_path_file);
+    const std::string text = read_input(file, longest_path_file);
+    const std::string name = is_standard(file) ? "standard input" : file.string();
     std::istringstream in(text);
-    path.places = read_path(in, file.string());
-    path.body = recorded_body(text, file.string());
+    path.places = read_path(in, name);
+    path.body = recorded_body(text, name);
   } catch (const Error& error) {
     path.problem = error.what();
   }

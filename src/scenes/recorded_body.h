@@ -44,7 +44,7 @@ struct RecordedPath {
   }
 };
 
-/// Reads both in one pass: the file may be a pipe. Empty if there is no file.
+/// Reads both in one pass: the file may be a pipe, or `-` for standard input. Empty if there is no file.
 [[nodiscard]] RecordedPath load_recorded_path(const std::filesystem::path& file);
 
 /// A sentence if the way is repeated with another body or in another mode; empty if both are the same.

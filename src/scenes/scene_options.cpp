@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <chrono>
 
+#include "cli/help.h"
 #include "cli/interrupt.h"
 #include "cli/progress.h"
 #include "cli/tell.h"
+#include "cli/values.h"
 #include "roam/error.h"
 #include "roam/store.h"
 #include "roam/wander.h"
@@ -34,35 +36,40 @@ World index(const SceneOptions& options, const ImportedScene& scene) {
 }  // namespace
 
 void SceneOptions::add_to(CLI::App& verb) {
-  verb.add_option("SCENE", scenes, "Files, or folders of photogrammetry tiles; several make one scene")
+  verb.add_option("SCENE", scenes, "Files, folders of photogrammetry tiles, or a store; several files make one scene")
       ->required()
       ->type_name("");
   add_reading_to(verb);
-  verb.add_flag("--lossless", lossless, "Answer hits within 1e-5 m instead of 2 mm; takes more memory");
+  verb.option_defaults()->group(scene_group);
+  verb.add_flag("--lossless", lossless, "Report contacts within 0.01 mm instead of 2 mm; takes more memory");
+  verb.option_defaults()->group(other_group);
 }
 
 void SceneOptions::add_reading_to(CLI::App& verb) {
-  verb.add_option("--up", up, "Axis that points up in the file, e.g. --up=-y (default: z; y for glTF)")
-      ->check(CLI::IsMember({"x", "y", "z", "-x", "-y", "-z"}))
+  verb.option_defaults()->group(scene_group);
+  verb.add_option("--up", up,
+                  "Axis of the file that points up: x, y, z, -x, -y or -z, e.g. --up=-y (default: z; y for glTF)")
+      ->check(one_of({"x", "y", "z", "-x", "-y", "-z"}))
       ->type_name("AXIS");
-  verb.add_option("--unit", unit, "Length of 1 in the file (default: m)")
-      ->check(CLI::IsMember({"m", "cm", "mm", "ft", "in"}))
-      ->type_name("m|cm|mm|ft|in");
-  verb.add_option("--ignore", ignore, "Leave out objects whose name matches, e.g. --ignore 'Door*'; may be repeated")
+  verb.add_option("--unit", unit, "Unit of length in the file: m, cm, mm, ft or in (default: m)")
+      ->check(one_of({"m", "cm", "mm", "ft", "in"}))
+      ->type_name("UNIT");
+  verb.add_option("--ignore", ignore, "Leave out objects whose name matches, e.g. 'Door*'; may be repeated")
       ->type_name("PATTERN")
       ->expected(1)
       ->take_all();
-  verb.add_option("--allow", allow, "Let files of the scene refer to files in this folder, too; may be repeated")
+  verb.add_option("--allow", allow, "Let the scene's files refer to files in this folder too; may be repeated")
       ->type_name("DIR")
       ->expected(1)
       ->take_all();
-  verb.add_option("--threads", threads, "Threads to index and answer with (default: all cores)")
-      ->check(CLI::Range(1, 4096))
+  verb.add_option("--threads", threads, "Threads for indexing and queries (default: one per core)")
+      ->check(thread_count())
       ->type_name("N");
   verb.add_option("--memory", memory,
-                  "Memory of a store's collision (default: 64M), or for reading a scene (default: 8G), e.g. 1G")
-      ->transform(CLI::AsSizeValue(false))
+                  "Memory for a store's collision (default: 64M), or for reading a scene (default: 8G), e.g. 1G")
+      ->transform(bytes())
       ->type_name("SIZE");
+  verb.option_defaults()->group(other_group);
 }
 
 ImportOptions SceneOptions::import_options() const {

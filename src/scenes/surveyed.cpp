@@ -65,7 +65,8 @@ std::vector<Mesh> read_store(const Store& store) {
 }  // namespace
 
 void add_surveyed_to(CLI::App& verb, SceneOptions& options) {
-  verb.add_option("SCENE", options.scenes, "Files, folders of photogrammetry tiles, or a store; several make one scene")
+  verb.add_option("SCENE", options.scenes,
+                  "Files, folders of photogrammetry tiles, or a store; several files make one scene")
       ->required()
       ->type_name("");
   options.add_reading_to(verb);

@@ -107,8 +107,14 @@ std::string note_on_size(const WalkerSettings& body, const Box& scene) {
       across, body.height, size.x, size.y, size.z);
 }
 
+const char* outcome(const EndedWalk& walk) { return walk.interrupted ? "interrupted" : to_string(walk.result.outcome); }
+
 std::string explain(const EndedWalk& walk) {
   const RouteResult& result = walk.result;
+  if (walk.interrupted) {
+    return fmt::format("a signal ended it at {} after {:.2f} m in {:.1f} s, {} steps", exactly_at(result.end),
+                       result.length, result.simulated, result.steps);
+  }
   switch (result.outcome) {
     case Outcome::reached:
       if (walk.waypoints == 0) return fmt::format("the end of its time, having wandered to {}", exactly_at(result.end));

@@ -19,7 +19,11 @@ struct EndedWalk {
   std::string object;         ///< the name of what blocked, if it was blocked by a contact; or why that is not known
   Box bounds;                 ///< of the scene; empty: not known here
   std::optional<Body> body;   ///< at the end, where it may be other than `settings`: in a region, crouched
+  bool interrupted = false;   ///< ended early: `result` is what has been so far, and its outcome means nothing
 };
+
+/// "reached", "blocked", "left_scene", "fell", "held" or "interrupted".
+[[nodiscard]] const char* outcome(const EndedWalk& walk);
 
 /// Where the first event of a kind was.
 [[nodiscard]] std::optional<Vec3> first(const RouteResult& result, EventKind kind);

@@ -10,6 +10,9 @@
 #include <sstream>
 
 #include "cli/exit_status.h"
+#include "cli/help.h"
+#include "cli/standard_streams.h"
+#include "cli/values.h"
 #include "files/extension.h"
 #include "roam/error.h"
 #include "roam/route.h"
@@ -18,16 +21,6 @@ namespace roam::app {
 namespace {
 
 constexpr int largest_side = 16384;  // pixels, of a picture
-
-CLI::Validator within(double least, double most) {
-  return CLI::Validator(
-      [least, most](const std::string& text) {
-        double value = 0.0;
-        const bool fits = CLI::detail::lexical_cast(text, value) && value >= least && value <= most;
-        return fits ? std::string() : fmt::format("'{}' is not a number from {:g} to {:g}", text, least, most);
-      },
-      "");
-}
 
 /// "1280x720"
 std::array<int, 2> parse_size(const std::string& text) {
@@ -147,6 +140,9 @@ void check_files(const ViewOptions& options, const ViewSettings& settings) {
                              {"--record", options.record},
                              {"--record-path", options.record_path},
                              {"--trace", options.trace}};
+  if (is_standard(options.record_path))
+    throw UsageError("--record-path -: standard output does not take a path; name a file");
+  demand_one_output("--trace", options.trace, options.json);
   for (const Written& output : outputs) {
     if (output.file.empty()) continue;
     const auto refuse = [&](const std::string& what) {
@@ -176,72 +172,80 @@ void ViewOptions::add_to(CLI::App& verb) {
   scene.add_to(verb);
   // Not for --keys, which needs no scene.
   verb.get_option("SCENE")->required(false);
-  verb.get_option("--memory")->description("Memory of a store's collision (default: 64M)");
-  verb.add_option("--store", store, "Collide with this store (default: SCENE.roam beside the scene, if it is of it)")
+  verb.get_option("--memory")->description("Memory for a store's collision (default: 64M)");
+  verb.option_defaults()->group(scene_group);
+  verb.add_option("--store", store, "Collide with this store (default: SCENE.roam beside the scene, if it fits)")
       ->type_name("STORE");
   constexpr double metres = Space::reach_limit / 4.0;
-  verb.add_option("--mode", mode, "walk, fly or ghost to begin with (default: walk)")
-      ->check(CLI::IsMember({"fly", "walk", "ghost"}))
-      ->type_name("MODE");
-  verb.add_option("--radius", radius, "Of the body, in metres (default: as trained, or 0.3)")
-      ->check(within(1e-6, 0.5 * metres))
-      ->type_name("R");
-  verb.add_option("--height", height, "Whole height, in metres (default: a person's 1.8; with --radius or --path: 2 R)")
-      ->check(within(1e-6, metres))
-      ->type_name("H");
-  verb.add_option("--eye", eye, "Camera above the body's lowest point, in metres (default: 1.6, at most H - R)")
-      ->check(within(0.0, metres))
-      ->type_name("E");
-  verb.add_option("--step", step, "What walking steps up and down, in metres (default: 0.3, at most H / 2)")
-      ->check(within(0.0, metres))
-      ->type_name("M");
-  verb.add_option("--slope", slope, "What walking climbs, in degrees (default: 45)")
-      ->check(within(0.0, 89.0))
-      ->type_name("DEG");
-  verb.add_flag("--no-profile", no_profile, "Do without the body that was trained for the scene (SCENE.roam.json)");
-  verb.add_flag("--adapt", adapt,
-                "Learn on the way: a smaller body at an opening that stops it, a larger foot where it falls; kept in "
-                "SCENE.roam.json");
-  verb.add_option("--speed", speed, "In metres per second (default: 1.4)")->check(within(1e-3, 1e4))->type_name("V");
+  verb.option_defaults()->group("Start");
   auto* from = verb.add_option_function<std::string>(
                        "--at", [this](const std::string& text) { at = parse_place(text); },
-                       "Start with the body's centre here, looking there, in degrees: yaw 0 is +x, 90 is +y")
+                       "Place of the body's centre, and where it looks, in degrees: yaw 0 is +x, 90 is +y")
                    ->type_name("X,Y,Z[,YAW[,PITCH]]");
   verb.add_option("--bookmark", bookmark, "Start at a place that was kept with the key B")
       ->excludes(from)
       ->type_name("NAME");
-  auto* replay =
-      verb.add_option("--path", path, "Go along a path file as `roam walk` does, with the body that it says, and end")
-          ->excludes(from)
-          ->excludes("--bookmark")
-          ->type_name("FILE");
-  verb.add_option("--dt", dt, "Of one step of the path, in seconds, 1e-6 or more (default: 1/60)")
+  verb.add_option("--mode", mode, "walk, fly or ghost (default: walk)")
+      ->check(one_of({"fly", "walk", "ghost"}))
+      ->type_name("MODE");
+  verb.option_defaults()->group("Path");
+  auto* replay = verb.add_option("--path", path, "Follow this path file as `roam walk` does, with its body, and end")
+                     ->excludes(from)
+                     ->excludes("--bookmark")
+                     ->type_name("FILE");
+  verb.add_option("--speed", speed, "Metres per second (default: 1.4)")->check(from_to(1e-3, 1e4))->type_name("V");
+  verb.add_option("--dt", dt, "Seconds of one step of the path, at least 1e-6 (default: 1/60)")
       ->needs(replay)
-      ->check(within(Route::shortest_step, 10.0))
+      ->check(from_to(Route::shortest_step, 10.0))
       ->type_name("S");
-  verb.add_option("--size", size, "Of the picture, in pixels (default: 1280x720)")->type_name("WxH");
-  verb.add_flag("--fullscreen", fullscreen, "Fill the screen");
-  verb.add_option("--fov", fov, "Height of the field of view, in degrees (default: 65)")
-      ->check(within(least_fov, largest_fov))
+  verb.option_defaults()->group("Body, in metres");
+  verb.add_option("--radius", radius, "Radius (default: as trained, or 0.3)")
+      ->check(from_to(1e-6, 0.5 * metres))
+      ->type_name("R");
+  verb.add_option("--height", height, "Whole height (default: a person's 1.8; with --radius or --path: 2 R)")
+      ->check(from_to(1e-6, metres))
+      ->type_name("H");
+  verb.add_option("--eye", eye, "Height of the camera above the body's lowest point (default: 1.6, at most H - R)")
+      ->check(from_to(0.0, metres))
+      ->type_name("E");
+  verb.add_option("--step", step, "Height of steps that the body climbs (default: 0.3, at most H / 2)")
+      ->check(from_to(0.0, metres))
+      ->type_name("M");
+  verb.add_option("--slope", slope, "Slope that the body climbs, in degrees (default: 45)")
+      ->check(from_to(0.0, 89.0))
       ->type_name("DEG");
-  verb.add_option("--hud", hud, "full, minimal or off (default: full)")
-      ->check(CLI::IsMember({"full", "minimal", "off"}))
+  verb.add_flag("--no-profile", no_profile, "Ignore the trained body in SCENE.roam.json");
+  verb.add_flag("--adapt", adapt,
+                "Learn on the way: a smaller body at an opening that stops it, a larger support disc where it falls; "
+                "SCENE.roam.json keeps them");
+  verb.option_defaults()->group("Window");
+  verb.add_option("--size", size, "Size of the picture in pixels (default: 1280x720)")->type_name("WxH");
+  verb.add_flag("--fullscreen", fullscreen, "Fill the screen");
+  verb.add_option("--fov", fov, "Vertical field of view, in degrees (default: 65)")
+      ->check(from_to(least_fov, largest_fov))
+      ->type_name("DEG");
+  verb.add_option("--hud", hud, "Display: full, minimal or off (default: full)")
+      ->check(one_of({"full", "minimal", "off"}))
       ->type_name("MODE");
   verb.add_flag("--headless", headless, "Draw without a screen");
+  verb.add_option("--time", time_limit, "End after S seconds of roaming")
+      ->excludes(replay)
+      ->check(from_to(1e-3, 1e9))
+      ->type_name("S");
+  verb.option_defaults()->group("Results");
   verb.add_option("--screenshot", screenshot,
-                  "Write a picture (.png, .jpg) when all is loaded or the path has ended, and end")
+                  "Write a picture (.png, .jpg) when all is loaded or the path ends, and end")
       ->type_name("FILE");
   verb.add_option("--record", record, "Write a film (.mp4) of all that is shown; needs ffmpeg")->type_name("FILE");
   verb.add_option("--record-path", record_path, "Write the way as a path file, as the key R does")->type_name("FILE");
-  verb.add_option("--time", time_limit, "End after so many seconds of roaming")
-      ->check(within(1e-3, 1e9))
-      ->type_name("S");
-  verb.add_option("--trace", trace, "Write every step to a CSV file")->type_name("FILE");
+  verb.add_option("--trace", trace, "Write every step to this CSV file (-: standard output)")->type_name("FILE");
   verb.add_flag("--verify", verify, "At the end, check every move against all triangles, without the index");
   verb.add_flag("--json", json, "At the end, print one JSON object");
-  verb.add_option("--settings", settings, "Instead of roam/settings.json in $XDG_CONFIG_HOME or ~/.config")
+  verb.option_defaults()->group(other_group);
+  verb.add_option("--settings", settings,
+                  "Settings file (default: roam/settings.json in $XDG_CONFIG_HOME or ~/.config)")
       ->type_name("FILE");
-  verb.add_flag("--keys", keys, "Print what the keys do, as the settings have it, and end");
+  verb.add_flag("--keys", keys, "Print the keys, as the settings have them, and end");
 }
 
 ViewPlan make_plan(const ViewOptions& options, const ViewSettings& settings,

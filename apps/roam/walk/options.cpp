@@ -4,7 +4,8 @@
 #include <cmath>
 
 #include "cli/exit_status.h"
-#include "cli/numbers.h"
+#include "cli/standard_streams.h"
+#include "cli/values.h"
 #include "draw/draw.h"
 #include "roam/error.h"
 
@@ -66,7 +67,13 @@ WalkerSettings walker_settings(const WalkOptions& options) {
   return settings;
 }
 
+void check_way(const WalkOptions& options) {
+  if (options.path.empty() && !options.wander)
+    throw UsageError("walk: where to? Give it a --path FILE, or --wander S for S seconds");
+}
+
 void check_outputs(const WalkOptions& options) {
+  demand_one_output("--trace", options.trace, options.json);
   check_output(options, "--trace", options.trace);
   check_output(options, "--picture", options.picture);
   if (options.picture.empty()) return;
@@ -80,43 +87,42 @@ void check_outputs(const WalkOptions& options) {
 
 void WalkOptions::add_to(CLI::App& verb) {
   scene.add_to(verb);
-  auto* ways = verb.add_option_group("Way", "One of");
-  ways->add_option("--path", path, "Waypoints to go along")->type_name("FILE");
-  auto* wandering =
-      ways->add_option("--wander", wander, "Without a path: go where the body has been least, for S seconds")
-          ->check(positive)
-          ->type_name("S");
-  ways->require_option(1);
-  verb.add_option("--from", from, "Where to start wandering (default: where there is most room and walls in sight)")
+  verb.option_defaults()->group("Way");
+  auto* way =
+      verb.add_option("--path", path, "Follow the waypoints of this file (-: standard input)")->type_name("FILE");
+  auto* wandering = verb.add_option("--wander", wander, "Instead of --path: explore for S seconds")
+                        ->excludes(way)
+                        ->check(positive())
+                        ->type_name("S");
+  verb.add_option("--from", from, "With --wander: start here (default: a roomy place within walls)")
       ->expected(3)
       ->delimiter(',')
       ->type_name("X,Y,Z")
       ->needs(wandering);
-  verb.add_option("--mode", mode, "fly: no gravity; walk: on the ground; ghost: through everything (default: walk)")
-      ->check(CLI::IsMember({"fly", "walk", "ghost"}))
-      ->type_name("MODE");
-  verb.add_option("--radius", radius, "Of the body, in metres (default: as trained, see --no-profile, or 0.3)")
-      ->type_name("R");
-  verb.add_option("--support-radius", support_radius,
-                  "Of a wider foot that carries the body over cracks, in metres (default: as trained, or none)")
-      ->type_name("RS");
-  verb.add_option("--height", height, "Whole height, in metres (default: 2 R, a sphere)")->type_name("H");
-  verb.add_option("--eye", eye, "Camera above the body's lowest point, in metres (default: 1.6, at most H)")
-      ->type_name("E");
-  verb.add_option("--step", step, "What walking steps up and down, in metres (default: 0.3, at most H / 2)")
-      ->type_name("M");
-  verb.add_option("--slope", slope, "What walking climbs, in degrees (default: 45)")->type_name("DEG");
-  verb.add_flag("--no-profile", no_profile, "Do without the body that was trained for the scene (SCENE.roam.json)");
-  verb.add_option("--speed", route.speed, "In metres per second (default: 1.4)")->check(positive)->type_name("V");
-  verb.add_option("--dt", route.dt, "Of one step, in seconds, 1e-6 or more (default: 1/60)")
-      ->check(positive)
+  verb.add_option("--speed", route.speed, "Metres per second (default: 1.4)")->check(positive())->type_name("V");
+  verb.add_option("--dt", route.dt, "Seconds of one step, at least 1e-6 (default: 1/60)")
+      ->check(positive())
       ->type_name("S");
-  verb.add_option("--trace", trace, "Write every step to a CSV file")->type_name("FILE");
-  verb.add_option("--picture", picture, "Draw plan and section of the way, as .svg or .png")->type_name("FILE");
+  verb.option_defaults()->group("Body, in metres");
+  verb.add_option("--mode", mode, "walk: on the ground; fly: without gravity; ghost: through walls (default: walk)")
+      ->check(one_of({"fly", "walk", "ghost"}))
+      ->type_name("MODE");
+  verb.add_option("--radius", radius, "Radius (default: as trained, or 0.3)")->type_name("R");
+  verb.add_option("--height", height, "Whole height (default: 2 R, a sphere)")->type_name("H");
+  verb.add_option("--support-radius", support_radius,
+                  "Radius of the support disc, which carries the body over cracks (default: as trained, or none)")
+      ->type_name("RS");
+  verb.add_option("--eye", eye, "Height of the camera above the body's lowest point (default: 1.6, at most H)")
+      ->type_name("E");
+  verb.add_option("--step", step, "Height of steps that the body climbs (default: 0.3, at most H / 2)")->type_name("M");
+  verb.add_option("--slope", slope, "Slope that the body climbs, in degrees (default: 45)")->type_name("DEG");
+  verb.add_flag("--no-profile", no_profile, "Ignore the trained body in SCENE.roam.json");
+  verb.option_defaults()->group("Results");
+  verb.add_option("--trace", trace, "Write every step to this CSV file (-: standard output)")->type_name("FILE");
+  verb.add_option("--picture", picture, "Draw plan and section of the way (.svg or .png)")->type_name("FILE");
   verb.add_flag("--verify", verify, "Check every move against all triangles, in higher precision, without the index");
   verb.add_option("--against", against.scenes,
-                  "For a store: check every move against the triangles of the scene that it was made of, as they are "
-                  "read")
+                  "For a store: check every move against the triangles of the scene that it was made of")
       ->type_name("SCENE");
   verb.add_flag("--json", json, "Print one JSON object");
 }

@@ -52,6 +52,9 @@ void take_profile(WalkOptions& options);
 /// height. Throws UsageError for what cannot be.
 [[nodiscard]] WalkerSettings walker_settings(const WalkOptions& options);
 
+/// Throws UsageError if the options name no way.
+void check_way(const WalkOptions& options);
+
 /// Throws UsageError for outputs that would overwrite what is read, or each other, and for what is no picture.
 void check_outputs(const WalkOptions& options);
 

@@ -1,0 +1,53 @@
+#include "cli/standard_streams.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+
+#include "cli/exit_status.h"
+#include "cli/report.h"
+#include "cli/tell.h"
+#include "files/descriptor.h"
+#include "files/whole_file.h"
+#include "roam/error.h"
+
+namespace roam::app {
+
+std::string read_input(const std::filesystem::path& file, std::uint64_t limit) {
+  if (!is_standard(file)) return files::read_named(file, limit);
+  std::string text;
+  std::array<char, 65536> piece;
+  for (;;) {
+    const ssize_t got = files::again([&] { return ::read(STDIN_FILENO, piece.data(), piece.size()); });
+    if (got < 0) throw Error(std::string("cannot read standard input: ") + std::strerror(errno));
+    if (got == 0) return text;
+    text.append(piece.data(), static_cast<std::size_t>(got));
+    if (text.size() > limit)
+      throw Error(fmt::format("cannot read standard input: more than {} bytes; is it the right file?", limit));
+  }
+}
+
+void write_output(std::string_view text) {
+  while (!text.empty()) {
+    const ssize_t put = files::again([&] { return ::write(STDOUT_FILENO, text.data(), text.size()); });
+    if (put < 0 && errno == EPIPE) throw BrokenPipe();
+    if (put < 0) throw Error(std::string("cannot write standard output: ") + std::strerror(errno));
+    text.remove_prefix(static_cast<std::size_t>(put));
+  }
+}
+
+void print_beside(const std::filesystem::path& file, const std::string& report) {
+  if (!is_standard(file)) return print(report);
+  std::fputs(printable_lines(report).c_str(), stderr);
+}
+
+void demand_one_output(const char* option, const std::filesystem::path& file, bool json) {
+  if (json && is_standard(file))
+    throw UsageError(fmt::format("{} - and --json both write to standard output: name a file for {}", option, option));
+}
+
+}  // namespace roam::app

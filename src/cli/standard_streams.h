@@ -1,0 +1,27 @@
+#pragma once
+/// \file
+/// Standard input and output as files: the command line names them `-`.
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+namespace roam::app {
+
+[[nodiscard]] inline bool is_standard(const std::filesystem::path& file) { return file == "-"; }
+
+/// The text of standard input for `-`, else of the file as files::read_named() reads it. Throws roam::Error if it
+/// cannot be read or has more than `limit` bytes.
+[[nodiscard]] std::string read_input(const std::filesystem::path& file, std::uint64_t limit);
+
+/// Writes to standard output, unbuffered. Throws BrokenPipe if nobody reads it, roam::Error if it cannot be written.
+void write_output(std::string_view text);
+
+/// Prints a report to standard output. While `file` is `-` that is taken, so the report goes to standard error.
+void print_beside(const std::filesystem::path& file, const std::string& report);
+
+/// Throws UsageError if `file` and a JSON report would both go to standard output.
+void demand_one_output(const char* option, const std::filesystem::path& file, bool json);
+
+}  // namespace roam::app

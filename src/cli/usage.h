@@ -1,0 +1,35 @@
+#pragma once
+/// \file
+/// Wrong command lines, in roam's words. Together with help.h the only place that knows how CLI11 speaks.
+
+#include <CLI/CLI.hpp>
+#include <optional>
+#include <string>
+
+namespace roam::app {
+
+/// The verb that the arguments reached, or the program.
+[[nodiscard]] const CLI::App& reached(const CLI::App& program);
+
+/// "roam make gallery"
+[[nodiscard]] std::string full_name(const CLI::App& app);
+
+/// How names below `app` are called: "verb" or "kind".
+[[nodiscard]] const char* noun_below(const CLI::App& app);
+
+/// "gallery, terrain or city"
+[[nodiscard]] std::string one_of_text(const std::vector<std::string>& words);
+
+struct UnknownWord {
+  const CLI::App* app;   ///< that does not know it
+  std::string sentence;  ///< names the word, and the one that was likely meant
+  bool is_option;
+};
+/// The first word that parsing left over. Misspelt words come before all other complaints, because they often cause
+/// them.
+[[nodiscard]] std::optional<UnknownWord> unknown_word(const CLI::App& program);
+
+/// A sentence for the error of CLI11 about the arguments of `app`: "--radius: 'abc' is not a number".
+[[nodiscard]] std::string sentence_of(const CLI::App& app, const CLI::ParseError& error);
+
+}  // namespace roam::app

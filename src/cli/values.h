@@ -1,0 +1,58 @@
+#pragma once
+/// \file
+/// Which values options take. Every check says what is wrong in one clause: "'abc' is not a number".
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdint>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include "roam/generate.h"
+
+namespace roam::app {
+
+/// A finite number greater than 0.
+[[nodiscard]] CLI::Validator positive();
+
+/// A number of this type from `least` to `most`.
+template <class Number>
+[[nodiscard]] CLI::Validator from_to(Number least, Number most) {
+  return {[=](std::string& text) {
+            Number value{};
+            const bool within = CLI::detail::lexical_cast(text, value) && value >= least && value <= most;
+            return within ? std::string()
+                          : fmt::format("'{}' is not a {} from {} to {}", text,
+                                        std::is_integral_v<Number> ? "whole number" : "number", least, most);
+          },
+          ""};
+}
+
+/// How many threads.
+[[nodiscard]] inline CLI::Validator thread_count() { return from_to(1, 4096); }
+
+/// Of flights, queries and the like.
+[[nodiscard]] inline CLI::Validator at_least_one() { return from_to<std::int64_t>(1, 100'000'000); }
+
+/// One of these words.
+[[nodiscard]] CLI::Validator one_of(std::vector<std::string> words);
+
+/// Rewrites 500k or 20M as 500000 or 20000000.
+[[nodiscard]] CLI::Validator counted();
+
+/// Rewrites 64M or 8G as bytes. K, M, G and T are powers of 1024; B or iB may follow.
+[[nodiscard]] CLI::Validator bytes();
+
+/// Takes as many triangles as roam::generate makes, `least` at least.
+inline CLI::Option* add_triangles(CLI::App& app, const std::string& name, std::uint64_t& triangles,
+                                  const std::string& what, std::uint64_t least = generate::least_triangles) {
+  return app.add_option(name, triangles, what + " (e.g. 500k or 20M)")
+      ->transform(counted())
+      ->check(from_to<std::uint64_t>(least, generate::most_triangles))
+      ->type_name("N")
+      ->capture_default_str();
+}
+
+}  // namespace roam::app
