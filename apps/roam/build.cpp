@@ -7,6 +7,7 @@
 
 #include "cli/exit_status.h"
 #include "cli/interrupt.h"
+#include "cli/numbers.h"
 #include "cli/progress.h"
 #include "cli/report.h"
 #include "cli/tell.h"
@@ -24,8 +25,9 @@ namespace {
 struct BuildVerb {
   SceneOptions scene;
   std::filesystem::path output;
-  bool plan = false, merge = false, adopt = false, json = false;
-  bool beside = false;  ///< nobody named the output
+  bool plan = false, merge = false, adopt = false, json = false, json_lines = false;
+  std::vector<double> near;  ///< x, y, z; empty: anywhere
+  bool beside = false;       ///< nobody named the output
   std::optional<std::uint64_t> shard;
   std::string reading;  ///< the first option that was given of those that say how the scene is read; may be empty
 };
@@ -33,13 +35,27 @@ struct BuildVerb {
 /// What a plan fixes for its shards and its merge.
 constexpr const char* reading_options[] = {"--up", "--unit", "--ignore", "--lossless"};
 
-/// One line for each step of a build.
+const char* name_of(StoreBuildProgress::Step step) {
+  constexpr const char* names[] = {"read", "plan", "shards", "merge"};
+  return names[static_cast<std::size_t>(step)];
+}
+
+/// The progress of a build: for people a line for each step, for programs a JSON object in a line several times a
+/// second.
 class Steps {
  public:
-  explicit Steps(std::string output) : output_(std::move(output)) {}
+  Steps(std::string output, bool json_lines) : output_(std::move(output)), json_lines_(json_lines) {}
 
   bool show(const StoreBuildProgress& p) {
     using Step = StoreBuildProgress::Step;
+    if (json_lines_) {
+      print_line({{"step", name_of(p.step)},
+                  {"bytes_done", p.bytes_done},
+                  {"bytes_total", p.bytes_total},
+                  {"triangles_done", p.triangles_done},
+                  {"triangles_total", p.triangles_total}});
+      return !interrupted();
+    }
     if (!line_ || p.step != step_) {
       line_.reset();
       step_ = p.step;
@@ -64,6 +80,7 @@ class Steps {
 
  private:
   std::string output_;
+  bool json_lines_;
   StoreBuildProgress::Step step_ = StoreBuildProgress::Step::read;
   std::optional<Progress> line_;
 };
@@ -78,6 +95,7 @@ StoreBuildOptions build_options(const BuildVerb& verb, Steps& steps) {
   options.lossless = verb.scene.lossless;
   options.adopt = verb.adopt;
   options.through_link = !verb.beside;
+  if (!verb.near.empty()) options.nearest_first = Vec3(verb.near[0], verb.near[1], verb.near[2]);
   options.progress = [&steps](const StoreBuildProgress& p) { return steps.show(p); };
   return options;
 }
@@ -117,6 +135,14 @@ void tell_notes(const BuildVerb& verb, const StoreBuildReport& report) {
   for (const std::string& note : told_notes(report, verb.output)) tell("note: " + note);
 }
 
+void print_report(const BuildVerb& verb, const Json& report) {
+  if (verb.json_lines) {
+    print_line(report);
+  } else {
+    print(report);
+  }
+}
+
 /// What is to be done after a plan.
 void tell_shards(const BuildVerb& verb, std::uint64_t count) {
   const std::string store = printable_part(verb.output.string());
@@ -140,7 +166,7 @@ void tell_store(const BuildVerb& verb, const StoreBuildReport& report, double se
     json["bytes"] = info.bytes;
     json["bytes_per_triangle"] = per_triangle;
     json["hash"] = info.hash;
-    print(json);
+    print_report(verb, json);
   } else if (report.unchanged) {
     print(fmt::format("{} is up to date: {} triangles, nothing has changed\n", printable_part(verb.output.string()),
                       info.triangles));
@@ -158,7 +184,7 @@ ExitStatus run_steps(const BuildVerb& verb) {
   const auto seconds = [&] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); };
   StoreBuildReport report;
   {
-    Steps steps(verb.output.string());
+    Steps steps(verb.output.string(), verb.json_lines);
     StoreBuildOptions options = build_options(verb, steps);
     options.key = build_key(verb);
     if (verb.plan) {
@@ -168,7 +194,7 @@ ExitStatus run_steps(const BuildVerb& verb) {
         if (verb.json) {
           Json json = json_report(verb, report, seconds());
           json["shards_to_build"] = count;
-          print(json);
+          print_report(verb, json);
         } else {
           tell_shards(verb, count);
         }
@@ -177,7 +203,7 @@ ExitStatus run_steps(const BuildVerb& verb) {
     } else if (verb.shard) {
       build_shard(options, *verb.shard, report);
       if (verb.json) {
-        print(json_report(verb, report, seconds()));
+        print_report(verb, json_report(verb, report, seconds()));
       } else {
         print(fmt::format("shard {} of {} is {}\n", *verb.shard, printable_part(verb.output.string()),
                           report.shards_built > 0 ? "built" : "there already"));
@@ -272,11 +298,19 @@ void add_build(CLI::App& program, Run& run) {
   plan->excludes(shard)->excludes(merge);
   shard->excludes(merge);
   verb->add_flag("--adopt", options->adopt, "Build upon the store that is there, whoever built it: it is yours then");
+  verb->add_option("--near", options->near, "Build first what is near this position; the store is the same")
+      ->expected(3)
+      ->delimiter(',')
+      ->check(from_to(-coordinate_limit, coordinate_limit))
+      ->type_name("X,Y,Z");
   verb->add_flag("--json", options->json, "Print one JSON object");
+  verb->add_flag("--json-lines", options->json_lines,
+                 "Print the progress as JSON objects, one a line, and at last the object of --json");
   verb->callback([options, verb, &run] {
     for (const char* name : reading_options) {
       if (options->reading.empty() && verb->get_option(name)->count() > 0) options->reading = name;
     }
+    options->json |= options->json_lines;
     run = [options] { return build(*options); };
   });
 }

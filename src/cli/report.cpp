@@ -39,6 +39,11 @@ std::string without_controls(std::string_view text) {
   return escaped;
 }
 
+/// Names come from files and may be any bytes; what is no UTF-8 is shown as U+FFFD.
+void write(const Json& json, int indent) {
+  write(without_controls(json.dump(indent, ' ', false, Json::error_handler_t::replace)) + "\n");
+}
+
 }  // namespace
 
 Json to_json(const PagerStats& paging) {
@@ -59,10 +64,9 @@ Json to_json(const PagerStats& paging) {
           {"last_failure", paging.last_failure}};
 }
 
-void print(const Json& report) {
-  // Names come from files and may be any bytes; what is no UTF-8 is shown as U+FFFD.
-  write(without_controls(report.dump(2, ' ', false, Json::error_handler_t::replace)) + "\n");
-}
+void print(const Json& report) { write(report, 2); }
+
+void print_line(const Json& object) { write(object, -1); }
 
 void print(const std::string& text) { write(printable_lines(text)); }
 

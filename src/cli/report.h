@@ -24,6 +24,8 @@ using Json = nlohmann::ordered_json;
 /// Writes the report to standard output. Throws BrokenPipe when nobody reads it, roam::Error when it cannot be
 /// written, e.g. to a disk that is full.
 void print(const Json& report);
+/// The same in one line, for a sequence of objects.
+void print_line(const Json& object);
 /// The same of lines for people, made printable.
 void print(const std::string& text);
 
