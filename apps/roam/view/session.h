@@ -12,6 +12,7 @@
 #include "osgRoam/Manipulator.h"
 #include "roam/path_file.h"
 #include "view/bookmarks.h"
+#include "view/build_process.h"
 #include "view/cameras.h"
 #include "view/collision_loader.h"
 #include "view/commands.h"
@@ -22,7 +23,6 @@
 #include "view/replay.h"
 #include "view/scene_graph.h"
 #include "view/stage.h"
-#include "view/store_builder.h"
 #include "view/view_report.h"
 #include "view/walk_log.h"
 
@@ -126,7 +126,7 @@ class Session {
   std::optional<CollisionLoader> collision_;
   std::optional<Collision> loaded_;
   std::shared_ptr<Pager> pager_;  ///< what the body collides with, where it is a store
-  std::optional<StoreBuilder> builder_;
+  std::optional<BuildProcess> builder_;
   std::future<void> freeing_;     ///< of the world or the pager that a store has replaced
   bool builder_stopped_ = false;  ///< by the person
   bool store_is_stale_ = false;

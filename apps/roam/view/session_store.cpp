@@ -48,7 +48,7 @@ void Session::toggle_building() {
   } else {
     builder_stopped_ = false;
     const Vec3 place = placed_ ? roamer_->walker()->position() : scene_->bounds().center();
-    builder_.emplace(what_, roamer_->settings(), place, what_.store_memory);
+    builder_.emplace(options_.program, what_, roamer_->settings(), place);
     tell(fmt::format("building {}, what is near first; {} stops it", builder_->output().string(), key_of("store")));
   }
 }
@@ -69,8 +69,9 @@ void Session::follow_builder() {
   builder_->follow(roamer_->walker()->position());
   // A path that is being replayed keeps its walker, and that its space.
   if (state.phase != Phase::done || (replay_ && !replay_->done())) return;
-  for (const std::string& sentence : builder_->notes()) note(sentence);
-  change_to(builder_->take());
+  BuildProcess::Built built = builder_->take();
+  for (const std::string& sentence : built.notes) note(sentence);
+  change_to(std::move(built.pager));
   builder_.reset();
 }
 
