@@ -17,6 +17,7 @@
 
 #include "process/child.h"
 #include "process/find_program.h"
+#include "process/lines.h"
 #include "program.h"
 #include "roam/error.h"
 
@@ -89,6 +90,26 @@ TEST(Child, KeepsItsLastWords) {
   Script child("echo first; echo; echo last >&2; echo '  '");
   ASSERT_TRUE(child.wait(10s));
   EXPECT_EQ(child.last_words(), "last");
+}
+
+TEST(Child, WritesLines) {
+  Lines lines;
+  Script child("echo first; printf 'sec'; sleep 0.1; printf 'ond\\n\\n'; read go; printf 'rest'",
+               {.descriptors = {{lines.theirs(), STDOUT_FILENO}}});
+  lines.child_has_started();
+  EXPECT_EQ(lines.next(10s), "first");
+  EXPECT_EQ(lines.next(10s), "second");
+  EXPECT_EQ(lines.next(10s), "");
+  EXPECT_EQ(lines.next(10s), std::nullopt) << "a text without a line end";
+  EXPECT_TRUE(lines.ended());
+}
+
+TEST(Child, WritesNoLineForAWhile) {
+  Lines lines;
+  Script child("sleep 100", {.descriptors = {{lines.theirs(), STDOUT_FILENO}}});
+  lines.child_has_started();
+  EXPECT_EQ(lines.next(1ms), std::nullopt);
+  EXPECT_FALSE(lines.ended());
 }
 
 TEST(Child, HasTheDescriptorsThatItIsGivenAndNoOthers) {

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
+#include <span>
+#include <sstream>
 
 #include "store_builds.h"
 
@@ -29,6 +31,27 @@ TEST(StoreBuildProgram, BuildsBesideTheSceneAndSaysWhatItDid) {
   const auto second = roam({"build", scene});
   EXPECT_EQ(second.status, 0) << second.err;
   EXPECT_NE(second.out.find("up to date"), std::string::npos) << second.out;
+}
+
+TEST(StoreBuildProgram, SaysItsProgressInJsonLines) {
+  const TestFolder folder;
+  const std::string scene = write_ply(folder.file("a.ply"), field(60, 0.5, {0.0, 0.0, 0.0}));
+  const auto build = roam({"build", scene, "--json-lines", "--near=-5,1e3,2"});
+  ASSERT_EQ(build.status, 0) << build.err;
+  std::istringstream lines(build.out);
+  std::vector<Json> objects;
+  for (std::string line; std::getline(lines, line);) objects.push_back(Json::parse(line));
+  ASSERT_GT(objects.size(), 3u);
+  EXPECT_EQ(objects.front()["step"], "read");
+  EXPECT_EQ(objects[objects.size() - 2]["step"], "merge");
+  for (const Json& object : std::span(objects).first(objects.size() - 1)) {
+    EXPECT_LE(object["bytes_done"].get<std::uint64_t>(), std::filesystem::file_size(scene));
+    EXPECT_LE(object["triangles_done"].get<std::uint64_t>(), 7200u);
+  }
+  EXPECT_EQ(objects.back()["hash"], roam::Store::open(scene + ".roam")->info().hash);
+  EXPECT_EQ(build.err, "") << "progress for people, too";
+  EXPECT_EQ(roam({"build", scene, "--near", "1,2"}).status, 2);
+  EXPECT_EQ(roam({"build", scene, "--near", "1,nan,2"}).status, 2);
 }
 
 TEST(StoreBuildProgram, BuildsInSteps) {

@@ -256,7 +256,7 @@ TEST(Bookmarks, AreKeptForTheirSceneAlone) {
   EXPECT_EQ(mine.add({{4, 5, 6}, 0, 0}).name, "2");
   EXPECT_TRUE(Bookmarks(file, {"yours.obj"}, "", "m").all().empty());
   EXPECT_TRUE(Bookmarks(file, {"mine.obj"}, "y", "m").all().empty());
-  const Bookmarks again(file, {std::filesystem::absolute("mine.obj")}, "", "m");
+  Bookmarks again(file, {std::filesystem::absolute("mine.obj")}, "", "m");
   ASSERT_EQ(again.all().size(), 2u);
   EXPECT_EQ(again.find("1")->pose.position, Vec3(1, 2, 3));
   EXPECT_EQ(again.find("1")->pose.yaw, 90.0);

@@ -185,12 +185,12 @@ TEST(Session, KeepsBookmarksAndGoesThere) {
   d.run(2.0);
   d.release('w');
   d.tap('b');
+  d.session.reset();
+  d.begin();
   d.tap(osgGA::GUIEventAdapter::KEY_Tab);
-  const Vec3 first = d.place();
+  EXPECT_LT(glm::distance(d.place(), kept), 0.1) << "the first";
   d.tap(osgGA::GUIEventAdapter::KEY_Tab);
-  const Vec3 second = d.place();
-  EXPECT_LT(std::min(glm::distance(first, kept), glm::distance(second, kept)), 0.1);
-  EXPECT_GT(glm::distance(first, second), 2.0);
+  EXPECT_GT(glm::distance(d.place(), kept), 2.0);
   EXPECT_TRUE(std::filesystem::exists(d.folder.file("config/roam/bookmarks.json")));
 }
 

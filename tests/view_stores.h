@@ -7,9 +7,9 @@
 #include <string>
 
 #include "roam/store_build.h"
+#include "scenes/user_key.h"
 #include "store/tile_reader.h"
 #include "store_builds.h"
-#include "scenes/user_key.h"
 #include "view_driven.h"
 
 namespace view_stores {
@@ -56,7 +56,10 @@ inline void damage_tile_at(const std::string& folder, double x, double y) {
 /// A session in the room, optionally with a store of it.
 class Driven : public DrivenSession {
  public:
-  Driven() { options.at = {8, 0, 0.95, 0}; }
+  Driven() {
+    options.at = {8, 0, 0.95, 0};
+    options.program = ROAM_PROGRAM;
+  }
 
   /// The store's place beside the scene.
   std::string build() {

@@ -7,6 +7,7 @@
 
 #include "cli/exit_status.h"
 #include "cli/interrupt.h"
+#include "cli/numbers.h"
 #include "cli/progress.h"
 #include "cli/report.h"
 #include "cli/tell.h"
@@ -25,8 +26,9 @@ namespace {
 struct BuildVerb {
   SceneOptions scene;
   std::filesystem::path output;
-  bool plan = false, merge = false, adopt = false, json = false;
-  bool beside = false;  ///< nobody named the output
+  bool plan = false, merge = false, adopt = false, json = false, json_lines = false;
+  std::vector<double> near;  ///< x, y, z; empty: anywhere
+  bool beside = false;       ///< nobody named the output
   std::optional<std::uint64_t> shard;
   std::string reading;  ///< the first option that was given of those that say how the scene is read; may be empty
 };
@@ -34,13 +36,27 @@ struct BuildVerb {
 /// What a plan fixes for its shards and its merge.
 constexpr const char* reading_options[] = {"--up", "--unit", "--ignore", "--lossless"};
 
-/// One line for each step of a build.
+const char* name_of(StoreBuildProgress::Step step) {
+  constexpr const char* names[] = {"read", "plan", "shards", "merge"};
+  return names[static_cast<std::size_t>(step)];
+}
+
+/// The progress of a build: for people a line for each step, for programs a JSON object in a line several times a
+/// second.
 class Steps {
  public:
-  explicit Steps(std::string output) : output_(std::move(output)) {}
+  Steps(std::string output, bool json_lines) : output_(std::move(output)), json_lines_(json_lines) {}
 
   bool show(const StoreBuildProgress& p) {
     using Step = StoreBuildProgress::Step;
+    if (json_lines_) {
+      print_line({{"step", name_of(p.step)},
+                  {"bytes_done", p.bytes_done},
+                  {"bytes_total", p.bytes_total},
+                  {"triangles_done", p.triangles_done},
+                  {"triangles_total", p.triangles_total}});
+      return !interrupted();
+    }
     if (!line_ || p.step != step_) {
       line_.reset();
       step_ = p.step;
@@ -65,6 +81,7 @@ class Steps {
 
  private:
   std::string output_;
+  bool json_lines_;
   StoreBuildProgress::Step step_ = StoreBuildProgress::Step::read;
   std::optional<Progress> line_;
 };
@@ -79,6 +96,7 @@ StoreBuildOptions build_options(const BuildVerb& verb, Steps& steps) {
   options.lossless = verb.scene.lossless;
   options.adopt = verb.adopt;
   options.through_link = !verb.beside;
+  if (!verb.near.empty()) options.nearest_first = Vec3(verb.near[0], verb.near[1], verb.near[2]);
   options.progress = [&steps](const StoreBuildProgress& p) { return steps.show(p); };
   return options;
 }
@@ -118,6 +136,14 @@ void tell_notes(const BuildVerb& verb, const StoreBuildReport& report) {
   for (const std::string& note : told_notes(report, verb.output)) tell("note: " + note);
 }
 
+void print_report(const BuildVerb& verb, const Json& report) {
+  if (verb.json_lines) {
+    print_line(report);
+  } else {
+    print(report);
+  }
+}
+
 /// What is to be done after a plan.
 void tell_shards(const BuildVerb& verb, std::uint64_t count) {
   const std::string store = printable_part(verb.output.string());
@@ -141,7 +167,7 @@ void tell_store(const BuildVerb& verb, const StoreBuildReport& report, double se
     json["bytes"] = info.bytes;
     json["bytes_per_triangle"] = per_triangle;
     json["hash"] = info.hash;
-    print(json);
+    print_report(verb, json);
   } else if (report.unchanged) {
     print(fmt::format("{} is up to date: {} triangles, nothing has changed\n", printable_part(verb.output.string()),
                       info.triangles));
@@ -159,7 +185,7 @@ ExitStatus run_steps(const BuildVerb& verb) {
   const auto seconds = [&] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); };
   StoreBuildReport report;
   {
-    Steps steps(verb.output.string());
+    Steps steps(verb.output.string(), verb.json_lines);
     StoreBuildOptions options = build_options(verb, steps);
     options.key = build_key(verb);
     if (verb.plan) {
@@ -169,7 +195,7 @@ ExitStatus run_steps(const BuildVerb& verb) {
         if (verb.json) {
           Json json = json_report(verb, report, seconds());
           json["shards_to_build"] = count;
-          print(json);
+          print_report(verb, json);
         } else {
           tell_shards(verb, count);
         }
@@ -178,7 +204,7 @@ ExitStatus run_steps(const BuildVerb& verb) {
     } else if (verb.shard) {
       build_shard(options, *verb.shard, report);
       if (verb.json) {
-        print(json_report(verb, report, seconds()));
+        print_report(verb, json_report(verb, report, seconds()));
       } else {
         print(fmt::format("shard {} of {} is {}\n", *verb.shard, printable_part(verb.output.string()),
                           report.shards_built > 0 ? "built" : "there already"));
@@ -267,7 +293,14 @@ void add_build(CLI::App& program, Run& run) {
   verb->add_option("-o,--output", options->output, "Folder of the store (default: SCENE.roam beside the scene)")
       ->type_name("FOLDER");
   verb->add_flag("--adopt", options->adopt, "Trust and update a store that somebody else built; it is yours then");
+  verb->add_option("--near", options->near, "Build first what is near this position; the store is the same")
+      ->expected(3)
+      ->delimiter(',')
+      ->check(from_to(-coordinate_limit, coordinate_limit))
+      ->type_name("X,Y,Z");
   verb->add_flag("--json", options->json, "Print one JSON object");
+  verb->add_flag("--json-lines", options->json_lines,
+                 "Print the progress as JSON objects, one a line, and at last the object of --json");
   verb->option_defaults()->group("Many machines");
   CLI::Option* plan = verb->add_flag("--plan", options->plan, "Only read what has changed, and plan the shards");
   CLI::Option* shard = verb->add_option("--shard", options->shard, "Only build this shard of the plan, counted from 0")
@@ -280,6 +313,7 @@ void add_build(CLI::App& program, Run& run) {
     for (const char* name : reading_options) {
       if (options->reading.empty() && verb->get_option(name)->count() > 0) options->reading = name;
     }
+    options->json |= options->json_lines;
     run = [options] { return build(*options); };
   });
 }

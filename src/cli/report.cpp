@@ -42,6 +42,13 @@ std::string without_controls(std::string_view text) {
   return escaped;
 }
 
+/// Names come from files and may be any bytes; what is no UTF-8 is shown as U+FFFD.
+void write(const Json& json, int indent) {
+  Json stamped = {{"roam", ROAM_VERSION_STRING}, {"schema", json_schema}};
+  stamped.update(json);
+  write(without_controls(stamped.dump(indent, ' ', false, Json::error_handler_t::replace)) + "\n");
+}
+
 }  // namespace
 
 Json to_json(const PagerStats& paging) {
@@ -64,11 +71,10 @@ Json to_json(const PagerStats& paging) {
 
 void print(const Json& report) {
   json_printed = true;
-  Json stamped = {{"roam", ROAM_VERSION_STRING}, {"schema", json_schema}};
-  stamped.update(report);
-  // Names come from files and may be any bytes; what is no UTF-8 is shown as U+FFFD.
-  write(without_controls(stamped.dump(2, ' ', false, Json::error_handler_t::replace)) + "\n");
+  write(report, 2);
 }
+
+void print_line(const Json& object) { write(object, -1); }
 
 void print(const std::string& text) { write(printable_lines(text)); }
 

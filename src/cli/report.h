@@ -28,6 +28,8 @@ inline constexpr int json_schema = 1;
 /// Writes the report to standard output, after the members "roam", the version, and "schema". Throws BrokenPipe when
 /// nobody reads it, roam::Error when it cannot be written, e.g. to a disk that is full.
 void print(const Json& report);
+/// The same in one line, for a sequence of objects.
+void print_line(const Json& object);
 /// The same of lines for people, made printable.
 void print(const std::string& text);
 /// Whether a JSON report was printed: a program prints one at most.

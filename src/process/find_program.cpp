@@ -32,15 +32,17 @@ fs::path find_program(const std::string& name) {
   return {};
 }
 
-fs::path own_folder() {
+fs::path own_program() {
 #ifdef __APPLE__
   char path[4096];
   std::uint32_t size = sizeof(path);
-  return _NSGetExecutablePath(path, &size) == 0 ? fs::path(path).parent_path() : fs::path();
+  return _NSGetExecutablePath(path, &size) == 0 ? fs::path(path) : fs::path();
 #else
   std::error_code none;
-  return fs::read_symlink("/proc/self/exe", none).parent_path();
+  return fs::read_symlink("/proc/self/exe", none);
 #endif
 }
+
+fs::path own_folder() { return own_program().parent_path(); }
 
 }  // namespace roam::process

@@ -11,6 +11,8 @@ namespace roam::process {
 [[nodiscard]] bool can_run(const std::filesystem::path& program);
 /// The first program of that name in the absolute folders of PATH, or an empty path.
 [[nodiscard]] std::filesystem::path find_program(const std::string& name);
+/// The running program; empty if the system cannot say.
+[[nodiscard]] std::filesystem::path own_program();
 /// The folder of the running program; empty if the system cannot say.
 [[nodiscard]] std::filesystem::path own_folder();
 

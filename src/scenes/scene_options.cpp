@@ -72,6 +72,20 @@ void SceneOptions::add_reading_to(CLI::App& verb) {
   verb.option_defaults()->group(other_group);
 }
 
+std::vector<std::string> SceneOptions::arguments() const {
+  // With "=", a value may begin with "-".
+  std::vector<std::string> words{"--unit=" + unit};
+  if (!up.empty()) words.push_back("--up=" + up);
+  for (const std::string& pattern : ignore) words.push_back("--ignore=" + pattern);
+  for (const auto& folder : allow) words.push_back("--allow=" + folder.string());
+  if (lossless) words.emplace_back("--lossless");
+  if (threads > 0) words.push_back(fmt::format("--threads={}", threads));
+  if (memory) words.push_back(fmt::format("--memory={}", *memory));
+  words.emplace_back("--");
+  for (const auto& scene : scenes) words.push_back(scene.string());
+  return words;
+}
+
 ImportOptions SceneOptions::import_options() const {
   ImportOptions how;
   if (!up.empty()) how.up = parse_up_axis(up);

@@ -34,6 +34,8 @@ struct SceneOptions {
   void add_to(CLI::App& verb);
   /// Adds --up, --unit, --ignore, --allow, --threads and --memory.
   void add_reading_to(CLI::App& verb);
+  /// The command line that add_to() reads as these options; SCENE comes last.
+  [[nodiscard]] std::vector<std::string> arguments() const;
   /// What the options mean to import_scene and the like.
   [[nodiscard]] ImportOptions import_options() const;
   /// Whether any option was given that says how files are to be read or indexed.

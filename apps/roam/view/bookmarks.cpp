@@ -86,10 +86,20 @@ Bookmarks::Bookmarks(std::filesystem::path file, const std::vector<std::filesyst
   }
 }
 
-std::optional<Bookmark> Bookmarks::find(const std::string& name) const {
+const Bookmark* Bookmarks::find(const std::string& name) {
   const auto found =
       std::find_if(bookmarks_.begin(), bookmarks_.end(), [&](const Bookmark& b) { return b.name == name; });
-  return found == bookmarks_.end() ? std::nullopt : std::optional(*found);
+  if (found == bookmarks_.end()) return nullptr;
+  present_ = static_cast<std::size_t>(found - bookmarks_.begin());
+  return &*found;
+}
+
+const Bookmark* Bookmarks::next(bool backwards) {
+  const std::size_t count = bookmarks_.size();
+  if (count == 0) return nullptr;
+  const std::size_t step = backwards ? count - 1 : 1;
+  present_ = present_ ? (*present_ + step) % count : backwards ? count - 1 : 0;
+  return &bookmarks_[*present_];
 }
 
 std::string Bookmarks::names() const {
@@ -124,6 +134,7 @@ const Bookmark& Bookmarks::add(const Pose& pose) {
   std::filesystem::create_directories(file_.parent_path(), none);
   files::write_whole(file_, document.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
   bookmarks_ = std::move(bookmarks);
+  present_ = bookmarks_.size() - 1;
   return bookmarks_.back();
 }
 

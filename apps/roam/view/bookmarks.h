@@ -31,12 +31,16 @@ class Bookmarks {
             std::string unit);
 
   [[nodiscard]] const std::vector<Bookmark>& all() const { return bookmarks_; }
-  [[nodiscard]] std::optional<Bookmark> find(const std::string& name) const;
+  /// The bookmark of that name, or null. It becomes the present one.
+  const Bookmark* find(const std::string& name);
+  /// The one after the present bookmark, or before it, in a circle; null if there are none. It becomes the present one.
+  /// If none is, the first or the last.
+  const Bookmark* next(bool backwards);
   /// The names for people, separated by ", ".
   [[nodiscard]] std::string names() const;
 
   /// Keeps a place under the smallest number that is no name yet, and writes the file with what other sessions have
-  /// written meanwhile. Throws roam::Error when that cannot be done; nothing is added then.
+  /// written meanwhile. It becomes the present one. Throws roam::Error when that cannot be done; nothing is added then.
   const Bookmark& add(const Pose& pose);
 
  private:
@@ -45,6 +49,7 @@ class Bookmarks {
   std::string up_;
   std::string unit_;
   std::vector<Bookmark> bookmarks_;
+  std::optional<std::size_t> present_;
 };
 
 }  // namespace roam::app

@@ -3,16 +3,29 @@
 /// The cameras on the keys 1, 2, 3, ...
 
 #include <osgGA/KeySwitchMatrixManipulator>
+#include <string>
+
+#include "osgRoam/Manipulator.h"
 
 namespace roam::app {
 
-/// Of OpenSceneGraph's, which places the camera itself and never asks the one that leads: a manipulator that wants to
-/// know the picture that its camera makes, as osgRoam::Manipulator does of what is clicked, would never learn of it.
+/// Switches between the body's camera and those of osgviewer, see camera_names().
+///
+/// OpenSceneGraph's class places the camera itself and never calls the manipulator that leads. But
+/// osgRoam::Manipulator must know the picture that its camera makes, for what is clicked.
 class Cameras : public osgGA::KeySwitchMatrixManipulator {
  public:
+  explicit Cameras(osgRoam::Manipulator& roamer);
+
   void updateCamera(osg::Camera& camera) override {
     if (osgGA::CameraManipulator* leading = getCurrentMatrixManipulator()) leading->updateCamera(camera);
   }
+  /// Whether this one has the keys.
+  [[nodiscard]] bool leads(const osgGA::CameraManipulator& camera) const {
+    return getCurrentMatrixManipulator() == &camera;
+  }
+  /// The name of the one that does.
+  [[nodiscard]] std::string present() const;
 
  protected:
   ~Cameras() override = default;

@@ -95,6 +95,11 @@ void set_up(osgRoam::Controls& controls, const ViewSettings& settings) {
   }
 }
 
+std::string key_of(const osgRoam::Controls& controls, const char* command) {
+  const Controls::Command* const found = controls.find(command);
+  return found == nullptr ? std::string() : Controls::keyText(*found);
+}
+
 std::vector<KeyLine> key_lines(const osgRoam::Controls& controls) {
   std::vector<KeyLine> table;
   for (const auto& command : controls.commands()) {

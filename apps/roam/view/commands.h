@@ -32,6 +32,9 @@ enum class Command : std::uint8_t {
 /// roam::Error, naming the settings file, for a command or key that does not exist or two commands on one key.
 void set_up(osgRoam::Controls& controls, const ViewSettings& settings);
 
+/// The keys of a command, for people; empty if it has none.
+[[nodiscard]] std::string key_of(const osgRoam::Controls& controls, const char* command);
+
 /// A key, or keys, and what they do; with an empty second, a heading.
 using KeyLine = std::pair<std::string, std::string>;
 /// The table for people.

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "roam/error.h"
+#include "view/commands.h"
 
 namespace roam::app {
 namespace {
@@ -19,12 +20,41 @@ std::string text_of(const Lesson& lesson) {
   return fmt::format("gap of the floor {:.2f} m wide: a foot of {:.2f} m", lesson.width, lesson.support_radius);
 }
 
+Profile known_of(const ViewPlan& plan, const SceneIdentity& scene, const WalkerSettings& body) {
+  if (plan.profile) return plan.profile->profile;
+  Profile known;
+  known.scene = scene;
+  known.radius = body.radius;
+  known.height = body.height;
+  known.support_radius = body.support_radius;
+  known.step = body.step;
+  known.slope_degrees = body.slope_degrees;
+  return known;
+}
+
+/// Where sizes are saved; empty: nowhere.
+std::filesystem::path file_for(const ViewOptions& options, const ViewPlan& plan) {
+  if (plan.profile) return plan.profile->file;
+  std::filesystem::path file = profile_path(options.scene.scenes);
+  // What was trained for another body than this one is not written over.
+  if (options.no_profile || std::filesystem::exists(file)) file.clear();
+  return file;
+}
+
 }  // namespace
 
-Learning::Learning(Profile known, std::filesystem::path file, bool takes)
-    : learner_(std::move(known)), file_(std::move(file)), takes_(takes) {}
+Learning::Learning(const ViewOptions& options, const ViewPlan& plan, const SceneIdentity& scene,
+                   osgRoam::Manipulator& roamer, News& news)
+    : roamer_(roamer),
+      news_(news),
+      learner_(known_of(plan, scene, roamer.settings())),
+      file_(file_for(options, plan)),
+      takes_(options.adapt) {
+  roamer_.setRegions(learner_.profile().regions);
+}
 
-void Learning::watch(const Walker& walker, const Vec3& wish, double seconds) {
+void Learning::watch(const Vec3& wish, double seconds) {
+  const Walker& walker = *roamer_.walker();
   if (std::optional<Lesson> lesson = learner_.watch(walker, wish, seconds)) {
     lesson_ = std::move(lesson);
     seconds_free_ = 0.0;
@@ -34,25 +64,39 @@ void Learning::watch(const Walker& walker, const Vec3& wish, double seconds) {
   }
 }
 
-std::string Learning::offer(const std::string& key) const {
-  if (!lesson_ || takes_ || key.empty()) return {};
-  return fmt::format("{} takes it: {}", key, text_of(*lesson_));
+void Learning::update() {
+  const bool wanted = std::exchange(accepted_, false) || takes_;
+  if (!wanted || !lesson_ || roamer_.walker() == nullptr) return;
+  take(*std::exchange(lesson_, std::nullopt));
 }
 
-std::optional<Learning::Taken> Learning::take(Walker& walker, bool asked) {
-  if (!lesson_ || !(takes_ || asked)) return std::nullopt;
-  const Lesson lesson = *std::exchange(lesson_, std::nullopt);
-  learner_.take(walker, lesson);
+void Learning::take(const Lesson& lesson) {
+  learner_.take(*roamer_.walker(), lesson);
   ++taken_;
-  Taken taken{{text_of(lesson), false}, lesson.kind == Lesson::Kind::support};
-  if (file_.empty()) return taken;
+  roamer_.setRegions(learner_.profile().regions);
+  // The body was put elsewhere.
+  if (lesson.kind == Lesson::Kind::support) roamer_.placed();
   try {
-    save_profile(learner_.profile(), file_);
-    learner_.saved();
+    if (!file_.empty()) {
+      save_profile(learner_.profile(), file_);
+      learner_.saved();
+    }
+    news_.tell(text_of(lesson));
   } catch (const Error& error) {
-    taken.told = {fmt::format("{}; it could not be kept: {}", text_of(lesson), error.what()), true};
+    news_.note(fmt::format("{}; it could not be kept: {}", text_of(lesson), error.what()));
   }
-  return taken;
+}
+
+void Learning::resize() {
+  if (taken_ == 0 || roamer_.walker() == nullptr) return;
+  roamer_.walker()->resize(learner_.profile().radius, learner_.profile().support_radius);
+}
+
+void Learning::fill(Status& status) const {
+  const std::string key = key_of(roamer_.controls(), "adapt");
+  if (!lesson_ || takes_ || key.empty()) return;
+  std::string& text = status.hold.text;
+  text += fmt::format("{}{} takes it: {}", text.empty() ? "" : "\n", key, text_of(*lesson_));
 }
 
 std::string size_reason(const Walker& walker) {

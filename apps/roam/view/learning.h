@@ -1,46 +1,51 @@
 #pragma once
 /// \file
-/// What `roam view` learns about the size of the body while one roams: `--adapt` and the key beside it.
+/// The sizes of the body that a session learns: `--adapt`, and the key for it.
 
 #include <filesystem>
 #include <optional>
 #include <string>
 
+#include "osgRoam/Manipulator.h"
 #include "roam/size_learner.h"
-#include "view/hold.h"
+#include "view/news.h"
+#include "view/options.h"
+#include "view/status.h"
 
 namespace roam::app {
 
-/// Watches the body, offers a size that would help where it is stopped, and keeps what was taken beside the scene.
+/// Watches the body, offers a size that helps where it is stopped, and keeps accepted sizes beside the scene. Needs no
+/// window. All members belong to one thread.
 class Learning {
  public:
-  /// `known`: what is known of the scene, or its identity and the body that roams there. What is learned is saved to
-  /// `file`; an empty one: nowhere. `takes`: without being told.
-  Learning(Profile known, std::filesystem::path file, bool takes);
+  /// What is learned goes on from the plan's profile. Without one it is kept for `scene` and the manipulator's body,
+  /// unless the options forbid it, or the scene has a profile of another body.
+  Learning(const ViewOptions& options, const ViewPlan& plan, const SceneIdentity& scene, osgRoam::Manipulator& roamer,
+           News& news);
 
   /// After each step, see SizeLearner::watch.
-  void watch(const Walker& walker, const Vec3& wish, double seconds);
+  void watch(const Vec3& wish, double seconds);
+  /// The person accepts the present offer, if there is one.
+  void accept() { accepted_ = true; }
+  /// Between two frames: gives the walker what is accepted, and saves it.
+  void update();
+  /// Gives accepted sizes to a new walker.
+  void resize();
 
-  /// What the body could be, for the display: "Y: a body of 0.33 m here (opening 0.68 m wide)". Empty: nothing, or it
-  /// is taken anyway.
-  [[nodiscard]] std::string offer(const std::string& key) const;
-
-  struct Taken {
-    Told told;
-    bool placed = false;  ///< the body was put elsewhere
-  };
-  /// Between two frames: gives the walker what is offered, if it is to be taken or was `asked` for, and saves it.
-  /// Nothing when nothing was taken.
-  [[nodiscard]] std::optional<Taken> take(Walker& walker, bool asked);
-
-  [[nodiscard]] const Profile& profile() const { return learner_.profile(); }
-  /// How many lessons were taken.
+  /// Adds the offer to what holds the body: "Y takes it: opening 0.68 m wide: a body of 0.33 m here".
+  void fill(Status& status) const;
+  /// How many sizes were accepted.
   [[nodiscard]] int taken() const { return taken_; }
 
  private:
+  void take(const Lesson& lesson);
+
+  osgRoam::Manipulator& roamer_;
+  News& news_;
   SizeLearner learner_;
-  std::filesystem::path file_;
-  bool takes_;
+  std::filesystem::path file_;  ///< empty: nothing is saved
+  bool takes_;                  ///< every offer
+  bool accepted_ = false;
   std::optional<Lesson> lesson_;
   double seconds_free_ = 0.0;  ///< since the body was stopped last
   int taken_ = 0;

@@ -39,6 +39,7 @@ struct ViewOptions {
   bool keys = false;
   bool no_profile = false;
   bool adapt = false;
+  std::filesystem::path program;  ///< no option: roam, which builds stores; empty: the running program
 
   /// Adds all of them to a verb.
   void add_to(CLI::App& verb);

@@ -21,11 +21,22 @@ Vec3 view_direction(const std::array<double, 4>& q) {
 }  // namespace
 
 Replay::Replay(Walker& walker, const std::vector<Waypoint>& path, const RouteOptions& options)
-    : walker_(&walker), path_(path), route_(walker, positions(path), options), mode_(walker.mode()) {}
+    : walker_(&walker),
+      path_(path),
+      route_(walker, positions(path), options),
+      speed_(options.speed),
+      mode_(walker.mode()) {}
 
 const StepReport* Replay::advance() {
   if (walker_->mode() != mode_) left_ = true;
   return done() ? nullptr : &route_.advance();
+}
+
+Vec3 Replay::wish() const {
+  const std::size_t next = std::min(route_.result().waypoints, path_.size() - 1);
+  const Vec3 way = path_[next].position - walker_->position();
+  const double length = glm::length(way);
+  return length > 0.0 ? speed_ / length * way : Vec3(0.0);
 }
 
 Vec3 Replay::recorded_direction() const {
@@ -71,6 +82,12 @@ Replay::Gaze Replay::gaze(double seconds) {
     direction_ = glm::normalize(turned);
   }
   return {std::atan2(direction_->y, direction_->x), std::asin(std::clamp(direction_->z, -1.0, 1.0))};
+}
+
+void Replay::fill(ViewReport& report) const {
+  report.result = route_.result();
+  report.path_ended = ended();
+  report.waypoints = path_.size();
 }
 
 }  // namespace roam::app

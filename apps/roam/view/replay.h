@@ -7,6 +7,7 @@
 
 #include "roam/path_file.h"
 #include "roam/route.h"
+#include "view/view_report.h"
 
 namespace roam::app {
 
@@ -21,9 +22,11 @@ class Replay {
   /// The path has come to an end of its own: result() says to which.
   [[nodiscard]] bool ended() const { return route_.done(); }
   [[nodiscard]] const RouteResult& result() const { return route_.result(); }
-  [[nodiscard]] std::size_t waypoints() const { return path_.size(); }
   /// The person has changed the mode: the rest of the path is not gone.
   [[nodiscard]] bool left() const { return left_; }
+
+  /// The velocity towards the next waypoint, m/s; its length is only roughly right.
+  [[nodiscard]] Vec3 wish() const;
 
   /// Where to look, radians: as the path was recorded, else along the way ahead. Turns softly; `seconds` since last
   /// asked.
@@ -33,6 +36,8 @@ class Replay {
   };
   Gaze gaze(double seconds);
 
+  void fill(ViewReport& report) const;
+
  private:
   [[nodiscard]] Vec3 recorded_direction() const;
   [[nodiscard]] Vec3 direction_ahead() const;
@@ -40,6 +45,7 @@ class Replay {
   Walker* walker_;
   std::vector<Waypoint> path_;
   Route route_;
+  double speed_;
   Mode mode_;
   bool left_ = false;
   std::optional<Vec3> direction_;  ///< unit, of the gaze

@@ -43,6 +43,7 @@ void SceneGraph::attach(DisplayNode&& piece) {
 }
 
 void SceneGraph::update() {
+  state_ = loader_->state();
   while (std::optional<DisplayNode> piece = loader_->take()) attach(std::move(*piece));
   if (!report_) report_ = loader_->take_report();
 }

@@ -33,7 +33,8 @@ class SceneGraph {
   /// Before each frame.
   void update();
 
-  [[nodiscard]] LoadState state() const { return loader_->state(); }
+  /// How far the loading was before the last update(): if it was over, all pieces are in the graph.
+  [[nodiscard]] const LoadState& state() const { return state_; }
   /// Of what has come, in the scene's frame; empty at first.
   [[nodiscard]] const Box& bounds() const { return bounds_; }
   /// The graph is scene - origin; zero before the first piece.
@@ -58,6 +59,7 @@ class SceneGraph {
   osg::ref_ptr<osg::Group> group_;
   Arrival arrival_;
   osg::ref_ptr<osgUtil::IncrementalCompileOperation> compiler_;
+  LoadState state_;
   Box bounds_;
   Vec3 origin_{0.0};
   std::uint64_t pieces_ = 0;

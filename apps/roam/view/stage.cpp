@@ -65,6 +65,7 @@ Stage::Stage(const ViewOptions& options, const ViewPlan& plan)
   set_hud(plan.hud);
   viewer_->realize();
   if (options.fullscreen && !context_.headless) toggle_fullscreen();
+  if (!options.record.empty()) film_.emplace(*frame_, options.record);
 }
 
 TextureQuality Stage::texture_quality() const {
@@ -91,6 +92,10 @@ void Stage::set_hud(HudMode mode) {
   hud_->set_detail(detail(mode));
 }
 
+void Stage::cycle_hud() {
+  set_hud(hud_mode_ == HudMode::full ? HudMode::minimal : hud_mode_ == HudMode::minimal ? HudMode::off : HudMode::full);
+}
+
 void Stage::toggle_fullscreen() {
   if (context_.headless) return;
   osgViewer::GraphicsWindow& window = *context_.window;
@@ -112,8 +117,6 @@ void Stage::toggle_fullscreen() {
   fullscreen_ = !fullscreen_;
 }
 
-void Stage::start_film(const std::filesystem::path& path) { film_.emplace(*frame_, path); }
-
 void Stage::take_picture(const std::filesystem::path& path) {
   pictures_.emplace_back(*frame_, path, true, files::Naming::numbered);
 }
@@ -131,6 +134,27 @@ std::vector<Picture> Stage::poll_pictures() {
     return true;
   });
   return told;
+}
+
+void Stage::see_events(double seconds) {
+  if (!headless()) {
+    viewer_->advance();
+    viewer_->eventTraversal();
+    return;
+  }
+  viewer_->advance(seconds);
+  osgGA::EventQueue::Events events;
+  viewer_->getEventQueue()->takeEvents(events);
+  osg::ref_ptr<osgGA::GUIEventAdapter> tick =
+      new osgGA::GUIEventAdapter(*viewer_->getEventQueue()->getCurrentEventState());
+  tick->setEventType(osgGA::GUIEventAdapter::FRAME);
+  tick->setTime(seconds);
+  events.push_back(tick);
+  for (const auto& event : events) {
+    for (const auto& handler : viewer_->getEventHandlers()) handler->handle(event, nullptr, viewer_->getEventVisitor());
+    if (auto* const camera = viewer_->getCameraManipulator())
+      camera->handle(event, nullptr, viewer_->getEventVisitor());
+  }
 }
 
 void Stage::draw(double seconds) {

@@ -32,7 +32,7 @@ struct Picture {
 /// Opens a place to draw to and draws there. All of it belongs to one thread.
 class Stage {
  public:
-  /// Throws roam::Error when there is no display or no OpenGL; the message says what to do.
+  /// Throws roam::Error when there is no display or no OpenGL, or no film can be made; the message says what to do.
   Stage(const ViewOptions& options, const ViewPlan& plan);
 
   [[nodiscard]] osgViewer::Viewer& viewer() { return *viewer_; }
@@ -45,17 +45,20 @@ class Stage {
   /// Shows the lines and the message; changes nothing when they are what is shown.
   void show(const Status& status);
   void set_hud(HudMode mode);
-  [[nodiscard]] HudMode hud_mode() const { return hud_mode_; }
+  /// From full to minimal, off, and full again.
+  void cycle_hud();
   void toggle_fullscreen();
 
-  /// Starts a film. Throws roam::Error when it can not be made.
-  void start_film(const std::filesystem::path& path);
+  /// Of the options; none: nothing is filmed.
   [[nodiscard]] const std::optional<Film>& film() const { return film_; }
   /// Takes a picture of the next frame, to a numbered file; `poll_pictures` tells when it is written.
   void take_picture(const std::filesystem::path& path);
   /// The pictures that are done since last asked.
   [[nodiscard]] std::vector<Picture> poll_pictures();
 
+  /// Lets all handlers see the events of a frame. Headless, the time is `seconds` since the session began, so that a
+  /// session is the same on every machine; in a window it is that of the clock.
+  void see_events(double seconds);
   /// Updates and draws one frame. `seconds` since the session began. Events must have been seen to.
   void draw(double seconds);
   /// Draws one frame into a file and waits for it. Throws roam::Error when it can not be written.

@@ -34,8 +34,6 @@ double share_of(const LoadState& state) {
   }
 }
 
-bool is_over(const LoadState& state) { return state.phase == Phase::done || state.phase == Phase::failed; }
-
 std::string body_text(const Status& status) {
   const WalkerSettings& body = status.body;
   std::string text = body.height > 2.0 * body.radius

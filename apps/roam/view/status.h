@@ -24,6 +24,10 @@ struct LoadState {
   std::string error;            ///< of a failed one
 };
 
+[[nodiscard]] inline bool is_over(const LoadState& state) {
+  return state.phase == LoadState::Phase::done || state.phase == LoadState::Phase::failed;
+}
+
 struct Status {
   std::optional<Mode> mode;  ///< none: no body yet
   double speed = 0.0;        ///< m/s, now

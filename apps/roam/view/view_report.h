@@ -6,11 +6,13 @@
 #include <string>
 #include <vector>
 
+#include "cli/histogram.h"
 #include "cli/report.h"
 #include "roam/pager.h"
 #include "roam/route.h"
 #include "verify/piece_log.h"
 #include "view/pose.h"
+#include "view/walk_log.h"
 
 namespace roam::app {
 
@@ -20,6 +22,9 @@ struct Times {
   double p99 = 0.0;
   double max = 0.0;
 };
+
+/// `scale`: of the histogram's unit.
+[[nodiscard]] Times times(const Histogram& histogram, double scale);
 
 struct ViewReport {
   std::string scene;
@@ -60,6 +65,12 @@ struct ViewReport {
   verification::PieceLog pieces;     ///< for --verify
   std::optional<verification::Verification> verified;
 };
+
+/// Adds the steps, and gives away the pieces for --verify.
+void add_steps(ViewReport& report, WalkLog& log);
+
+/// Appends the sentences of `more` that are not in `all`.
+void append(std::vector<std::string>& all, const std::vector<std::string>& more);
 
 [[nodiscard]] Json json_report(const ViewReport& report);
 [[nodiscard]] std::string text_report(const ViewReport& report);

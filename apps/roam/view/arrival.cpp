@@ -1,0 +1,220 @@
+#include "view/arrival.h"
+
+#include <fmt/format.h>
+
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
+#include <utility>
+
+#include "cli/tell.h"
+#include "roam/error.h"
+#include "view/body.h"
+#include "view/commands.h"
+
+namespace roam::app {
+namespace {
+
+constexpr double failure_period = 10.0;    // s: not every tile that fails is news
+constexpr std::size_t most_failures = 20;  // that the report names
+
+CollisionWish wish_for(const ViewOptions& options, const ViewPlan& plan, std::uint64_t store_memory) {
+  CollisionWish wish;
+  wish.keep_meshes = options.verify;
+  if (plan.at) {
+    wish.place = plan.at->position;
+  } else if (!plan.path.empty()) {
+    wish.place = plan.path.front().position;
+  }
+  wish.memory = store_memory;
+  wish.walker = plan.walker;
+  wish.mode = plan.mode;
+  return wish;
+}
+
+}  // namespace
+
+Arrival::Arrival(const ViewOptions& options, const ViewPlan& plan, const SceneAndStore& what,
+                 osgRoam::Manipulator& roamer, News& news)
+    : plan_(plan),
+      scene_names_(what.scene.names()),
+      needs_collision_(!options.path.empty() || options.verify),
+      roamer_(roamer),
+      news_(news),
+      loader_(what, wish_for(options, plan, what.store_memory)) {}
+
+bool Arrival::receive(const Seen& seen) {
+  const LoadState state = loader_.state();
+  if (!is_over(state)) return false;
+  const bool failed = state.phase == LoadState::Phase::failed;
+  if (failed && seen.state.phase == LoadState::Phase::failed) throw Error(seen.state.error);
+  // The graph's origin is known with its first piece; without any, collision and eye have no graph to agree with.
+  if (!seen.has_pieces && !is_over(seen.state)) return false;
+  roamer_.setOrigin({seen.origin.x, seen.origin.y, seen.origin.z});
+  if (failed) {
+    place_ghost(seen, state.error);
+    return true;
+  }
+  loaded_ = loader_.take();
+  if (plan_.profile) {
+    demand_belongs(*plan_.profile, loaded_->identity, scene_names_);
+    app::tell(describe(*plan_.profile));
+  }
+  Mode mode = plan_.mode;
+  if (loaded_->start) {
+    start_ = loaded_->start->pose;
+    mode = loaded_->start->mode;
+    if (!loaded_->start->note.empty()) news_.note(loaded_->start->note);
+  } else {
+    start_ = plan_.at ? *plan_.at : Pose{plan_.path.front().position, 0.0, 0.0};
+  }
+  roamer_.setMode(mode);
+  pager_ = loaded_->pager;
+  if (pager_) {
+    roamer_.setSpace(pager_);
+  } else {
+    roamer_.setSpace(std::shared_ptr<const Space>(loaded_->world));
+  }
+  return true;
+}
+
+void Arrival::place_ghost(const Seen& seen, const std::string& why) {
+  if (needs_collision_) {
+    throw Error(fmt::format("the collision could not be loaded: {}{}", why,
+                            loader_.wants_store() ? "; a store of it (roam build) takes little memory" : ""));
+  }
+  news_.note(fmt::format("the collision could not be loaded, so walls are passed through: {}", why));
+  // An empty space has nothing to stand on.
+  collision_keys_ = roamer_.controls().text();
+  roamer_.controls().rebind("gravity =\nghost =");
+  roamer_.setMode(Mode::ghost);
+  roamer_.setSpace(std::make_shared<const World>());
+  start_ = plan_.at.value_or(seen.overview);
+}
+
+void Arrival::enter() {
+  go_to(roamer_, *start_);
+  tell_where_put();
+  const WalkerSettings& body = roamer_.settings();
+  roamer_.setHomePose(start_->position + Vec3(0.0, 0.0, body.eye - 0.5 * body.height), glm::radians(start_->yaw),
+                      glm::radians(start_->pitch));
+  placed_ = true;
+}
+
+/// A person who asked for a place is told when the body does not fit there and begins elsewhere.
+void Arrival::tell_where_put() {
+  if (!plan_.at || is_ghost_only() || roamer_.walker() == nullptr || roamer_.held()) return;
+  const Vec3& at = plan_.at->position;
+  const double apart = glm::distance(standing_pose_of(roamer_).position, at);
+  if (apart < 0.5 * roamer_.settings().radius) return;
+  news_.note(fmt::format("The body does not fit at {:.2f}, {:.2f}, {:.2f}: it begins {:.2f} m away.", at.x, at.y, at.z,
+                         apart));
+}
+
+void Arrival::change_to(std::shared_ptr<Pager> pager) {
+  if (is_ghost_only()) roamer_.controls().rebind(std::exchange(collision_keys_, {}));
+  auto before = std::exchange(pager_, std::move(pager));
+  roamer_.setSpace(pager_);
+  news_.tell(fmt::format("the walls come from {} now", pager_->store().name()));
+  std::shared_ptr<const World> world;
+  if (loaded_) {
+    loaded_->pager.reset();
+    world = std::exchange(loaded_->world, nullptr);
+  }
+  // Freeing gigabytes takes longer than a frame, and so may the end of what a pager is reading.
+  freeing_ = std::async(std::launch::async, [world = std::move(world), before = std::move(before)]() mutable {
+    world.reset();
+    before.reset();
+  });
+}
+
+void Arrival::wait_for_tiles(double seconds) {
+  const Walker& walker = *roamer_.walker();
+  if (pager_) pager_->wait(walker.body(), walker.position(), walker.velocity(), seconds);
+}
+
+void Arrival::watch_footing(const StepReport& report, double seconds) {
+  const Walker& walker = *roamer_.walker();
+  if (walker.mode() != Mode::walk || roamer_.piloted()) return;
+  if (report.put_back) {
+    without_ground_ = walker.held();
+  } else if (seconds <= 0.0 && !walker.held()) {
+    without_ground_ = !report.grounded && !is_ground_below();
+  } else if (report.grounded) {
+    without_ground_ = false;
+  }
+}
+
+/// Whether a body that falls from here comes down on something.
+bool Arrival::is_ground_below() const {
+  const Walker& walker = *roamer_.walker();
+  const Box box = walker.space().bounds();
+  if (box.empty()) return false;
+  const double drop = walker.position().z - box.lower.z + walker.settings().height;
+  return drop > 0.0 && walker.space().sweep(walker.body(), walker.position(), {0.0, 0.0, -drop}).hit;
+}
+
+void Arrival::fly_without_ground() {
+  if (!std::exchange(without_ground_, false)) return;
+  roamer_.setMode(Mode::fly);
+  const std::string key = key_of(roamer_.controls(), "gravity");
+  news_.note("There is nothing below to stand on: flying." + (key.empty() ? key : " " + key + " walks again."));
+}
+
+void Arrival::note_failures(double now) {
+  if (!pager_) return;
+  const std::string failure = pager_->stats().last_failure;
+  if (failure.empty() || failure == failure_told_) return;
+  if (now - failure_told_at_ < failure_period || news_.notes().size() > most_failures) return;
+  failure_told_ = failure;
+  failure_told_at_ = now;
+  news_.note(failure + "; it is solid");
+}
+
+void Arrival::fill(Status& status) const {
+  status.collision = loader_.state();
+  if (pager_) {
+    status.paging = pager_->stats();
+    status.triangles = pager_->store().info().triangles;
+    status.world_bytes = status.paging->memory;
+  } else if (loaded_) {
+    status.triangles = loaded_->triangles;
+    status.world_bytes = loaded_->world->stats().bytes;
+  }
+}
+
+void Arrival::fill(ViewReport& report) {
+  if (plan_.profile) report.profile = plan_.profile->file.string();
+  report.settings = roamer_.settings();
+  report.mode = roamer_.mode();
+  report.roamed = placed_;
+  if (placed_) {
+    report.end = pose_of(roamer_);
+    report.eye = roamer_.eye();
+  }
+  report.start = start_;
+  if (pager_) {
+    report.store = pager_->store().name();
+    report.paging = pager_->stats();
+  }
+  if (report.result && report.result->blocked_at) name_blockage(report);
+  if (!loaded_) return;
+  append(report.notes, loaded_->report.notes);
+  report.meshes = std::move(loaded_->meshes);
+}
+
+void Arrival::name_blockage(ViewReport& report) const {
+  Blockage& blockage = *report.result->blocked_at;
+  if (!pager_ || report.result->outcome == Outcome::held) {
+    report.object = roamer_.space()->object_name(blockage.triangle);
+    return;
+  }
+  try {
+    const SourceTriangle source = pager_->store().source(blockage.triangle);
+    report.object = source.object;
+    blockage.triangle = source.scene;
+  } catch (const Error& error) {
+    report.notes.emplace_back(error.what());
+  }
+}
+
+}  // namespace roam::app

@@ -1,0 +1,148 @@
+#include "view/build_process.h"
+
+#include <fmt/format.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <future>
+#include <utility>
+
+#include "cli/report.h"
+#include "process/child.h"
+#include "process/find_program.h"
+#include "process/lines.h"
+#include "roam/error.h"
+#include "scenes/beside_scene.h"
+#include "view/collision_loader.h"
+
+namespace roam::app {
+namespace {
+
+using namespace std::chrono_literals;
+
+/// A child that this thread starts gives way to all others.
+void give_way() {
+  constexpr int nicer = 5;
+  // Not more: without a graphics card, drawing takes all cores. Where it is forbidden, only smoothness is lost.
+  (void)::setpriority(PRIO_PROCESS, static_cast<id_t>(::gettid()), nicer);
+}
+
+double share(std::uint64_t done, std::uint64_t total) {
+  return total > 0 ? std::min(1.0, static_cast<double>(done) / static_cast<double>(total)) : 0.0;
+}
+
+/// How far the phase is, for the display.
+LoadState state_of(const Json& progress) {
+  const auto number = [&](const char* name) { return progress.at(name).get<std::uint64_t>(); };
+  const std::string step = progress.at("step");
+  LoadState state;
+  state.phase = step == "read" ? LoadState::Phase::reading : LoadState::Phase::indexing;
+  state.share = step == "read"     ? share(number("bytes_done"), number("bytes_total"))
+                : step == "shards" ? share(number("triangles_done"), number("triangles_total"))
+                : step == "merge"  ? 1.0
+                                   : 0.0;
+  state.triangles = number("triangles_done");
+  return state;
+}
+
+StoreBuildReport report_of(const Json& json) {
+  StoreBuildReport report;
+  report.triangles = json.at("triangles");
+  report.parts = json.at("parts");
+  report.parts_read = json.at("parts_read");
+  report.notes = json.at("notes");
+  report.store.hash = json.at("hash");
+  return report;
+}
+
+/// Why the child failed, in its own words if it has any.
+std::string reason(const process::Child& child) {
+  constexpr std::string_view prefix = "roam: ";
+  std::string words = child.last_words();
+  if (words.starts_with(prefix)) words.erase(0, prefix.size());
+  if (!words.empty()) return words;
+  const process::Ending& ending = child.ending();
+  return ending.signal != 0 ? fmt::format("`roam build` was ended by signal {}", ending.signal)
+                            : fmt::format("`roam build` ended with status {}", ending.exit_code);
+}
+
+}  // namespace
+
+BuildProcess::BuildProcess(std::filesystem::path program, const SceneAndStore& what, const WalkerSettings& walker,
+                           const Vec3& place)
+    : program_(program.empty() ? process::own_program() : std::move(program)),
+      what_(what),
+      output_(store_place(what)),
+      walker_(walker),
+      place_(place),
+      loading_([this] { load(); }) {}
+
+void BuildProcess::follow(const Vec3& place) {
+  loading_.with_state([&](const LoadState&) { place_ = place; });
+}
+
+Vec3 BuildProcess::place() {
+  return loading_.with_state([this](const LoadState&) { return place_; });
+}
+
+BuildProcess::Built BuildProcess::take() {
+  return loading_.with_state([this](const LoadState&) { return std::move(built_); });
+}
+
+StoreBuildReport BuildProcess::build() {
+  const Vec3 near = place();
+  std::vector<std::string> arguments{"build", "--json-lines", fmt::format("--near={},{},{}", near.x, near.y, near.z)};
+  // A store beside the scene is not named, so that the builder refuses a link there.
+  if (!what_.store.empty()) arguments.push_back("--output=" + output_.string());
+  SceneOptions scene = what_.scene;
+  scene.threads = work_threads(scene.threads);
+  for (std::string& argument : scene.arguments()) arguments.push_back(std::move(argument));
+
+  process::Lines lines;
+  process::Child child(program_, arguments, {.descriptors = {{lines.theirs(), STDOUT_FILENO}}});
+  lines.child_has_started();
+  std::optional<StoreBuildReport> report;
+  while (!lines.ended()) {
+    if (!loading_.wanted()) {
+      child.end();
+      throw Cancelled();
+    }
+    const std::optional<std::string> line = lines.next(50ms);
+    if (!line) continue;
+    const Json json = Json::parse(*line);
+    if (json.contains("step")) {
+      const LoadState state = state_of(json);
+      loading_.tell(state.phase, state.share, state.triangles);
+    } else {
+      report = report_of(json);
+    }
+  }
+  if (!child.wait(process::Child::usual_grace)) child.end();
+  if (!report || !child.ending().is_success()) throw Error(reason(child));
+  return *report;
+}
+
+void BuildProcess::load() {
+  // In a thread of its own: those of the pager, which inherit from this one, must not give way.
+  const StoreBuildReport report = std::async(std::launch::async, [this] {
+                                    give_way();
+                                    return build();
+                                  }).get();
+  loading_.tell(LoadState::Phase::looking, 0.0, report.triangles);
+  std::shared_ptr<const Store> store = Store::open(output_);
+  if (store->info().hash != report.store.hash) {
+    throw Error(fmt::format("{} is not what was built just now: another store has taken its place; build again",
+                            output_.string()));
+  }
+  auto pager = std::make_shared<Pager>(std::move(store), PagerOptions{.memory = what_.store_memory});
+  wait_at(*pager, walker_, place(), [this] { return loading_.wanted(); });
+  loading_.with_state([&](LoadState& state) {
+    state = {};
+    state.phase = LoadState::Phase::done;
+    state.share = 1.0;
+    built_ = {std::move(pager), told_notes(report, output_)};
+  });
+}
+
+}  // namespace roam::app

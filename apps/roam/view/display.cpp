@@ -1,0 +1,172 @@
+#include "view/display.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
+#include <osgUtil/IntersectionVisitor>
+#include <sstream>
+#include <utility>
+
+#include "osgRoam/BoxIntersector.h"
+#include "osgroam/vectors.h"
+#include "view/body.h"
+#include "view/learning.h"
+#include "view/start.h"
+
+namespace roam::app {
+namespace {
+
+constexpr double period = 0.1;        // s: nobody reads faster
+constexpr double speed_time = 0.2;    // s over which the speed that is shown is a mean
+constexpr double marks_reach = 0.25;  // m from the body's surface: what is nearer is drawn
+constexpr std::size_t most_triangles = 2000;
+
+/// The triangles of the graph that are near the body.
+std::vector<std::array<Vec3, 3>> triangles_near(osg::Node& graph, const Body& body, const Vec3& place) {
+  const Body wider = Body::capsule(body.radius + marks_reach, body.height() + 2.0 * marks_reach);
+  const osg::Vec3d at = osgRoam::to_osg(place);
+  const osg::ref_ptr<osgRoam::BoxIntersector> box = new osgRoam::BoxIntersector(wider, at, at);
+  box->setGatherCandidates(true);
+  osgUtil::IntersectionVisitor visitor(box);
+  graph.accept(visitor);
+  std::vector<std::array<Vec3, 3>> near;
+  for (const auto& candidate : box->getCandidates()) {
+    if (proximity(body, place, candidate.triangle).distance > marks_reach) continue;
+    near.push_back(candidate.triangle);
+    if (near.size() == most_triangles) break;
+  }
+  return near;
+}
+
+}  // namespace
+
+Display::Display(Stage& stage, SceneGraph& scene, osgRoam::Manipulator& roamer, News& news, double fov)
+    : stage_(stage), scene_(scene), roamer_(roamer), news_(news), fov_(fov) {}
+
+void Display::watch(const StepReport& report, const Vec3& wish) {
+  if (report.elapsed > 0.0) {
+    const double share = std::min(1.0, report.elapsed / speed_time);
+    speed_ += share * (glm::distance(report.from, report.to) / report.elapsed - speed_);
+  } else {
+    speed_ = 0.0;
+  }
+  if (roamer_.walker() == nullptr) return;
+  hold_.take(*roamer_.walker(), wish, report.elapsed, shown_.paging && shown_.paging->failed > 0);
+}
+
+void Display::tell_news() {
+  if (!display_told_ && scene_.state().phase == LoadState::Phase::failed) {
+    display_told_ = true;
+    news_.note(fmt::format("{} of the scene can be seen, its walls are there all the same: {}",
+                           scene_.has_pieces() ? "not all" : "nothing", scene_.state().error));
+  }
+  if (!display_told_ && scene_.report()) {
+    display_told_ = true;
+    for (const auto& sentence : scene_.report()->notes) news_.note(sentence);
+    for (const auto& sentence : scene_.report()->import.notes) news_.note(sentence);
+  }
+  if (scene_.missing_pages() > pages_told_) {
+    pages_told_ = scene_.missing_pages();
+    news_.note(fmt::format("{} page{} of the scene could not be read: coarser ones are shown there ({})", pages_told_,
+                           pages_told_ == 1 ? "" : "s", scene_.page_problem()));
+  }
+  for (const Picture& picture : stage_.poll_pictures()) {
+    if (picture.problem.empty()) {
+      news_.written(picture.file);
+    } else {
+      news_.note(picture.problem);
+    }
+  }
+}
+
+bool Display::is_due(double now) const { return shown_at_ < 0.0 || now - shown_at_ >= period; }
+
+Status Display::status(bool has_body) {
+  Status s;
+  s.display = scene_.state();
+  s.resident = resident_bytes();
+  s.frame_ms = stage_.last_frame_ms();
+  s.news = news_.shown();
+  if (!roamer_.problem().empty()) s.news.push_back({roamer_.problem(), true});
+  if (!has_body) return s;
+  const Walker& walker = *roamer_.walker();
+  const Pose at = pose_of(roamer_);
+  s.mode = roamer_.mode();
+  s.body = walker.settings();
+  s.size_reason = size_reason(walker);
+  s.crouched = walker.crouched();
+  s.grounded = walker.grounded();
+  s.place = at.position;
+  s.yaw = at.yaw;
+  s.pitch = at.pitch;
+  s.pace = roamer_.speed();
+  s.speed = speed_;
+  s.collision_us = static_cast<double>(roamer_.collisionNanoseconds()) * 1e-3;
+  s.hold = hold_.told();
+  return s;
+}
+
+void Display::show(Status status, double now) {
+  shown_ = std::move(status);
+  shown_at_ = now;
+  stage_.show(shown_);
+}
+
+double Display::aspect() const {
+  return static_cast<double>(stage_.frame().width()) / std::max(stage_.frame().height(), 1);
+}
+
+void Display::update(bool has_body, double room) {
+  graphics::Frame& frame = stage_.frame();
+  const double near = graphics::near_limit(room, frame.vertical_fov(), aspect());
+  if (near != frame.near()) frame.set_near(near);
+  graphics::Marks marks;
+  if (marks_ && has_body) {
+    const Walker& walker = *roamer_.walker();
+    const Vec3 place = walker.position() - scene_.origin();
+    marks.body = graphics::BodyMark{place, walker.settings().radius, walker.report().height, walker.held()};
+    for (const Contact& contact : walker.report().contacts) {
+      if (!contact.unknown) marks.contacts.push_back({contact.point - scene_.origin(), contact.normal});
+    }
+    marks.triangles = triangles_near(scene_.group(), walker.body(), place);
+  }
+  stage_.overlay().set_marks(marks);
+}
+
+Pose Display::overview() const {
+  const double across = 2.0 * glm::degrees(std::atan(std::tan(0.5 * glm::radians(fov_)) * aspect()));
+  return app::overview(scene_.bounds(), std::min(fov_, across));
+}
+
+void Display::look_from_above() {
+  const Pose pose = overview();
+  const double yaw = glm::radians(pose.yaw), pitch = glm::radians(pose.pitch);
+  const Vec3 ahead(std::cos(yaw) * std::cos(pitch), std::sin(yaw) * std::cos(pitch), std::sin(pitch));
+  const osg::Vec3d from = osgRoam::to_osg(pose.position - scene_.origin());
+  stage_.viewer().getCamera()->setViewMatrixAsLookAt(from, from + osgRoam::to_osg(ahead), osg::Vec3d(0, 0, 1));
+}
+
+void Display::fill(ViewReport& report) {
+  report.triangles = shown_.triangles;
+  report.world_bytes = shown_.world_bytes;
+  report.resident_bytes = resident_bytes();
+  report.frames = stage_.frame_times().count();
+  constexpr double ns_in_ms = 1e-6;
+  report.frame_ms = times(stage_.frame_times(), ns_in_ms);
+  report.renderer = stage_.frame().describe();
+  std::istringstream hud(stage_.hud().text());
+  for (std::string line; std::getline(hud, line);) report.hud.push_back(line);
+  report.missing_pages = scene_.missing_pages();
+  if (!scene_.report()) return;
+  const DisplayReport& display = *scene_.report();
+  append(report.notes, display.notes);
+  append(report.notes, display.import.notes);
+  report.missing_textures = display.missing_textures;
+  report.missing_texture_files = display.missing_texture_files;
+  report.missing_pages += display.import.missing_pages;
+}
+
+}  // namespace roam::app

@@ -1,0 +1,65 @@
+#pragma once
+/// \file
+/// What a session shows beside the scene: the head-up display, the marks, the picture before there is a body.
+
+#include "osgRoam/Manipulator.h"
+#include "view/news.h"
+#include "view/scene_graph.h"
+#include "view/stage.h"
+#include "view/status.h"
+#include "view/view_report.h"
+
+namespace roam::app {
+
+/// Watches the body and the scene's graph, and says how they are. All members belong to the thread that draws, between
+/// two frames.
+class Display {
+ public:
+  /// `fov`: of the picture's height, in degrees.
+  Display(Stage& stage, SceneGraph& scene, osgRoam::Manipulator& roamer, News& news, double fov);
+
+  /// After each step: `wish` is the velocity that was wished for (m/s).
+  void watch(const StepReport& report, const Vec3& wish);
+  /// Shows or hides the body, what it touches, and the nearest triangles.
+  void toggle_marks() { marks_ = !marks_; }
+
+  /// In each frame: says what of the scene cannot be loaded, and which pictures are written.
+  void tell_news();
+  /// Whether it is time to show() again. `now`: s since the session began.
+  [[nodiscard]] bool is_due(double now) const;
+  /// Shows the next frame's status at once.
+  void hurry() { shown_at_ = -1.0; }
+  /// What this object knows. `has_body`: a walker is in the scene.
+  [[nodiscard]] Status status(bool has_body);
+  /// Shows `status` until it is due again.
+  void show(Status status, double now);
+  /// What was shown last.
+  [[nodiscard]] const Status& shown() const { return shown_; }
+
+  /// In each frame: draws the marks, and fits the near plane to `room`, the eye's distance from every wall (m).
+  void update(bool has_body, double room);
+  /// From where all of the scene is seen.
+  [[nodiscard]] Pose overview() const;
+  /// Looks from there.
+  void look_from_above();
+
+  void fill(ViewReport& report);
+
+ private:
+  [[nodiscard]] double aspect() const;
+
+  Stage& stage_;
+  SceneGraph& scene_;
+  osgRoam::Manipulator& roamer_;
+  News& news_;
+  double fov_;
+  Hold hold_;
+  double speed_ = 0.0;  ///< m/s, of the body, a mean
+  bool marks_ = false;
+  Status shown_;
+  double shown_at_ = -1.0;  ///< s
+  bool display_told_ = false;
+  std::uint64_t pages_told_ = 0;
+};
+
+}  // namespace roam::app

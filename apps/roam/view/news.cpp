@@ -1,0 +1,59 @@
+#include "view/news.h"
+
+#include <algorithm>
+#include <string_view>
+#include <utility>
+
+#include "text/printable.h"
+
+namespace roam::app {
+namespace {
+
+constexpr double least_seconds = 6.0;
+constexpr double letter_seconds = 0.07;  // to read a long sentence
+constexpr std::size_t most_items = 4;    // lines at a time
+
+void erase_where_a_path_begins(std::string& text, const std::string& folder) {
+  for (std::size_t at = text.find(folder); at != std::string::npos; at = text.find(folder, at)) {
+    const bool begins = at == 0 || std::string_view(" '\"(`").find(text[at - 1]) != std::string_view::npos;
+    if (begins) {
+      text.erase(at, folder.size());
+    } else {
+      ++at;
+    }
+  }
+}
+
+}  // namespace
+
+void News::tell(std::string sentence, bool warning) {
+  for (const auto& scene : scenes_) {
+    for (const auto& path : {std::filesystem::absolute(scene), scene}) {
+      const std::string folder = path.parent_path().string() + "/";
+      if (folder != "/") erase_where_a_path_begins(sentence, folder);
+    }
+  }
+  sentence = printable(sentence, longest_sentence);
+  const double seconds = std::max(least_seconds, letter_seconds * static_cast<double>(sentence.size()));
+  items_.push_back({{std::move(sentence), warning}, now_ + seconds});
+  if (items_.size() > most_items) items_.erase(items_.begin());
+}
+
+void News::note(const std::string& sentence) {
+  tell(sentence, true);
+  if (std::find(notes_.begin(), notes_.end(), sentence) == notes_.end()) notes_.push_back(sentence);
+}
+
+void News::written(const std::filesystem::path& file) {
+  tell("written: " + file.string());
+  files_.push_back(file.string());
+}
+
+std::vector<Told> News::shown() {
+  std::erase_if(items_, [&](const Item& item) { return item.until < now_; });
+  std::vector<Told> told;
+  for (const Item& item : items_) told.push_back(item.told);
+  return told;
+}
+
+}  // namespace roam::app

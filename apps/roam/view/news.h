@@ -1,0 +1,46 @@
+#pragma once
+/// \file
+/// What a session says to the person, and what of it the report keeps.
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "view/hold.h"
+
+namespace roam::app {
+
+/// Sentences, each shown long enough to be read. Not thread-safe.
+class News {
+ public:
+  /// Sentences leave out the folders of these scenes: the person knows where they are.
+  explicit News(std::vector<std::filesystem::path> scenes) : scenes_(std::move(scenes)) {}
+
+  /// The present time, in s; never less than before.
+  void set_time(double seconds) { now_ = seconds; }
+  /// Shows a sentence for some seconds.
+  void tell(std::string sentence, bool warning = false);
+  /// Shows a warning, and keeps it for the report.
+  void note(const std::string& sentence);
+  /// Shows that a file was written, and keeps its name for the report.
+  void written(const std::filesystem::path& file);
+
+  /// The sentences to show now.
+  [[nodiscard]] std::vector<Told> shown();
+  /// All warnings, each once.
+  [[nodiscard]] const std::vector<std::string>& notes() const { return notes_; }
+  [[nodiscard]] const std::vector<std::string>& files() const { return files_; }
+
+ private:
+  struct Item {
+    Told told;
+    double until = 0.0;  ///< s
+  };
+  std::vector<std::filesystem::path> scenes_;
+  double now_ = 0.0;
+  std::vector<Item> items_;
+  std::vector<std::string> notes_;
+  std::vector<std::string> files_;
+};
+
+}  // namespace roam::app

@@ -1,0 +1,85 @@
+#include "view/records.h"
+
+#include <fmt/format.h>
+
+#include "cli/exit_status.h"
+#include "roam/error.h"
+#include "view/body.h"
+#include "view/commands.h"
+#include "view/settings.h"
+
+namespace roam::app {
+
+namespace {
+
+/// "; B keeps one", with the key that does so; empty if none does.
+std::string remedy(const osgRoam::Manipulator& roamer) {
+  const std::string key = key_of(roamer.controls(), "bookmark");
+  return key.empty() ? key : fmt::format("; {} keeps one", key);
+}
+
+}  // namespace
+
+Records::Records(const SceneOptions& scene, osgRoam::Manipulator& roamer, News& news) : roamer_(roamer), news_(news) {
+  const std::filesystem::path folder = settings_folder();
+  try {
+    bookmarks_.emplace(folder.empty() ? folder : folder / "bookmarks.json", scene.scenes, scene.up, scene.unit);
+  } catch (const Error& error) {
+    problem_ = error.what();
+    news_.note(problem_);
+  }
+}
+
+Pose Records::named(const std::string& name) {
+  if (!bookmarks_) throw Error(problem_);
+  if (const Bookmark* found = bookmarks_->find(name)) return found->pose;
+  throw UsageError(
+      fmt::format("--bookmark {}: this scene has {}", name,
+                  bookmarks_->all().empty() ? "no bookmarks" + remedy(roamer_) : "these: " + bookmarks_->names()));
+}
+
+void Records::add_bookmark() {
+  if (!bookmarks_) throw Error(problem_);
+  news_.tell("bookmark " + bookmarks_->add(standing_pose_of(roamer_)).name);
+}
+
+void Records::go_to_next_bookmark(bool backwards) {
+  const Bookmark* bookmark = bookmarks_ ? bookmarks_->next(backwards) : nullptr;
+  if (bookmark == nullptr) {
+    news_.tell("this scene has no bookmarks yet" + remedy(roamer_));
+    return;
+  }
+  go_to(roamer_, bookmark->pose);
+  news_.tell("bookmark " + bookmark->name);
+}
+
+void Records::record(const std::filesystem::path& file, files::Naming naming) {
+  recorder_.emplace(file, roamer_.settings(), roamer_.mode(), naming);
+}
+
+void Records::toggle_recording() {
+  if (recorder_) {
+    finish();
+  } else {
+    record("roam.path", files::Naming::numbered);
+  }
+}
+
+void Records::add_frame(double now) {
+  if (!recorder_) return;
+  const osg::Quat q = roamer_.getMatrix().getRotate();
+  recorder_->add(now, roamer_.walker()->position(), {q.x(), q.y(), q.z(), q.w()}, roamer_.mode());
+}
+
+void Records::finish() {
+  if (!recorder_) return;
+  news_.written(recorder_->close());
+  recorder_.reset();
+}
+
+void Records::fill(Status& status) const {
+  if (!recorder_) return;
+  status.recording = fmt::format("{:.0f} s", recorder_->seconds());
+}
+
+}  // namespace roam::app

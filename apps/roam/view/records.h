@@ -1,0 +1,51 @@
+#pragma once
+/// \file
+/// What a person keeps of a session: the recorded path and bookmarks.
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "osgRoam/Manipulator.h"
+#include "scenes/scene_options.h"
+#include "view/bookmarks.h"
+#include "view/news.h"
+#include "view/path_recorder.h"
+#include "view/status.h"
+
+namespace roam::app {
+
+/// Records the way of the body, and keeps places. Needs no window. All members belong to one thread, between two
+/// frames; what records or keeps a place needs a walker.
+class Records {
+ public:
+  /// Reads the scene's bookmarks from settings_folder(); a warning says why they cannot be read.
+  Records(const SceneOptions& scene, osgRoam::Manipulator& roamer, News& news);
+
+  /// The place of that name. Throws roam::Error if the bookmarks cannot be read, UsageError if there is no such name.
+  [[nodiscard]] Pose named(const std::string& name);
+  /// Keeps where the body is. Throws roam::Error if that cannot be done.
+  void add_bookmark();
+  /// Puts the body to the next bookmark, or the one before; first to the first, or the last.
+  void go_to_next_bookmark(bool backwards);
+
+  /// Begins to record the way. Throws roam::Error if the file cannot be written.
+  void record(const std::filesystem::path& file, files::Naming naming = files::Naming::exact);
+  /// Ends the recording, or begins one in the current folder under a new name.
+  void toggle_recording();
+  /// In each frame with a body. `now`: s since the session began.
+  void add_frame(double now);
+  /// Ends the recording, if there is one.
+  void finish();
+
+  void fill(Status& status) const;
+
+ private:
+  osgRoam::Manipulator& roamer_;
+  News& news_;
+  std::optional<Bookmarks> bookmarks_;
+  std::string problem_;  ///< why there are no bookmarks
+  std::optional<PathRecorder> recorder_;
+};
+
+}  // namespace roam::app

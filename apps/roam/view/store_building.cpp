@@ -1,0 +1,82 @@
+#include "view/store_building.h"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "view/commands.h"
+
+namespace roam::app {
+
+StoreBuilding::StoreBuilding(const SceneAndStore& what, std::filesystem::path program,
+                             const osgRoam::Manipulator& roamer, News& news)
+    : what_(what), program_(std::move(program)), roamer_(roamer), news_(news) {}
+
+std::string StoreBuilding::key() const { return key_of(roamer_.controls(), "store"); }
+
+void StoreBuilding::cancel() {
+  if (build_) build_->cancel();
+}
+
+void StoreBuilding::consider(const StoreChoice& choice) {
+  is_stale_ = choice.stale;
+  if (!choice.note.empty()) news_.note(choice.note);
+}
+
+void StoreBuilding::recommend() {
+  if (std::exchange(recommended_, true)) return;
+  news_.note(
+      fmt::format("a collision store makes this scene open at once, in little memory: {}`roam build {}` builds it",
+                  key().empty() ? key() : key() + " or ", what_.scene.names()));
+}
+
+void StoreBuilding::toggle(const Pager* used, const Vec3& place) {
+  if (build_) {
+    stopped_ = true;
+    build_->cancel();
+  } else if (what_.store_only) {
+    news_.tell(fmt::format("the scene of {} is not known: nothing can be built", what_.store.string()));
+  } else if (used != nullptr && !is_stale_) {
+    news_.tell(fmt::format("{} is of this very scene: there is nothing to build", used->store().name()));
+  } else {
+    stopped_ = false;
+    build_.emplace(program_, what_, roamer_.settings(), place);
+    news_.tell(fmt::format("building {}, what is near first; {} stops it", build_->output().string(), key()));
+  }
+}
+
+void StoreBuilding::follow(const Vec3& place) {
+  if (!build_) return;
+  build_->follow(place);
+  const LoadState state = build_->state();
+  if (state.phase != LoadState::Phase::failed) return;
+  if (stopped_) {
+    news_.tell(fmt::format("stopped; what was done is kept in {}, and {} goes on from there", build_->output().string(),
+                           key()));
+  } else {
+    news_.note(fmt::format("the store could not be built: {}", state.error));
+  }
+  build_.reset();
+}
+
+std::shared_ptr<Pager> StoreBuilding::take() {
+  if (!build_ || build_->state().phase != LoadState::Phase::done) return nullptr;
+  BuildProcess::Built built = build_->take();
+  build_.reset();
+  for (const std::string& sentence : built.notes) news_.note(sentence);
+  is_stale_ = false;
+  return std::move(built.pager);
+}
+
+void StoreBuilding::fill(Status& status) const {
+  if (build_) status.building = build_->state();
+  if (recommended_ && !status.paging) status.store_key = key();
+}
+
+void StoreBuilding::fill(ViewReport& report) const {
+  if (!build_ || build_->state().phase == LoadState::Phase::done) return;
+  report.notes.push_back(fmt::format("{} is not finished; what is done is kept, and `roam build` goes on from there",
+                                     build_->output().string()));
+}
+
+}  // namespace roam::app
