@@ -4,7 +4,7 @@
 ///
 /// A picture is made in steps, each a file of its own and each, but for the last, from values to values:
 ///   way       the places of all steps -> few corners, and how far along they lie
-///   survey    -> the room beside the body, floor, ceiling, the narrowest place (asks the space)
+///   survey    -> the room beside the body, floor, ceiling (queries the space)
 ///   marks     -> the places to point at
 ///   levels    -> the heights at which the plan is cut
 ///   frames    -> which part of the scene is shown at which scale

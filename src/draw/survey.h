@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What a surveyor would measure along a way: the room beside the body, floor and ceiling, and where it is narrowest.
+/// What a surveyor would measure along a way: the room beside the body, floor and ceiling.
 
 #include <functional>
 #include <optional>
@@ -25,21 +25,20 @@ struct Station {
   std::optional<double> ceiling;  ///< the same above
 };
 
-/// Where the least room is between something on the left and something on the right, with a way on and a way back.
+/// The narrowest place of a walk, see measure::NarrowPlace.
 struct Narrowest {
   Vec3 centre{0.0};
   double height = 0.0;
-  double along = 0.0;
-  double width = 0.0;  ///< metres that are clear: measured level, within 45 degrees of across the way, by moving
-                       ///< the body aside
-  Vec3 left{0.0};      ///< the ends of that measure, at the height of the centre
+  double along = 0.0;  ///< metres, as WayPoint::along
+  double width = 0.0;  ///< metres
+  Vec3 left{0.0};      ///< the ends of the width
   Vec3 right{0.0};
 };
 
 struct Survey {
   double reach = 0.0;  ///< metres beside the body that were looked at
   std::vector<Station> stations;
-  std::optional<Narrowest> narrowest;  ///< none where the way is open to one side everywhere, and for a ghost
+  std::optional<Narrowest> narrowest;  ///< survey() leaves it out
 };
 
 /// Is called before each place that is looked at: `reach` metres around it should be known then.
