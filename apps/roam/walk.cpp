@@ -88,7 +88,7 @@ class Recorder {
     report.lowest = along_->lowest();
     report.ducked = along_->ducked();
     if (report.mode != Mode::ghost) report.reach = reach_;
-    if (!report.narrowest) return;
+    if (!report.narrowest || scene.objects() <= 1) return;
     report.left = scene.source(report.narrowest->left_triangle).object;
     report.right = scene.source(report.narrowest->right_triangle).object;
   }

@@ -56,6 +56,17 @@ Free Room::headroom(const Body& body, const Vec3& centre) const {
   return {body.height() + std::max(0.0, travelled(hit, far) - less), !hit.unknown, hit.triangle};
 }
 
+std::array<TriangleId, 2> at_ends(const Space& space, const Vec3& point, const Vec3& direction, double width) {
+  constexpr double near = 0.02;  // m
+  std::array<TriangleId, 2> found{no_triangle, no_triangle};
+  for (std::size_t i = 0; i < 2; ++i) {
+    Contact nearest;
+    const Vec3 end = point + (i == 0 ? -0.5 : 0.5) * width * direction;
+    if (space.contacts({0.0, 0.0}, end, Vec3(0.0), near, {&nearest, 1}) > 0) found[i] = nearest.triangle;
+  }
+  return found;
+}
+
 bool Room::is_passage(const Body& body, const Vec3& centre, const Vec3& heading) const {
   return beside(body, centre, heading).distance >= body.radius &&
          beside(body, centre, -heading).distance >= body.radius;

@@ -2,6 +2,8 @@
 /// \file
 /// Free distances around a body: beside it and above it.
 
+#include <array>
+
 #include "roam/space.h"
 #include "roam/walker_settings.h"
 
@@ -35,6 +37,11 @@ class Room {
   Mode mode_;
   double reach_, slope_cosine_;
 };
+
+/// The triangles at both ends of a measured distance of `width` (m), centred on `point`; the one along the unit vector
+/// `direction` last. no_triangle: none is within 2 cm of that end.
+[[nodiscard]] std::array<TriangleId, 2> at_ends(const Space& space, const Vec3& point, const Vec3& direction,
+                                                double width);
 
 /// In heights of the body: headroom is measured up to here.
 inline constexpr double height_reach = 5.0;

@@ -7,7 +7,7 @@
 namespace roam::words {
 namespace {
 
-constexpr std::size_t columns = 100, label_columns = 13;
+constexpr std::size_t columns = 100, label_columns = 14;
 
 /// Characters, not bytes.
 std::size_t width_of(std::string_view text) {

@@ -31,11 +31,13 @@ namespace roam::words {
 [[nodiscard]] std::string grouped(std::uint64_t number);
 /// "once", "twice", "3 times".
 [[nodiscard]] std::string times(std::uint64_t count);
+/// "75 mm to spare on each side".
+[[nodiscard]] std::string spare_words(double spare);
 /// "0.60 m wide and 1.80 m high", of a sphere "0.60 m wide (a sphere)".
 [[nodiscard]] std::string size_of(double radius, double height);
 /// "door 3" in quotes and printable; "an object without a name" for none.
 [[nodiscard]] std::string quoted(const std::string& object);
-/// "between "a" and "b"", "beside "a"" if only one has a name; empty if none has, or both have the same.
+/// "between "a" and "b"", "beside "a"" if only one has a name, "of "a"" if both have the same; empty if none has.
 [[nodiscard]] std::string between(const std::string& left, const std::string& right);
 
 }  // namespace roam::words

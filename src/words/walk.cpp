@@ -124,12 +124,6 @@ std::string stopped(const EndedWalk& walk) {
   return {};
 }
 
-std::string spare_words(double spare) {
-  if (spare < 5e-4) return "nothing to spare";
-  if (spare < 0.1) return fmt::format("{:.0f} mm to spare on each side", 1e3 * spare);
-  return fmt::format("{:.2f} m to spare on each side", spare);
-}
-
 }  // namespace
 
 std::string headline(const EndedWalk& walk) {

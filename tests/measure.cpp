@@ -1,5 +1,5 @@
 // Measurements along a way: the narrowest place and the least headroom, against scenes whose widths are known by
-// construction and against distances between all edges of walls.
+// construction; slopes, edges and named triangles, against all of them one by one.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -7,6 +7,8 @@
 #include <numbers>
 
 #include "measure/along.h"
+#include "measure/edges.h"
+#include "measure/slope.h"
 #include "roam/route.h"
 #include "roam/standing.h"
 #include "seeded_gallery.h"
@@ -138,6 +140,96 @@ TEST(MeasureAlong, FindsTheLowestBeamAndCountsHowOftenTheBodyDucked) {
   EXPECT_NEAR(along.lowest()->height, 1.3, 0.01);
   EXPECT_NEAR(along.lowest()->centre.x, 12.1, 0.45);
   EXPECT_EQ(along.ducked(), 2u);
+}
+
+// Each triangle that is named is as near to its end of the measure as the nearest of all triangles, one by one.
+TEST(MeasureRoom, NamesTheTrianglesAtBothEnds) {
+  for (std::uint64_t seed = 0; seed < 10; ++seed) {
+    const seeded::Gallery gallery = seeded::gallery(seed);
+    const World world = scenes::build(gallery.mesh, true);
+    for (const seeded::Door& door : gallery.doors) {
+      const Vec3 middle = door.point + Vec3(0.0, 0.0, 1.0);
+      const auto ends = roam::measure::at_ends(world, middle, door.across, door.width);
+      for (int i = 0; i < 2; ++i) {
+        const Vec3 end = middle + (i == 0 ? -0.5 : 0.5) * door.width * door.across;
+        ASSERT_NE(ends[i], roam::no_triangle) << seed;
+        long double nearest = 9.0L;
+        for (std::size_t t = 0; t < gallery.mesh.triangles.size(); ++t)
+          nearest = std::min(nearest, oracle::distance(Body{0.0, 0.0}, end, gallery.mesh.triangle(t)));
+        const long double named = oracle::distance(Body{0.0, 0.0}, end, gallery.mesh.triangle(ends[i]));
+        EXPECT_NEAR(static_cast<double>(named), static_cast<double>(nearest), 2e-5) << seed;
+      }
+      EXPECT_EQ(roam::measure::at_ends(world, middle, Vec3(0.0, 0.0, 1.0), 0.1)[0], roam::no_triangle);
+    }
+  }
+}
+
+TEST(MeasureSlope, IsThatOfTheSteepestMetreOfAllStretches) {
+  for (std::uint64_t seed = 0; seed < 50; ++seed) {
+    Random random(seed);
+    std::vector<Vec3> way{{0, 0, 0}};
+    double rise = 0.0, fall = 0.0, length = 0.0;
+    for (int i = 0; i < 12; ++i) {
+      const Vec3 part(random.between(0.0, 0.8), random.between(-0.5, 0.5), random.between(-0.3, 0.3));
+      way.push_back(way.back() + part);
+      length += std::hypot(part.x, part.y);
+      (part.z > 0.0 ? rise : fall) += std::abs(part.z);
+    }
+    const auto height = [&](double at) {
+      for (std::size_t i = 1;; ++i) {
+        const Vec3 part = way[i] - way[i - 1];
+        const double across = std::hypot(part.x, part.y);
+        if (at <= across || i + 1 == way.size()) return way[i - 1].z + std::min(1.0, at / across) * part.z;
+        at -= across;
+      }
+    };
+    double steepest = 0.0;
+    constexpr int samples = 4000;
+    for (int k = 0; k <= samples; ++k) {
+      const double begin = (length - 1.0) * k / samples;
+      steepest = std::max(steepest, std::abs(height(begin + 1.0) - height(begin)));
+    }
+    const roam::measure::Slope found = roam::measure::steepest(way);
+    EXPECT_NEAR(found.degrees, std::atan(steepest) * 180.0 / std::numbers::pi, 0.1) << seed;
+    EXPECT_NEAR(found.rise, rise, 1e-12);
+    EXPECT_NEAR(found.fall, fall, 1e-12);
+  }
+  EXPECT_EQ(roam::measure::steepest(std::vector<Vec3>{{1, 2, 3}}).degrees, 0.0);
+  EXPECT_NEAR(roam::measure::steepest(std::vector<Vec3>{{0, 0, 0}, {0, 0, 3}}).degrees, 90.0, 1e-9);
+}
+
+// Each edge against each other, by positions.
+TEST(MeasureEdges, AreOpenWhereOneTriangleAloneHasThem) {
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    Random random(seed);
+    std::vector<Mesh> meshes(2);
+    scenes::add_box(meshes[0], {0, 0, 0}, {1, 1, 1});
+    scenes::add_box(meshes[1], {1, 0, 0}, {2, 1, 1});
+    for (Mesh& mesh : meshes) {
+      for (std::size_t i = mesh.triangles.size(); i-- > 0;)
+        if (random.chance(0.3)) mesh.triangles.erase(mesh.triangles.begin() + static_cast<std::ptrdiff_t>(i));
+    }
+    std::vector<std::pair<Vec3, Vec3>> edges;
+    for (const Mesh& mesh : meshes) {
+      for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+        const roam::Triangle t = mesh.triangle(i);
+        for (std::size_t k = 0; k < 3; ++k) edges.emplace_back(t[k], t[(k + 1) % 3]);
+      }
+    }
+    std::uint64_t open = 0;
+    for (const auto& [a, b] : edges) {
+      int same = 0;
+      for (const auto& [c, d] : edges) same += (a == c && b == d) || (a == d && b == c) ? 1 : 0;
+      open += same == 1 ? 1 : 0;
+    }
+    const roam::measure::Edges found = roam::measure::count_edges(meshes);
+    EXPECT_EQ(found.open, open) << seed;
+    EXPECT_EQ(found.hole.has_value(), open > 0);
+  }
+  Mesh box;
+  scenes::add_box(box, {0, 0, 0}, {1, 1, 1});
+  EXPECT_EQ(roam::measure::count_edges({&box, 1}).all, 18u);
+  EXPECT_EQ(roam::measure::count_edges({&box, 1}).open, 0u);
 }
 
 TEST(MeasureAlong, MeasuresNothingForAGhost) {
