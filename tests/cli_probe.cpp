@@ -84,7 +84,7 @@ TEST(ProbeVerb, NamesTheObjectsBesideTheDoorAndListsNarrowPlaces) {
   EXPECT_NEAR(door["width_m"].get<double>(), 0.84, 0.002);
   EXPECT_NEAR(door["point"][0].get<double>(), 10.0, 0.3);
   EXPECT_EQ(door["objects"], (std::vector<std::string>{"wall", "wall"}));
-  EXPECT_NEAR(report["slope"]["degrees"].get<double>(), 0.0, 0.2);
+  EXPECT_NEAR(report["steepest"]["degrees"].get<double>(), 0.0, 0.2);
   EXPECT_TRUE(probe.ask({"--radius", "0.3", "--narrower", "0.8", "--json"}).json()["narrower"].empty());
   EXPECT_TRUE(probe.ask({"--radius", "0.3", "--json"}).json()["narrower"].is_null());  // not asked for
   EXPECT_EQ(probe.ask({"--matrix", "0.3", "--narrower", "1"}).result.status, 2);

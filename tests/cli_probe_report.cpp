@@ -19,9 +19,10 @@ ProgramResult ask(const std::string& scene, const std::string& from, const std::
   return run_program(ROAM_PROGRAM, arguments);
 }
 const std::vector<std::string> of_a_size{
-    "scene",   "triangles", "mode",        "from",        "to",      "step",   "slope",  "spacing",       "radius",
-    "height",  "passable",  "wide_enough", "clearance_m", "limited", "start",  "target", "way",           "length_m",
-    "opening", "proven",    "bound_m",     "complete",    "places",  "walked", "answer", "support_radius"};
+    "scene",  "triangles",      "mode",     "from",        "to",          "step",     "slope",  "spacing",
+    "radius", "height",         "passable", "wide_enough", "clearance_m", "limited",  "start",  "target",
+    "way",    "length_m",       "opening",  "proven",      "bound_m",     "complete", "places", "walked",
+    "answer", "support_radius", "steepest", "narrower"};
 
 TEST(ProbeReport, HasEveryMemberWhateverTheAnswer) {
   const TestFolder folder;

@@ -31,6 +31,11 @@ Slope steepest(std::span<const Vec3> way, double over) {
     (part.z > 0.0 ? slope.rise : slope.fall) += std::abs(part.z);
   }
   const double length = at.back();
+  if (!(length > 0.0)) {
+    slope.degrees = slope.rise + slope.fall > 0.0 ? 90.0 : 0.0;
+    slope.place = 0.5 * (way.front() + way.back());
+    return slope;
+  }
   const double window = std::min(over, length);
   // A straight part's difference of heights changes evenly as the window moves: it is largest where an end of the
   // window is at a corner.

@@ -86,9 +86,9 @@ Json json_report(const ProbeAnswer& answer, bool with_way) {
 
 void add_details(Json& json, const words::ProbeDetails& details) {
   if (json["opening"].is_object()) json["opening"]["objects"] = {details.left, details.right};
-  json["slope"] = nullptr;
+  json["steepest"] = nullptr;
   if (const auto& slope = details.slope) {
-    json["slope"] = {
+    json["steepest"] = {
         {"degrees", slope->degrees}, {"point", to_json(slope->place)}, {"up_m", slope->rise}, {"down_m", slope->fall}};
   }
   json["narrower"] = nullptr;
