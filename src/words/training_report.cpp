@@ -119,8 +119,10 @@ std::string separate(const Training& t) {
 std::string not_reached(const Training& t) {
   if (t.unwalked.empty()) return {};
   const UnwalkedPath& first = t.unwalked.front();
-  return fmt::format("{} by a walker, which do not count; the first from {} to {}, where it stopped at {}",
-                     t.unwalked.size() == 1 ? "1 planned end" : fmt::format("{} planned ends", t.unwalked.size()),
+  const std::size_t count = t.unwalked.size();
+  return fmt::format("{}: from {} to {} a walker stopped at {}",
+                     count == 1 ? "1 planned end, which does not count"
+                                : fmt::format("{} planned ends, which do not count; the first", count),
                      at(first.from), at(first.to), at(first.at));
 }
 
