@@ -145,12 +145,25 @@ TEST(Info, SaysWhatASceneHolds) {
   EXPECT_EQ(report["import"]["bad_vertices"], 0);
 }
 
-TEST(Info, SaysTheSameInWords) {
+TEST(Info, SaysFirstHowLargeItIsAndKeepsFiguresForStats) {
   const TestFolder folder;
-  const ProgramResult result = roam({"info", folder.write("room.obj", room_obj())});
+  const std::string scene = folder.write("room.obj", room_obj());
+  const ProgramResult result = roam({"info", scene});
   EXPECT_EQ(result.status, 0) << result.err;
-  EXPECT_TRUE(contains(result.out, "12 in 6 objects")) << result.out;
-  EXPECT_TRUE(contains(result.out, "20.000 x 4.000 x 3.000 m")) << result.out;
+  const std::string first = result.out.substr(0, result.out.find("\n  from"));
+  EXPECT_TRUE(contains(first, "20.00 x 4.00 x 3.00 m")) << result.out;
+  const ProgramResult stats = roam({"info", scene, "--stats"});
+  EXPECT_TRUE(stats.out.starts_with(result.out)) << stats.out;
+  EXPECT_TRUE(contains(stats.out, "largest error")) << stats.out;
+  EXPECT_FALSE(contains(result.out, "largest error")) << result.out;
+}
+
+TEST(Info, SaysWhetherTheSurfacesAreClosed) {
+  const TestFolder folder;
+  EXPECT_EQ(info({folder.write("room.obj", room_obj())})["edges"]["open"], 0);
+  const nlohmann::json open = info({folder.write("open.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")})["edges"];
+  EXPECT_EQ(open["open"], 3);
+  EXPECT_EQ(open["all"], 3);
 }
 
 TEST(Info, AppliesUnitAndUpAxis) {

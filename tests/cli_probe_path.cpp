@@ -26,7 +26,7 @@ TEST(ProbePath, FliesOverAWallUnderTheSkyAndIsFlownAgain) {
     const ProgramResult found = run_program(ROAM_PROGRAM, {"probe", scene, "--from", "8,0,1", "--to", "12,0,1",
                                                            "--radius", radius, "--mode", "fly", "--path", path});
     EXPECT_EQ(found.status, 0) << found.out << found.err;
-    EXPECT_TRUE(found.out.starts_with("Yes: ")) << found.out;
+    EXPECT_TRUE(found.out.starts_with("YES: ")) << found.out;
     const ProgramResult flown = run_program(ROAM_PROGRAM, {"walk", scene, "--path", path, "--verify", "--json"});
     EXPECT_EQ(flown.status, 0) << flown.out << flown.err;
     const Json report = Json::parse(flown.out, nullptr, false);

@@ -291,7 +291,7 @@ TEST_F(StoreVerbs, WhatCannotBeVerifiedIsNamedBehindTheReportOfAWalkThatEnded) {
   EXPECT_TRUE(contains(checked.err, "roam verify " + bad + " --repair SCENE")) << checked.err;
   const ProgramResult told = with({"--verify"});
   EXPECT_EQ(told.status, 1);
-  EXPECT_TRUE(contains(told.out, "0 violations in") && contains(told.out, "that can be read")) << told.out;
+  EXPECT_FALSE(contains(told.out, "0 violations")) << told.out << ": that is not known";
   // What is advised is a way out.
   const int went = with({}).status;
   EXPECT_EQ(with({"--against", scene()}).status, went);

@@ -56,8 +56,7 @@ TEST(TrainVerb, ReportsTheIntervalAndWritesTheProfileBesideTheScene) {
 TEST(TrainVerb, EndsWithThreeWhereNoOneBodyServesAndSaysWhatToUse) {
   const Train train({.door = 0.8, .split = 1.25}, {"--height", "1.8", "-o", "@p.json"});
   EXPECT_EQ(train.result.status, 3) << train.result.err;
-  EXPECT_TRUE(contains(train.result.out, "No one radius serves")) << train.result.out;
-  EXPECT_TRUE(contains(train.result.out, "0.645")) << train.result.out;
+  EXPECT_TRUE(train.result.out.starts_with("PASSES WITH A SUPPORT DISC")) << train.result.out;
   EXPECT_TRUE(train.wrote("p.json"));
   EXPECT_FALSE(train.wrote("scene.obj.roam.json"));
 }
@@ -133,7 +132,7 @@ TEST(TrainVerb, WritesNoProfileWhereItHasLearnedNothing) {
   const TestFolder folder;
   const std::string scene = folder.write("hall.obj", obj(hall));
   ProgramResult result;
-  const auto has_begun = [&] { return contains(result.out, "No path was planned yet"); };
+  const auto has_begun = [&] { return result.out.starts_with("INTERRUPTED"); };
   for (double seconds = 0.5; !has_begun() && seconds < 100.0; seconds *= 2.0) {
     result = run_program(ROAM_PROGRAM, {"train", scene, "--spacing", "0.02"}, {.interrupt_after = seconds});
     EXPECT_FALSE(std::filesystem::exists(scene + ".roam.json")) << result.err;

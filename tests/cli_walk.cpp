@@ -101,12 +101,34 @@ TEST(WalkVerb, NamesTheWallThatBlocks) {
   EXPECT_EQ(report["violations"], 0);
 }
 
-TEST(WalkVerb, SaysInWordsWhatHappened) {
-  const Walk walk(room_obj(), "2 0 1.5\n25 0 1.5\n", {"--mode", "fly", "--verify"});
-  EXPECT_EQ(walk.result.status, 3);
-  EXPECT_EQ(walk.result.out.substr(0, 9), "blocked: ");
-  EXPECT_TRUE(contains(walk.result.out, "\"front\"")) << walk.result.out;
-  EXPECT_TRUE(contains(walk.result.out, "0 violations")) << walk.result.out;
+// The first word is the answer; programmers' figures come with --stats.
+TEST(WalkVerb, AnswersFirstAndKeepsFiguresForStats) {
+  const Walk stopped(room_obj(), "2 0 1.5\n25 0 1.5\n", {"--mode", "fly", "--verify"});
+  EXPECT_EQ(stopped.result.status, 3);
+  EXPECT_TRUE(stopped.result.out.starts_with("NOT REACHED: blocked by \"front\"")) << stopped.result.out;
+  EXPECT_TRUE(contains(stopped.result.out, "  checked ")) << stopped.result.out;
+  const Walk reached(room_obj(), "2 0 1.5\n5 0 1.5\n");
+  EXPECT_TRUE(reached.result.out.starts_with("REACHED: 2 of 2 waypoints")) << reached.result.out;
+  EXPECT_FALSE(contains(reached.result.out, "time of a step")) << reached.result.out;
+  const Walk stats(room_obj(), "2 0 1.5\n5 0 1.5\n", {"--stats"});
+  EXPECT_TRUE(stats.result.out.starts_with(reached.result.out)) << stats.result.out;
+  EXPECT_TRUE(contains(stats.result.out, "time of a step")) << stats.result.out;
+}
+
+TEST(WalkVerb, GivesTheTightestPlaceAndTheHeadroom) {
+  const Walk walk(room_obj(), "2 0 0.3\n10 0 0.3\n", {"--json", "--radius", "0.4"});
+  const nlohmann::json report = walk.json();
+  EXPECT_NEAR(report["narrowest"]["width_m"].get<double>(), 4.0, 0.01);
+  EXPECT_NEAR(report["narrowest"]["spare_m"].get<double>(), 1.6, 0.01);
+  EXPECT_NEAR(report["headroom"]["height_m"].get<double>(), 3.0, 0.01);
+  EXPECT_EQ(report["ducked"], 0);
+  EXPECT_EQ(report["measured_beside_m"], 12 * 0.4);
+  for (const char* side : {"left", "right"}) {
+    EXPECT_NEAR(std::abs(report["narrowest"][side]["point"][1].get<double>()), 2.0, 0.01);
+    EXPECT_NE(report["narrowest"][side]["object"], "");
+  }
+  const Walk slim(room_obj(), "2 0 0.2\n10 0 0.2\n", {"--json", "--radius", "0.1"});
+  EXPECT_TRUE(slim.json()["narrowest"].is_null());  // no wall within 1.2 m
 }
 
 TEST(WalkVerb, CrossesAGapThatTheRadiusBridgesAndFallsIntoAWiderOne) {
@@ -143,8 +165,6 @@ TEST(WalkVerb, TellsOfAStartFromWhichTheBodyWasFreed) {
   bool freed = false;
   for (const auto& event : report["events"]) freed = freed || event["kind"] == "freed";
   EXPECT_TRUE(freed) << walk.result.out;
-  const Walk told(room_obj(), "2 -1.8 0.3\n6 0 0.3\n");
-  EXPECT_TRUE(contains(told.result.out, "did not fit where it was put")) << told.result.out;
 }
 
 TEST(WalkVerb, PassesThroughWallsOnlyAsAGhost) {
@@ -240,9 +260,6 @@ TEST(WalkVerb, KnowsNoClearanceOfABodyThatFitsNowhere) {
       "walk", folder.write("slot.obj", slot_obj()), "--wander", "5", "--from", "0,0,0.25", "--radius", "0.3"};
   const ProgramResult told = run_program(ROAM_PROGRAM, arguments);
   EXPECT_EQ(told.status, 3) << told.out;
-  EXPECT_TRUE(contains(told.out, "does not fit where it starts")) << told.out;
-  EXPECT_TRUE(contains(told.out, "start elsewhere (--from) or take a smaller radius")) << told.out;
-  EXPECT_TRUE(contains(told.out, "least clearance  not known")) << told.out;
   EXPECT_FALSE(contains(told.out, "certified")) << told.out;
   std::vector<std::string> in_json = arguments;
   in_json.insert(in_json.end(), {"--json", "--verify"});
@@ -252,21 +269,15 @@ TEST(WalkVerb, KnowsNoClearanceOfABodyThatFitsNowhere) {
   EXPECT_EQ(report["violations"], 0);  // it has not moved
 }
 
-TEST(WalkVerb, SaysThatALeastClearanceIsABoundAndHowFarWasLooked) {
-  const auto clearance = [](const std::string& z, const std::string& speed) {
-    const Walk walk(slot_obj(), "3 0 " + z + "\n6 0 " + z + "\n", {"--mode", "fly", "--speed", speed});
-    EXPECT_EQ(walk.result.status, 0) << walk.result.err;
-    const std::size_t begin = walk.result.out.find("least clearance  ");
-    return walk.result.out.substr(begin, walk.result.out.find('\n', begin) - begin);
+TEST(WalkVerb, CapsTheLeastClearanceAtTheReach) {
+  const auto fly = [](const std::string& z) {
+    return Walk(slot_obj(), "3 0 " + z + "\n6 0 " + z + "\n", {"--mode", "fly", "--json"}).json();
   };
-  EXPECT_EQ(clearance("3", "200"),
-            "least clearance  at least 1.300000 m from its axis, 1.000000 m from its surface (certified; it was looked "
-            "for no farther than 1 m from the surface)");
-  EXPECT_TRUE(contains(clearance("3", "1.4"), "no farther than 1 m"));
-  const std::string near = clearance("1.3", "1.4");  // half a metre above the upper floor
-  EXPECT_TRUE(contains(near, "at least 0.")) << near;
-  EXPECT_TRUE(contains(near, "from its surface (certified)")) << near;
-  EXPECT_EQ(Walk(slot_obj(), "3 0 3\n4 0 3\n", {"--mode", "fly", "--json"}).json()["clearance_reach_m"], 1.0);
+  const nlohmann::json far = fly("3"), near = fly("1.3");  // half a metre above the upper floor
+  EXPECT_EQ(far["clearance_reach_m"], 1.0);
+  EXPECT_GE(far["least_gap_m"].get<double>(), 0.7);
+  EXPECT_LE(far["least_gap_m"].get<double>(), 1.0);
+  EXPECT_LT(near["least_gap_m"].get<double>(), 0.55);
 }
 
 TEST(WalkVerb, SaysWhereTheSceneIsWhenItStartsOutside) {
@@ -274,10 +285,7 @@ TEST(WalkVerb, SaysWhereTheSceneIsWhenItStartsOutside) {
   const std::string scene = folder.write("room.obj", room_obj());
   const ProgramResult result = run_program(ROAM_PROGRAM, {"walk", scene, "--wander", "3", "--from", "900,0,0"});
   EXPECT_EQ(result.status, 3);
-  EXPECT_TRUE(contains(result.out,
-                       "left_scene: where it starts, (900.000, 0.000, 0.000) (--from), is outside the scene, which "
-                       "spans (0.000, -2.000, 0.000) to (20.000, 2.000, 3.000)\n"))
-      << result.out;
+  EXPECT_TRUE(result.out.starts_with("STOPPED: starts outside the scene")) << result.out;
 }
 
 TEST(WalkVerb, NotesThatTheBodyIsLargerThanTheScene) {

@@ -41,8 +41,14 @@ struct Drawn {
     } else {
       roam::Route route(walker, path, {.speed = speed});
       append(record, walker.report(), true);
-      while (!route.done()) append(record, route.advance(), false);
+      roam::measure::Along along(world, settings, mode);
+      along.put(walker.position());
+      while (!route.done()) {
+        append(record, route.advance(), false);
+        along.add(walker.report());
+      }
       report.result = route.result();
+      report.narrowest = along.narrowest();
     }
     report.mode = mode;
     report.settings = settings;
@@ -168,7 +174,8 @@ TEST(PictureSheet, HasPlanSectionScaleAxesTitleAndLegend) {
     }
     EXPECT_FALSE(drawn.all<Text>("title").empty());
     EXPECT_FALSE(drawn.all<Text>("legend").empty());
-    EXPECT_TRUE(drawn.says(std::string(to_string(drawn.report.result.outcome)) + ":"));
+    const std::string headline = words::headline(drawn.report);
+    EXPECT_TRUE(drawn.says(headline.substr(0, headline.find(':')))) << headline;
   }
 }
 

@@ -1,13 +1,21 @@
 // roam info: what a scene holds and what its world costs.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <filesystem>
+#include <system_error>
+
 #include "cli/progress.h"
 #include "cli/report.h"
 #include "cli/tell.h"
+#include "files/extension.h"
+#include "measure/edges.h"
 #include "roam/profile.h"
 #include "roam/store.h"
 #include "scenes/scene_options.h"
 #include "verbs.h"
+#include "words/lines.h"
+#include "words/measures.h"
 
 namespace roam::app {
 namespace {
@@ -50,6 +58,7 @@ Json import_report(const ImportReport& report) {
 
 Json json_report(const SceneOptions& options, const LoadedScene& scene) {
   const WorldStats& stats = scene.world.stats();
+  const measure::Edges edges = measure::count_edges(scene.meshes);
   return {{"scene", options.names()},
           {"format", "scene"},
           {"triangles", stats.triangles},
@@ -62,21 +71,67 @@ Json json_report(const SceneOptions& options, const LoadedScene& scene) {
           {"hash", identity_of(scene.meshes).hash},
           {"read_s", scene.read_seconds},
           {"build_s", scene.build_seconds},
+          {"edges", {{"all", edges.all}, {"open", edges.open}, {"hole", edges.hole ? to_json(*edges.hole) : nullptr}}},
           {"import", import_report(scene.report)}};
+}
+
+/// "47.9 x 102.3 x 12.0 m, 499,936 triangles in 1 object".
+std::string size_words(const Box& bounds, std::uint64_t triangles, std::uint64_t objects) {
+  const Vec3 size = bounds.size();
+  return fmt::format("{:.2f} x {:.2f} x {:.2f} m, {} triangles in {} object{}", size.x, size.y, size.z,
+                     words::grouped(triangles), words::grouped(objects), objects == 1 ? "" : "s");
+}
+
+std::string up_words(const SceneOptions& options) {
+  if (!options.up.empty()) return fmt::format("{} of the file, as --up says", options.up);
+  const auto is_gltf = [](const std::filesystem::path& file) {
+    const std::string extension = files::lower_extension(file);
+    return extension == ".gltf" || extension == ".glb";
+  };
+  if (std::all_of(options.scenes.begin(), options.scenes.end(), is_gltf)) return "y of the file, as in all glTF";
+  return "z of the file (--up says another)";
+}
+
+std::string closed_words(const measure::Edges& edges) {
+  if (edges.open == 0) return "yes: every edge joins two triangles or more";
+  return fmt::format("no: {} of {} edges belong to one triangle only, e.g. at {}", words::grouped(edges.open),
+                     words::grouped(edges.all), words::at(*edges.hole));
+}
+
+std::string left_out_words(const ImportReport& report) {
+  std::string text;
+  const auto add = [&](std::uint64_t count, const char* what) {
+    if (count > 0) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", words::grouped(count), what);
+  };
+  add(report.bad_triangles, "bad triangles");
+  add(report.ignored_triangles, "triangles by --ignore");
+  add(report.missing_pages, "files that are missing or unreadable");
+  add(report.outside_references, "references to files outside of the scene's folder (--allow)");
+  return text.empty() ? "nothing" : text;
 }
 
 std::string text_report(const SceneOptions& options, const LoadedScene& scene) {
   const WorldStats& stats = scene.world.stats();
-  const Vec3 size = scene.bounds.size();
-  const auto& [low, high] = scene.bounds;
-  std::string text = printable_part(options.names()) + "\n";
+  words::Lines lines(printable_part(options.names()) + ": " + size_words(scene.bounds, stats.triangles, stats.objects));
+  lines.add("from", words::exactly_at(scene.bounds.lower));
+  lines.add("to", words::exactly_at(scene.bounds.upper));
+  lines.add("up", up_words(options));
+  lines.add("unit", options.unit == "m" ? "metre (--unit says another)" : options.unit + ", as --unit says");
+  lines.add("closed", closed_words(measure::count_edges(scene.meshes)));
+  lines.add("left out", left_out_words(scene.report));
+  std::error_code none;
+  if (const auto profile = profile_path(options.scenes); std::filesystem::exists(profile, none))
+    lines.add("trained", printable_part(profile.string()));
+  return lines.text();
+}
+
+std::string stats_report(const LoadedScene& scene) {
+  const WorldStats& stats = scene.world.stats();
+  std::string text;
   const auto line = [&](const char* what, const std::string& value) {
     text += fmt::format("  {:<16}{}\n", what, value);
   };
-  line("triangles", fmt::format("{} in {} objects, from {} files", stats.triangles, stats.objects, scene.report.files));
-  line("size", fmt::format("{:.3f} x {:.3f} x {:.3f} m", size.x, size.y, size.z));
-  line("from", fmt::format("{:.3f} {:.3f} {:.3f}", low.x, low.y, low.z));
-  line("to", fmt::format("{:.3f} {:.3f} {:.3f}", high.x, high.y, high.z));
+  line("files", fmt::format("{}", scene.report.files));
   line("index",
        fmt::format("{} tiles, {}B, {:.1f} bytes a triangle", stats.tiles, short_count(static_cast<double>(stats.bytes)),
                    static_cast<double>(stats.bytes) / static_cast<double>(stats.triangles)));
@@ -111,22 +166,25 @@ Json json_report(const Store& store) {
 
 std::string text_report(const Store& store) {
   const StoreInfo& i = store.info();
+  words::Lines lines(printable_part(store.name()) + ": a store, " + size_words(i.bounds, i.triangles, i.objects));
+  lines.add("from", words::exactly_at(i.bounds.lower));
+  lines.add("to", words::exactly_at(i.bounds.upper));
+  lines.add("on disk", short_count(static_cast<double>(i.bytes)) + "B");
+  return lines.text();
+}
+
+std::string stats_report(const Store& store) {
+  const StoreInfo& i = store.info();
   const auto triangles = static_cast<double>(i.triangles);
-  const Vec3 size = i.bounds.size();
-  const auto& [low, high] = i.bounds;
-  std::string text = printable_part(store.name()) + "\n";
+  std::string text;
   const auto line = [&](const char* what, const std::string& value) {
     text += fmt::format("  {:<16}{}\n", what, value);
   };
   line("store", fmt::format("format {}, {} tiles on {} pages in {} packs", i.format, i.tiles, i.pages, i.packs));
-  line("triangles", fmt::format("{} in {} objects", i.triangles, i.objects));
-  line("size", fmt::format("{:.3f} x {:.3f} x {:.3f} m", size.x, size.y, size.z));
-  line("from", fmt::format("{:.3f} {:.3f} {:.3f}", low.x, low.y, low.z));
-  line("to", fmt::format("{:.3f} {:.3f} {:.3f}", high.x, high.y, high.z));
   line("on disk",
-       fmt::format("{}B, {:.2f} bytes a triangle: {:.2f} of geometry, {:.2f} of source numbers",
-                   short_count(static_cast<double>(i.bytes)), static_cast<double>(i.bytes) / triangles,
-                   static_cast<double>(i.geometry_bytes) / triangles, static_cast<double>(i.number_bytes) / triangles));
+       fmt::format("{:.2f} bytes a triangle: {:.2f} of geometry, {:.2f} of source numbers",
+                   static_cast<double>(i.bytes) / triangles, static_cast<double>(i.geometry_bytes) / triangles,
+                   static_cast<double>(i.number_bytes) / triangles));
   line("in memory", fmt::format("{:.1f} bytes a triangle, of those that are resident",
                                 static_cast<double>(i.resident_bytes) / triangles));
   line("largest error", fmt::format("{:.3g} m between a vertex and its place in the store", i.largest_error_m));
@@ -134,7 +192,7 @@ std::string text_report(const Store& store) {
   return text;
 }
 
-ExitStatus store_info(const SceneOptions& options, bool json) {
+ExitStatus store_info(const SceneOptions& options, bool json, bool stats) {
   if (options.scenes.size() > 1 || options.says_how_to_read()) {
     throw UsageError("a store is a scene of its own, and was read when it was built: name it alone");
   }
@@ -142,20 +200,20 @@ ExitStatus store_info(const SceneOptions& options, bool json) {
   if (json) {
     print(json_report(*store));
   } else {
-    print(text_report(*store));
+    print(stats ? text_report(*store) + stats_report(*store) : text_report(*store));
   }
   return done;
 }
 
-ExitStatus info(const SceneOptions& options, bool json) {
+ExitStatus info(const SceneOptions& options, bool json, bool stats) {
   for (const auto& scene : options.scenes) {
-    if (Store::is_store(scene)) return store_info(options, json);
+    if (Store::is_store(scene)) return store_info(options, json, stats);
   }
   const LoadedScene scene = load(options, Source::keep);
   if (json) {
     print(json_report(options, scene));
   } else {
-    print(text_report(options, scene));
+    print(stats ? text_report(options, scene) + stats_report(scene) : text_report(options, scene));
   }
   return done;
 }
@@ -178,12 +236,13 @@ void add_info(CLI::App& program, Run& run) {
   verb->footer(help);
   struct Options {
     SceneOptions scene;
-    bool json = false;
+    bool json = false, stats = false;
   };
   const auto options = std::make_shared<Options>();
   options->scene.add_to(*verb);
+  verb->add_flag("--stats", options->stats, "Print what the index costs, times and the hash, too");
   verb->add_flag("--json", options->json, "Print one JSON object");
-  verb->callback([options, &run] { run = [options] { return info(options->scene, options->json); }; });
+  verb->callback([options, &run] { run = [options] { return info(options->scene, options->json, options->stats); }; });
 }
 
 }  // namespace roam::app

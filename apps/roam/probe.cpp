@@ -8,6 +8,7 @@
 #include <cmath>
 #include <memory>
 #include <sstream>
+#include <tuple>
 
 #include "cli/interrupt.h"
 #include "cli/output_file.h"
@@ -16,6 +17,8 @@
 #include "cli/tell.h"
 #include "cli/values.h"
 #include "draw/draw.h"
+#include "measure/along.h"
+#include "measure/slope.h"
 #include "probe/picture.h"
 #include "probe/text.h"
 #include "roam/path_file.h"
@@ -34,6 +37,7 @@ struct ProbeOptions {
   std::optional<double> radius, height, step, slope, support_radius, spacing;
   std::optional<std::string> matrix;  ///< sizes, or a file of them
   std::optional<std::filesystem::path> picture, path;
+  std::optional<double> narrower;  ///< m
   bool json = false;
 
   [[nodiscard]] double slope_degrees() const { return slope.value_or(45.0); }
@@ -80,7 +84,8 @@ std::vector<ProbedSize> sizes_of(const ProbeOptions& o) {
     sizes.push_back({*o.radius, o.height.value_or(2.0 * *o.radius)});
   } else {
     if (o.radius || o.height) throw UsageError("--matrix says all sizes: leave out --radius and --height");
-    if (o.picture || o.path) throw UsageError("--matrix has no one way: leave out --picture and --path");
+    if (o.picture || o.path || o.narrower)
+      throw UsageError("--matrix has no one way: leave out --picture, --path and --narrower");
     sizes = matrix_sizes(*o.matrix);
   }
   for (const ProbedSize& size : sizes) {
@@ -131,6 +136,43 @@ void write_path(const ProbeOptions& o, const Survey& survey, const ProbeAnswer& 
   write_output(text);
 }
 
+/// Measures along the way with the body, or with the widest that passes.
+std::vector<words::ProbeDetails::Narrow> narrow_places(const ProbeOptions& o, const Surveyed& scene,
+                                                       const ProbeAnswer& answer) {
+  WalkerSettings settings = probed_body(o.question, answer.size, o.slope_degrees());
+  settings.radius = std::min(settings.radius, answer.passage.radius);
+  measure::Along along(scene.survey.world(), settings, o.question.mode, *o.narrower);
+  along.list_narrower(*o.narrower);
+  const std::vector<Vec3> path = probed_path(scene.survey, o.question, answer);
+  if (!path.empty()) along.put(path.front());
+  for (const Vec3& place : path) along.go(place, settings.body());
+  along.finish();
+  std::vector<words::ProbeDetails::Narrow> places;
+  for (const measure::NarrowPlace& place : along.narrow())
+    places.push_back({place, scene.name(place.left_triangle), scene.name(place.right_triangle)});
+  return places;
+}
+
+words::ProbeDetails details_of(const ProbeOptions& o, const Surveyed& scene, const ProbeAnswer& answer) {
+  using Kind = ProbeLimit::Kind;
+  words::ProbeDetails details;
+  if (const auto& limit = answer.limit; limit && limit->kind == Kind::height) {
+    const WalkerSettings settings = probed_body(o.question, answer.size, o.slope_degrees());
+    const Body low = Body::capsule(settings.radius, std::max(2.0 * settings.radius, limit->size - measure::slimmer));
+    const Vec3 centre = limit->feet + Vec3(0.0, 0.0, 0.5 * low.height());
+    details.right =
+        scene.name(measure::Room(scene.survey.world(), settings, o.question.mode).headroom(low, centre).triangle);
+  } else if (limit && limit->kind != Kind::step && limit->kind != Kind::apart) {
+    std::tie(details.left, details.right) = scene.names_at(limit->point, limit->direction, limit->size);
+  }
+  if (!answer.passage.found) return details;
+  if (o.question.mode == Mode::walk) details.slope = measure::steepest(answer.passage.way);
+  if (!o.narrower) return details;
+  details.narrower = *o.narrower;
+  details.narrow = narrow_places(o, scene, answer);
+  return details;
+}
+
 Json report_of(const ProbeOptions& o, const Surveyed& scene, std::span<const ProbeAnswer> answers) {
   const bool one = !o.matrix;
   Json json = {{"scene", o.scene.names()},           {"triangles", scene.survey.triangles()},
@@ -140,6 +182,7 @@ Json report_of(const ProbeOptions& o, const Surveyed& scene, std::span<const Pro
                {"spacing", o.question.spacing}};
   if (one) {
     json.update(json_report(answers.front(), true));
+    add_details(json, details_of(o, scene, answers.front()));
     json["answer"] = words::explain(o.question, answers.front());
     return json;
   }
@@ -187,7 +230,8 @@ ExitStatus probe(ProbeOptions o) {
   if (o.json) {
     print(report_of(o, scene, answers));
   } else {
-    print_beside(o.path.value_or(""), o.matrix ? table(o.question, answers) : words::explain(o.question, first) + "\n");
+    print_beside(o.path.value_or(""),
+                 o.matrix ? table(o.question, answers) : words::report(o.question, first, details_of(o, scene, first)));
   }
   unwritten.raise();
   const bool all = std::all_of(answers.begin(), answers.end(), [](const ProbeAnswer& a) { return a.passable; });
@@ -246,6 +290,9 @@ void add_probe(CLI::App& program, Run& run) {
       ->check(positive())
       ->type_name("RS");
   verb->option_defaults()->group("Results");
+  verb->add_option("--narrower", o.narrower, "List all places of the way that are narrower than W metres")
+      ->check(from_to(0.01, 100.0))
+      ->type_name("W");
   verb->add_option("--path", o.path, "Write the way as a path file, for `roam walk` (-: standard output)")
       ->type_name("FILE");
   verb->add_option("--picture", o.picture, "Draw the opening that decides (.svg or .png)")->type_name("FILE");

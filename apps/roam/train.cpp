@@ -31,6 +31,7 @@ struct TrainVerbOptions {
   std::optional<std::filesystem::path> picture, profile;
   bool no_profile = false;
   bool json = false;
+  bool stats = false;
 };
 
 /// Training in the stages that it names, on standard error. Stages take what they take in each scene: no time left
@@ -102,18 +103,20 @@ ExitStatus train(TrainVerbOptions o) {
   const Surveyed scene = survey_scene(o.scene, o.slope);
   constexpr double narrow_door = 0.6;  // m: a person with nothing to spare
   check_spacing(scene, o.train.spacing, narrow_door);
-  TrainReport report{o.scene.names(), scene.survey.triangles(), o.train, {}, {}};
+  TrainReport report{o.scene.names(), scene.survey.triangles(), o.train, {}, {}, {}};
   {
     StagedProgress progress;
     o.train.progress = [&](TrainStage stage, double done) { return progress.at(stage, done); };
     report.training = train(scene.survey, o.train);
   }
+  for (const Decisive& d : report.training.decisive)
+    report.names.push_back(scene.names_at(d.point, d.direction, d.width));
   Unwritten unwritten;
   unwritten.attempt([&] { write_profile(o, profile, scene.identity, report); });
   if (o.json) {
     print(json_report(report));
   } else {
-    print(text_report(report));
+    print(o.stats ? text_report(report) + stats_report(report) : text_report(report));
   }
   if (drawing && interrupted()) {
     tell(fmt::format("{} was not drawn: this training ended early", o.picture->string()));
@@ -197,6 +200,7 @@ void add_train(CLI::App& program, Run& run) {
   verb->add_option("-o,--output", o.profile, "Write the profile to this file (default: SCENE.roam.json)")
       ->type_name("FILE");
   verb->add_flag("--no-profile", o.no_profile, "Write no profile");
+  verb->add_flag("--stats", o.stats, "Print the interval, all regions, parts and counts, too");
   verb->add_flag("--json", o.json, "Print one JSON object");
   verb->callback([options, &run] { run = [options] { return train(*options); }; });
 }

@@ -16,6 +16,7 @@
 #include "cli/tell.h"
 #include "cli/trace_file.h"
 #include "draw/picture.h"
+#include "measure/along.h"
 #include "roam/error.h"
 #include "roam/path_file.h"
 #include "roam/route.h"
@@ -43,7 +44,13 @@ class Recorder {
     if (!options.trace.empty()) trace_.emplace(options.trace);
   }
 
-  void start(const StepReport& report) { take(report, 0.0); }
+  /// The walker must outlive the recorder's steps.
+  void start(const Walker& walker) {
+    along_.emplace(walker.space(), options_.settings, walker.mode());
+    along_->put(walker.position());
+    reach_ = measure::Room(walker.space(), options_.settings, walker.mode()).reach();
+    take(walker.report(), 0.0);
+  }
 
   /// Runs one step and takes it down.
   template <class Step>
@@ -55,6 +62,7 @@ class Recorder {
     const double begun = tally_.simulated;
     tally_.add_step(report);
     take(report, begun);
+    along_->add(report);  // now: a pager forgets what lies behind the body
     scene_.follow(walker);
     goes_on_ = progress_->goes_on(tally_.steps, std::max(tally_.steps, expected_steps_));
     return report;
@@ -68,6 +76,16 @@ class Recorder {
   }
   [[nodiscard]] StepTimes times() const {
     return {nanoseconds_.quantile(0.5), nanoseconds_.quantile(0.99), nanoseconds_.largest()};
+  }
+  /// What was measured along the way.
+  void describe(words::EndedWalk& report, const OpenScene& scene) const {
+    report.narrowest = along_->narrowest();
+    report.lowest = along_->lowest();
+    report.ducked = along_->ducked();
+    if (report.mode != Mode::ghost) report.reach = reach_;
+    if (!report.narrowest || scene.objects() <= 1) return;
+    report.left = scene.source(report.narrowest->left_triangle).object;
+    report.right = scene.source(report.narrowest->right_triangle).object;
   }
   [[nodiscard]] const verification::PieceLog& pieces() const { return pieces_; }
   [[nodiscard]] const draw::Record& record() const { return record_; }
@@ -90,6 +108,8 @@ class Recorder {
   verification::PieceLog pieces_;
   draw::Record record_;
   Tally tally_;
+  std::optional<measure::Along> along_;
+  double reach_ = 0.0;  ///< m: how far it measures beside the body
 };
 
 double path_length(std::span<const Vec3> points) {
@@ -120,7 +140,7 @@ RouteResult haunt(Walker& walker, std::span<const Vec3> waypoints, const RouteOp
 
 RouteResult follow(Walker& walker, std::span<const Vec3> waypoints, const RouteOptions& options, Recorder& recorder) {
   Route route(walker, waypoints, options);
-  recorder.start(walker.report());
+  recorder.start(walker);
   while (!route.done() && recorder.goes_on()) {
     recorder.step(walker, [&]() -> const StepReport& { return route.advance(); });
   }
@@ -129,7 +149,7 @@ RouteResult follow(Walker& walker, std::span<const Vec3> waypoints, const RouteO
 
 RouteResult roam_about(Walker& walker, const RouteOptions& options, double seconds, Recorder& recorder) {
   Wander wander(walker, {.speed = options.speed, .dt = options.dt, .seconds = seconds});
-  recorder.start(walker.report());
+  recorder.start(walker);
   while (!wander.done() && recorder.goes_on()) {
     wander.look();
     if (wander.done()) break;
@@ -142,7 +162,7 @@ RouteResult roam_about(Walker& walker, const RouteOptions& options, double secon
 RouteResult go(const WalkOptions& options, Walker& walker, std::span<const Vec3> path, Recorder& recorder) {
   if (options.wander) return roam_about(walker, options.route, *options.wander, recorder);
   if (walker.mode() != Mode::ghost) return follow(walker, path, options.route, recorder);
-  recorder.start(walker.report());
+  recorder.start(walker);
   return haunt(walker, path, options.route, recorder);
 }
 
@@ -218,9 +238,7 @@ void print_report(const WalkOptions& options, const WalkReport& report) {
     if (report.interrupted) json["outcome"] = words::outcome(report);
     return print(json);
   }
-  std::string text = text_report(report);
-  if (report.interrupted) text.replace(0, text.find(':'), words::outcome(report));
-  print_beside(options.trace, text);
+  print_beside(options.trace, options.stats ? text_report(report) + stats_report(report) : text_report(report));
 }
 
 ExitStatus walk(WalkOptions options) {
@@ -305,6 +323,7 @@ ExitStatus walk(WalkOptions options) {
       report.result.blocked_at->triangle = source.scene;
     }
   }
+  recorder.describe(report, scene);
   report.paging = scene.paging();
   report.times = recorder.times();
   std::optional<draw::Measured> seen;

@@ -56,9 +56,10 @@ class Composer {
     y_ = 0.5 * sheet_margin;
     text_lines("title", c_.title, title_size, true, ink);
     y_ += 8.0;
-    text_lines("outcome", fmt::format("{}: {}", words::outcome(c_.report), words::explain(c_.report)), text_size, false,
-               !c_.report.interrupted && c_.report.result.outcome == Outcome::reached ? mark_colour(MarkKind::start)
-                                                                                      : mark_colour(MarkKind::blocked));
+    const bool is_reached = !c_.report.interrupted && c_.report.result.outcome == Outcome::reached;
+    text_lines("outcome", words::headline(c_.report), text_size, false,
+               mark_colour(is_reached ? MarkKind::start : MarkKind::blocked));
+    if (!is_reached) text_lines("why", words::explain(c_.report), text_size, false, mark_colour(MarkKind::blocked));
     y_ += 4.0;
     text_lines("facts", facts(), text_size, false, pale_ink);
   }
@@ -66,9 +67,8 @@ class Composer {
   [[nodiscard]] std::string facts() const {
     const words::EndedWalk& r = c_.report;
     const char* mode = r.mode == Mode::walk ? "on foot" : r.mode == Mode::fly ? "flying" : "as a ghost, through walls";
-    std::string text = fmt::format("{}, radius {:g} m, height {:g} m  ·  way {} in {:.1f} s", mode, r.settings.radius,
-                                   r.settings.height, length_text(r.result.length), r.result.simulated);
-    if (words::knows_clearance(r)) {
+    std::string text = fmt::format("{}, radius {:g} m, height {:g} m", mode, r.settings.radius, r.settings.height);
+    if (r.mode == Mode::fly && words::knows_clearance(r)) {
       text += fmt::format("  ·  its axis at least {:.3f} m from everything, certified", r.result.least_axis_clearance);
     }
     const auto falls = count_falls();

@@ -1,10 +1,13 @@
 #include "draw/picture.h"
 
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
+#include <limits>
 
 #include "cli/progress.h"
 #include "draw/compose.h"
+#include "draw/corners.h"
 
 namespace roam::draw {
 namespace {
@@ -53,12 +56,31 @@ Rect section_range(const Frames& frames) {
   return range;
 }
 
+/// The distance along the way of the position on it that is nearest to a place.
+double along_at(const Way& way, const Vec3& place) {
+  double least = std::numeric_limits<double>::infinity(), along = 0.0;
+  for (std::size_t i = 1; i < way.points.size(); ++i) {
+    const WayPoint &a = way.points[i - 1], &b = way.points[i];
+    if (b.jump) continue;
+    const double t = nearest_part(place, a.position, b.position);
+    const double apart = glm::distance(place, a.position + t * (b.position - a.position));
+    if (apart >= least) continue;
+    least = apart;
+    along = a.along + t * (b.along - a.along);
+  }
+  return along;
+}
+
 }  // namespace
 
 Measured measure(const Space& space, const words::EndedWalk& report, const Record& record, const Arrive& arrive) {
   Measured measured;
   measured.way = simplified(record, std::min(straightening * report.settings.radius, most_straightening));
   measured.survey = survey(space, measured.way, report.settings, report.mode, arrive);
+  if (const auto& narrow = report.narrowest) {
+    measured.survey.narrowest = {narrow->centre, narrow->body.height(), along_at(measured.way, narrow->centre),
+                                 narrow->width,  narrow->left,          narrow->right};
+  }
   return measured;
 }
 

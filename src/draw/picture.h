@@ -4,7 +4,7 @@
 ///
 /// A picture is made in steps, one file each. All steps but the last turn values into values:
 ///   way       the places of all steps -> few corners, with their distances along the way
-///   survey    -> the room beside the body, floor, ceiling, the narrowest place (queries the space)
+///   survey    -> the room beside the body, floor, ceiling (queries the space)
 ///   marks     -> the places to mark
 ///   levels    -> the heights at which the plan is cut
 ///   frames    -> the part of the scene to show, and its scale

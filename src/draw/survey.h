@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Measurements along a way: the room beside the body, floor and ceiling, and the narrowest place.
+/// Measurements along a way: the room beside the body, floor and ceiling.
 
 #include <functional>
 #include <optional>
@@ -25,20 +25,20 @@ struct Station {
   std::optional<double> ceiling;  ///< the same above
 };
 
-/// The place with the least room between a left and a right wall, if the way continues in both directions.
+/// The narrowest place of a walk, see measure::NarrowPlace.
 struct Narrowest {
   Vec3 centre{0.0};
   double height = 0.0;
-  double along = 0.0;
-  double width = 0.0;  ///< clear metres: measured level, within 45 degrees of across the way, by moving the body aside
-  Vec3 left{0.0};      ///< the ends of that measure, at the height of the centre
+  double along = 0.0;  ///< metres, as WayPoint::along
+  double width = 0.0;  ///< metres
+  Vec3 left{0.0};      ///< the ends of the width
   Vec3 right{0.0};
 };
 
 struct Survey {
   double reach = 0.0;  ///< measured metres beside the body, at most
   std::vector<Station> stations;
-  std::optional<Narrowest> narrowest;  ///< none if the way is open to one side everywhere, and for a ghost
+  std::optional<Narrowest> narrowest;  ///< set by the caller; survey() leaves it empty
 };
 
 /// Called before each measurement: `reach` metres around the place should be loaded then.

@@ -88,6 +88,8 @@ std::uint64_t OpenScene::triangles() const {
   return store_ ? store_->info().triangles : loaded_.world.stats().triangles;
 }
 
+std::uint64_t OpenScene::objects() const { return store_ ? store_->info().objects : loaded_.world.stats().objects; }
+
 Box OpenScene::bounds() const { return store_ ? store_->info().bounds : loaded_.bounds; }
 
 std::optional<PagerStats> OpenScene::paging() const {

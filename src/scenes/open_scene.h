@@ -21,6 +21,7 @@ class OpenScene {
 
   [[nodiscard]] const Space& space() const;
   [[nodiscard]] std::uint64_t triangles() const;
+  [[nodiscard]] std::uint64_t objects() const;
   [[nodiscard]] Box bounds() const;
   /// Bounds of the space, which a world stores with a small error.
   [[nodiscard]] Box walked_bounds() const { return store_ ? bounds() : loaded_.world.bounds(); }

@@ -11,7 +11,7 @@
 #include "cli/interrupt.h"
 #include "cli/progress.h"
 #include "cli/tell.h"
-#include "roam/store.h"
+#include "measure/room.h"
 #include "store/meshes.h"
 
 namespace roam::app {
@@ -33,7 +33,7 @@ std::optional<std::uint64_t> free_memory() {
   return std::nullopt;
 }
 
-std::vector<Mesh> read_store(const Store& store) {
+std::vector<Mesh> read_store(const Store& store, std::vector<TriangleId>& numbers) {
   const StoreInfo& info = store.info();
   const std::uint64_t needed = info.triangles * bytes_a_triangle;
   const auto free = free_memory();
@@ -48,8 +48,10 @@ std::vector<Mesh> read_store(const Store& store) {
   mesh.vertices.reserve(3 * info.triangles);
   mesh.triangles.reserve(info.triangles);
   Progress progress("reading " + store.name(), "triangles");
-  const auto take = [&](std::span<const Triangle> triangles, std::span<const TriangleId>) {
+  numbers.reserve(info.triangles);
+  const auto take = [&](std::span<const Triangle> triangles, std::span<const TriangleId> ids) {
     store::append(mesh, triangles);
+    numbers.insert(numbers.end(), ids.begin(), ids.end());
     progress.at(mesh.triangles.size(), info.triangles);
   };
   store.for_each_triangle(info.bounds, take, [&](const std::string& what) {
@@ -75,13 +77,15 @@ void add_surveyed_to(CLI::App& verb, SceneOptions& options) {
 Surveyed survey_scene(const SceneOptions& options, double slope_degrees) {
   std::vector<Mesh> meshes;
   SceneIdentity identity;
+  std::shared_ptr<const Store> store;
+  std::vector<TriangleId> numbers;
   if (options.name_a_store()) {
     if (options.scenes.size() > 1 || options.says_how_to_read()) {
       throw UsageError("a store is a scene of its own, and was read when it was built: name it alone");
     }
-    const auto store = Store::open(options.scenes.front());
+    store = Store::open(options.scenes.front());
     identity = identity_of(store->info());
-    meshes = read_store(*store);
+    meshes = read_store(*store, numbers);
   } else {
     meshes = read_scene(options).meshes;
     identity = identity_of(meshes);
@@ -96,7 +100,18 @@ Surveyed survey_scene(const SceneOptions& options, double slope_degrees) {
     const auto done = static_cast<double>(identity.triangles) * share;
     return progress.goes_on(static_cast<std::uint64_t>(done), identity.triangles);
   };
-  return {Survey::build(std::move(meshes), how), std::move(identity)};
+  return {Survey::build(std::move(meshes), how), std::move(identity), std::move(store), std::move(numbers)};
+}
+
+std::string Surveyed::name(TriangleId triangle) const {
+  const std::uint64_t objects = store ? store->info().objects : survey.world().stats().objects;
+  if (triangle == no_triangle || objects <= 1) return {};
+  return store ? store->source(numbers.at(triangle)).object : survey.world().object_name(triangle);
+}
+
+std::pair<std::string, std::string> Surveyed::names_at(const Vec3& point, const Vec3& direction, double width) const {
+  const auto ends = measure::at_ends(survey.world(), point, direction, width);
+  return {name(ends[0]), name(ends[1])};
 }
 
 void check_spacing(const Surveyed& scene, double spacing, double width) {

@@ -3,9 +3,13 @@
 /// The input of `roam train` and `roam probe`: a scene, or a store, read whole and surveyed.
 
 #include <CLI/CLI.hpp>
+#include <memory>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "roam/profile.h"
+#include "roam/store.h"
 #include "roam/survey.h"
 #include "scenes/scene_options.h"
 
@@ -15,8 +19,16 @@ namespace roam::app {
 void add_surveyed_to(CLI::App& verb, SceneOptions& options);
 
 struct Surveyed {
-  Survey survey;           ///< lossless
-  SceneIdentity identity;  ///< of the scene or the store
+  Survey survey;                       ///< lossless
+  SceneIdentity identity;              ///< of what was read: the scene, or the store
+  std::shared_ptr<const Store> store;  ///< that was read; null: none
+  std::vector<TriangleId> numbers;     ///< in the store, of each triangle
+
+  /// The name of a triangle's object. Empty for no triangle, an object without a name, and in a scene of one object.
+  [[nodiscard]] std::string name(TriangleId triangle) const;
+  /// Of the objects at both ends of a measured distance, see measure::at_ends().
+  [[nodiscard]] std::pair<std::string, std::string> names_at(const Vec3& point, const Vec3& direction,
+                                                             double width) const;
 };
 
 /// Reads and surveys, with progress and the import's notes on standard error. A store is read whole, as it is stored.

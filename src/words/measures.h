@@ -4,9 +4,11 @@
 
 #include <fmt/format.h>
 
+#include <cstdint>
 #include <string>
 
 #include "roam/math.h"
+#include "roam/walker_settings.h"
 
 namespace roam::words {
 
@@ -24,5 +26,18 @@ namespace roam::words {
 [[nodiscard]] inline std::string metres(double length) {
   return length >= 0.01 ? fmt::format("{:.3f} m", length) : fmt::format("{:.1f} mm", 1e3 * length);
 }
+
+/// "499,936".
+[[nodiscard]] std::string grouped(std::uint64_t number);
+/// "once", "twice", "3 times".
+[[nodiscard]] std::string times(std::uint64_t count);
+/// "75 mm to spare on each side".
+[[nodiscard]] std::string spare_words(double spare);
+/// "0.60 m wide and 1.80 m high", of a sphere "0.60 m wide (a sphere)".
+[[nodiscard]] std::string size_of(double radius, double height);
+/// "door 3" in quotes and printable; "an object without a name" for none.
+[[nodiscard]] std::string quoted(const std::string& object);
+/// "between "a" and "b"", "beside "a"" if only one has a name, "of "a"" if both have the same; empty if none has.
+[[nodiscard]] std::string between(const std::string& left, const std::string& right);
 
 }  // namespace roam::words

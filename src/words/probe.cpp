@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 
 #include "math/floating_point.h"
+#include "words/lines.h"
 #include "words/measures.h"
 
 namespace roam::words {
@@ -237,6 +238,146 @@ std::string explain(const ProbeQuestion& question, const ProbeAnswer& answer) {
   }
   return text + moved("start", question.from, answer.start, question.mode) +
          moved("target", question.to, answer.target, question.mode);
+}
+
+namespace {
+
+std::string trimmed(const std::string& text) {
+  const std::size_t begin = text.find_first_not_of(' ');
+  return begin == std::string::npos ? "" : text.substr(begin);
+}
+
+const char* shortfall(const ProbeLimit& limit) {
+  if (limit.kind == Kind::height || limit.too_low || std::abs(limit.direction.z) > 0.7) return "too low";
+  return limit.kind == Kind::step                         ? "too high"
+         : is_end(limit.kind) || limit.kind == Kind::edge ? "too near"
+                                                          : "too narrow";
+}
+
+/// "door 0.750 m wide between "a" and "b" at (1.00, 2.00, 3.00)".
+std::string obstacle(const ProbeLimit& limit, const ProbeDetails& details) {
+  std::string text = text_of(limit);
+  if (is_end(limit.kind)) {
+    const std::string& name = details.left.empty() ? details.right : details.left;
+    return fmt::format("{} is {} {} {}, at {}", limit.kind == Kind::start ? "A" : "B", metres(limit.size),
+                       limit.too_low ? "below" : "from", name.empty() ? "the next surface" : quoted(name),
+                       at(limit.feet));
+  }
+  const std::string objects = between(details.left, details.right);
+  return fmt::format("{}{} at {}", text, objects.empty() ? "" : " " + objects, at(limit.point));
+}
+
+std::string stop_line(const ProbeQuestion& question, const ProbeAnswer& answer, const ProbeDetails& details) {
+  if (answer.walk && falls(*answer.walk, question.mode)) {
+    return fmt::format(
+        "a fall at {}: the floor ends there, or has a gap. A wider foot (--support-radius) may carry the body",
+        walked_to(question, answer));
+  }
+  if (answer.walk) {
+    return fmt::format("the walker that was sent along the way ended at {}: {}. By its measures the body passes",
+                       walked_to(question, answer), to_string(answer.walk->outcome));
+  }
+  if (is_unknown(answer)) return trimmed(ended(answer.passage));
+  if (!answer.limit || answer.limit->kind == Kind::apart) return stopped_by(answer);
+  const double missing = answer.limit->kind == Kind::lintel ? 0.5 * answer.missing : answer.missing;
+  std::string text = obstacle(*answer.limit, details);
+  if (answer.limit->kind == Kind::step) {
+    text += fmt::format("; the body steps {}", metres(answer.limit->needed));
+  } else {
+    text += missing < 1e-3 ? ": less than 1 mm " : fmt::format(": {} ", metres(missing));
+    text += shortfall(*answer.limit);
+  }
+  return answer.room ? text + fmt::format("; the nearest place with room is {}", at(*answer.room)) : text;
+}
+
+/// The sizes that would pass.
+std::string would_pass(const ProbeAnswer& answer) {
+  const Passage& p = answer.passage;
+  if (answer.wide_enough || is_unknown(answer)) return {};
+  std::string text;
+  if (answer.limit && answer.limit->kind == Kind::height)
+    text = fmt::format("a body of that width up to {:.3f} m high", answer.limit->size);
+  if (p.found) text += fmt::format("{}up to {:.3f} m wide", text.empty() ? "" : ", or of that height ", 2.0 * p.radius);
+  return text;
+}
+
+std::string way_line(const Passage& p, const ProbeDetails& details) {
+  std::string text = fmt::format("{:.1f} m long", p.length);
+  if (!details.slope) return text;
+  const measure::Slope& s = *details.slope;
+  if (s.degrees < 0.5) return text + ", level";
+  return text + fmt::format(", up {:.2f} m and down {:.2f} m; steepest {:.0f} degrees, at {}", s.rise, s.fall,
+                            s.degrees, at(s.place));
+}
+
+std::string narrowest_line(const ProbeAnswer& answer, const ProbeDetails& details) {
+  if (!answer.limit) return fmt::format("nothing leaves less than {}", metres(2.0 * answer.passage.radius));
+  const ProbeLimit& limit = *answer.limit;
+  std::string text = obstacle(limit, details);
+  if (!is_end(limit.kind)) text += fmt::format(", {:.1f} m on the way", limit.along);
+  if (limit.kind == Kind::door || limit.kind == Kind::gap)
+    text += ": " + spare_words(0.5 * (limit.size - limit.needed));
+  return text;
+}
+
+std::string end_line(const Vec3& asked, const Vec3& stands, Mode mode) {
+  const std::string place = at(stands);
+  if (mode == Mode::fly)
+    return glm::distance(asked, stands) > moved_aside ? place + ", moved: there is no room at " + at(asked) : place;
+  const double aside = std::hypot(stands.x - asked.x, stands.y - asked.y), down = asked.z - stands.z;
+  if (aside > moved_aside) return fmt::format("on the floor at {}, moved: there is no room at {}", place, at(asked));
+  if (down > tall) return fmt::format("on the floor at {}, {:.2f} m below {}", place, down, at(asked));
+  return "on the floor at " + place;
+}
+
+std::string certainty(const ProbeQuestion& question, const ProbeAnswer& answer) {
+  if (answer.passable) return "a walker of that size has gone the way from A to B";
+  if (answer.wide_enough) return {};
+  const std::string text = trimmed(sureness(question, answer));
+  return answer.passage.complete && !answer.proven && !text.empty() ? text + " This is no proof." : text;
+}
+
+}  // namespace
+
+std::string report(const ProbeQuestion& question, const ProbeAnswer& answer, const ProbeDetails& details) {
+  const DefaultFloatingPoint guard;
+  const bool contradicts = answer.walk && !answer.passable && !falls(*answer.walk, question.mode);
+  const char* const word = answer.passable      ? "YES"
+                           : contradicts        ? "NOT SHOWN"
+                           : is_unknown(answer) ? "NOT KNOWN"
+                                                : "NO";
+  const char* const gets = answer.passable                     ? "gets"
+                           : contradicts || is_unknown(answer) ? "may or may not get"
+                                                               : "does not get";
+  Lines lines(
+      fmt::format("{}: a body {} {} from A to B.", word, size_of(answer.size.radius, answer.size.height), gets));
+  if (!answer.passable) {
+    const bool is_named = answer.limit && answer.limit->kind != Kind::apart && !answer.walk && !is_unknown(answer);
+    lines.add(is_named ? "stopped by" : "why", stop_line(question, answer, details));
+    lines.add("would pass", would_pass(answer));
+  }
+  if (answer.passage.found) lines.add(answer.wide_enough ? "way" : "widest way", way_line(answer.passage, details));
+  if (answer.wide_enough) lines.add("narrowest", narrowest_line(answer, details));
+  if (details.narrower > 0.0 && answer.passage.found) {
+    lines.add("narrower",
+              fmt::format("{} than {:g} m on this way",
+                          details.narrow.empty()       ? "nothing is narrower"
+                          : details.narrow.size() == 1 ? "1 place is narrower"
+                                                       : fmt::format("{} places are narrower", details.narrow.size()),
+                          details.narrower));
+    for (const ProbeDetails::Narrow& n : details.narrow) {
+      const std::string objects = between(n.left, n.right);
+      std::string text = fmt::format("{:.3f} m wide{} at {}, {:.1f} m on the way", n.place.width,
+                                     objects.empty() ? "" : " " + objects, at(n.place.centre), n.place.along);
+      if (n.place.to - n.place.from > 2.0 * n.place.body.radius)
+        text += fmt::format(", for {:.1f} m", n.place.to - n.place.from);
+      lines.add("", text);
+    }
+  }
+  lines.add("A", end_line(question.from, answer.start, question.mode));
+  lines.add("B", end_line(question.to, answer.target, question.mode));
+  lines.add("certainty", certainty(question, answer));
+  return lines.text();
 }
 
 }  // namespace roam::words

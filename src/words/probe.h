@@ -2,8 +2,12 @@
 /// \file
 /// Sentences about the result of a probe, and words that its table and pictures share.
 
+#include <optional>
 #include <string>
+#include <vector>
 
+#include "measure/along.h"
+#include "measure/slope.h"
 #include "roam/probe.h"
 
 namespace roam::words {
@@ -11,6 +15,22 @@ namespace roam::words {
 /// The result in one to four sentences: yes or no, along which way, or what stops the body, where, and how certain that
 /// is.
 [[nodiscard]] std::string explain(const ProbeQuestion& question, const ProbeAnswer& answer);
+
+/// What a report says besides the answer. Names are empty if unknown.
+struct ProbeDetails {
+  /// A place narrower than wanted, and the names of the objects on both sides.
+  struct Narrow {
+    measure::NarrowPlace place;
+    std::string left, right;
+  };
+  std::string left, right;              ///< names of the objects at both ends of the measured distance
+  std::optional<measure::Slope> slope;  ///< of the way, walking
+  double narrower = 0.0;                ///< m: `narrow` lists the places narrower than this; 0: none are wanted
+  std::vector<Narrow> narrow;
+};
+
+/// The report: the answer in one line, and labelled lines.
+[[nodiscard]] std::string report(const ProbeQuestion& question, const ProbeAnswer& answer, const ProbeDetails& details);
 
 /// The decisive obstacle and its size in a few words: "door 0.520 m wide".
 [[nodiscard]] std::string text_of(const ProbeLimit& limit);

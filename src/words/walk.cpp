@@ -10,10 +10,6 @@
 namespace roam::words {
 namespace {
 
-std::string quoted(const std::string& object) {
-  return object.empty() ? "an object without a name" : fmt::format("\"{}\"", printable(object));
-}
-
 std::string explain_blocked(const EndedWalk& walk) {
   const RouteResult& result = walk.result;
   if (!result.blocked_at) return fmt::format("it came no nearer to the next waypoint at {}", exactly_at(result.end));
@@ -34,10 +30,10 @@ std::string explain_blocked(const EndedWalk& walk) {
 std::string explain_wait(const EndedWalk& walk) {
   const RouteResult& result = walk.result;
   if (!result.blocked_at) {
-    return fmt::format("at {} what lies ahead does not come fast enough; go slower, or read it from a faster disk",
+    return fmt::format("at {} the space ahead is not loaded fast enough; go slower, or read it from a faster disk",
                        exactly_at(result.end));
   }
-  return fmt::format("at {} what lies ahead is solid until it is read, from {} on: {}", exactly_at(result.end),
+  return fmt::format("at {} the space ahead is solid until it is read, from {} on: {}", exactly_at(result.end),
                      exactly_at(result.blocked_at->point),
                      walk.object.empty() ? "not loaded yet" : printable(walk.object, longest_sentence));
 }
@@ -60,7 +56,7 @@ std::string explain_left(const EndedWalk& walk) {
                        scene.empty() ? "" : scene + ",", exactly_at(result.end));
   }
   if (result.steps == 0) {
-    return fmt::format("where it starts, {} (--from), is outside the scene{}", exactly_at(result.end), scene);
+    return fmt::format("its start, {} (--from), is outside the scene{}", exactly_at(result.end), scene);
   }
   return fmt::format("at {} it has wandered out of the scene{}", exactly_at(result.end), scene);
 }
@@ -69,8 +65,7 @@ std::string explain_held(const EndedWalk& walk) {
   const RouteResult& result = walk.result;
   const bool wanders = walk.waypoints == 0;
   if (held_since_start(result) && first(result, EventKind::met_unknown)) {
-    return fmt::format("where it starts, {}, what is there cannot be read, or has not been in time",
-                       exactly_at(result.end));
+    return fmt::format("the space around its start, {}, cannot be read, or not in time", exactly_at(result.end));
   }
   if (held_since_start(result)) {
     return fmt::format(
@@ -108,6 +103,62 @@ std::string note_on_size(const WalkerSettings& body, const Box& scene) {
 }
 
 const char* outcome(const EndedWalk& walk) { return walk.interrupted ? "interrupted" : to_string(walk.result.outcome); }
+
+namespace {
+
+/// What ended a walk before its end, in a few words.
+std::string stopped(const EndedWalk& walk) {
+  const RouteResult& result = walk.result;
+  switch (result.outcome) {
+    case Outcome::reached:
+      break;
+    case Outcome::blocked:
+      return result.blocked_at ? "blocked by " + quoted(walk.object) : "blocked";
+    case Outcome::left_scene:
+      return result.steps == 0 ? "starts outside the scene" : "left the scene";
+    case Outcome::fell:
+      return "fell";
+    case Outcome::held:
+      return held_since_start(result) && !first(result, EventKind::met_unknown) ? "does not fit where it starts"
+             : first(result, EventKind::put_back)                               ? "no ground below"
+                                                                                : "the space ahead is not loaded";
+  }
+  return {};
+}
+
+}  // namespace
+
+std::string headline(const EndedWalk& walk) {
+  const RouteResult& result = walk.result;
+  const bool wanders = walk.waypoints == 0;
+  const std::string way = fmt::format("{:.1f} m in {:.1f} s", result.length, result.simulated);
+  if (walk.interrupted) return "INTERRUPTED after " + way;
+  if (result.outcome == Outcome::reached && wanders) return "FINISHED: wandered " + way;
+  if (result.outcome == Outcome::reached) {
+    return fmt::format("REACHED: {} of {} waypoints, {}", result.waypoints, walk.waypoints, way);
+  }
+  std::string text = (wanders ? "STOPPED: " : "NOT REACHED: ") + stopped(walk);
+  if (result.length > 0.0) text += " after " + way;
+  if (!wanders) text += fmt::format(", {} of {} waypoints", result.waypoints, walk.waypoints);
+  return text;
+}
+
+std::string tightest(const EndedWalk& walk) {
+  if (walk.mode == Mode::ghost || walk.reach <= 0.0 || walk.result.length <= 0.0) return {};
+  if (!walk.narrowest) return fmt::format("none: nowhere was there a wall within {:.1f} m on both sides", walk.reach);
+  const measure::NarrowPlace& n = *walk.narrowest;
+  const std::string objects = between(walk.left, walk.right);
+  return fmt::format("{:.3f} m clear{} at {:.1f} m, {}: {}", n.width, objects.empty() ? "" : " " + objects, n.along,
+                     at(n.centre), spare_words(n.spare()));
+}
+
+std::string headroom(const EndedWalk& walk) {
+  if (walk.mode != Mode::walk || walk.reach <= 0.0 || walk.result.length <= 0.0) return {};
+  const std::string ducked = walk.ducked > 0 ? "ducked " + times(walk.ducked) + "; " : "";
+  if (!walk.lowest) return ducked + "open above";
+  const measure::LowPlace& low = *walk.lowest;
+  return fmt::format("{}{} at the lowest, at {:.1f} m, {}", ducked, metres(low.height), low.along, at(low.centre));
+}
 
 std::string explain(const EndedWalk& walk) {
   const RouteResult& result = walk.result;

@@ -84,6 +84,26 @@ Json json_report(const ProbeAnswer& answer, bool with_way) {
   return json;
 }
 
+void add_details(Json& json, const words::ProbeDetails& details) {
+  if (json["opening"].is_object()) json["opening"]["objects"] = {details.left, details.right};
+  json["steepest"] = nullptr;
+  if (const auto& slope = details.slope) {
+    json["steepest"] = {
+        {"degrees", slope->degrees}, {"point", to_json(slope->place)}, {"up_m", slope->rise}, {"down_m", slope->fall}};
+  }
+  json["narrower"] = nullptr;
+  if (!(details.narrower > 0.0)) return;
+  json["narrower"] = Json::array();
+  for (const auto& [place, left, right] : details.narrow) {
+    json["narrower"].push_back({{"width_m", place.width},
+                                {"point", to_json(place.centre)},
+                                {"along_m", place.along},
+                                {"from_m", place.from},
+                                {"to_m", place.to},
+                                {"objects", {left, right}}});
+  }
+}
+
 std::string table(const ProbeQuestion& question, std::span<const ProbeAnswer> answers) {
   std::string text = fmt::format("{:>8}  {:>8}  {:<4}  {:>11}  {:>9}  {}\n", "radius", "height", "", "widest way",
                                  "missing", "what decides");

@@ -8,6 +8,7 @@
 
 #include "cli/report.h"
 #include "roam/probe.h"
+#include "words/probe.h"
 
 namespace roam::app {
 
@@ -17,6 +18,8 @@ namespace roam::app {
 
 /// The members of one size; `way` and what belongs to it only where they are asked for.
 [[nodiscard]] Json json_report(const ProbeAnswer& answer, bool with_way);
+/// Adds the slope of the way, the objects at the opening and the places narrower than wanted.
+void add_details(Json& json, const words::ProbeDetails& details);
 /// One line a size.
 [[nodiscard]] std::string table(const ProbeQuestion& question, std::span<const ProbeAnswer> answers);
 

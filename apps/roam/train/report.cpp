@@ -78,11 +78,13 @@ Json json_report(const TrainReport& report) {
   const Training& t = report.training;
   Json paths = Json::array(), decisive = Json::array(), regions = Json::array(), cracks = Json::array();
   for (const TrainedPath& path : t.paths) paths.push_back(json_of(path));
-  for (const Decisive& d : t.decisive) {
+  for (std::size_t i = 0; i < t.decisive.size(); ++i) {
+    const Decisive& d = t.decisive[i];
     decisive.push_back({{"kind", to_string(d.kind)},
                         {"point", to_json(d.point)},
                         {"width_m", d.width},
                         {"direction", to_json(d.direction)}});
+    if (i < report.names.size()) decisive.back()["objects"] = {report.names[i].first, report.names[i].second};
   }
   for (const SizeRegion& r : t.regions) {
     regions.push_back(
@@ -136,9 +138,13 @@ Json json_report(const TrainReport& report) {
 }
 
 std::string text_report(const TrainReport& report) {
+  return words::report(report.training, report.options, report.names, report.profile.string());
+}
+
+std::string stats_report(const TrainReport& report) {
   const Training& t = report.training;
-  std::string text = words::answer(t, report.options) + "\n";
-  const auto line = [&](const char* what, const std::string& value) {
+  std::string text;
+  const auto line = [&](const std::string& what, const std::string& value) {
     text += fmt::format("  {:<17}{}\n", what, printable_part(value));
   };
   std::string body =
@@ -156,12 +162,15 @@ std::string text_report(const TrainReport& report) {
     line(to_string(d.kind), fmt::format("{:.4f} m wide at {}", d.width, at(d.point)));
   std::map<std::string, std::size_t> kinds;
   for (const Crack& c : t.cracks) ++kinds[to_string(c.kind)];
-  for (const auto& [kind, count] : kinds) line(kind.c_str(), fmt::format("{}", count));
+  for (const auto& [kind, count] : kinds) line(kind, fmt::format("{}", count));
   for (const SizeRegion& r : t.regions)
     line("region", fmt::format("radius {:.3f} m at {}: {}", r.radius, at(r.bounds.center()), r.why));
   line("roamed", trials_line(t));
+  for (const ConnectedPart& p : t.parts) {
+    line("part", fmt::format("{:.0f} m2, {} places about {}{}", p.area, p.places, at(p.place),
+                             p.trained ? "" : std::string(": ") + words::why(p.left_out)));
+  }
   line("time", fmt::format("{}, {} places", short_time(t.seconds), t.places));
-  if (!report.profile.empty()) line("profile", report.profile.string());
   return text;
 }
 

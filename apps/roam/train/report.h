@@ -9,6 +9,7 @@
 #include "cli/report.h"
 #include "draw/opening.h"
 #include "roam/train.h"
+#include "words/training.h"
 
 namespace roam::app {
 
@@ -19,10 +20,13 @@ struct TrainReport {
   TrainOptions options;
   Training training;
   std::filesystem::path profile;  ///< that was written; empty: none
+  words::TrainingNames names;
 };
 
 [[nodiscard]] Json json_report(const TrainReport& report);
 [[nodiscard]] std::string text_report(const TrainReport& report);
+/// For `--stats`: interval, regions, trials, parts.
+[[nodiscard]] std::string stats_report(const TrainReport& report);
 
 /// What decides, to be drawn with the body that is answered.
 [[nodiscard]] std::vector<draw::OpeningView> views_of(const TrainReport& report);

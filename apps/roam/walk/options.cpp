@@ -124,6 +124,7 @@ void WalkOptions::add_to(CLI::App& verb) {
   verb.add_option("--against", against.scenes,
                   "For a store: check every move against the triangles of the scene that it was made of")
       ->type_name("SCENE");
+  verb.add_flag("--stats", stats, "Print times of a step, certified clearances and counts, too");
   verb.add_flag("--json", json, "Print one JSON object");
 }
 

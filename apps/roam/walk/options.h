@@ -32,6 +32,7 @@ struct WalkOptions {
   bool verify = false;
   SceneOptions against;  ///< the scene that a store was made of
   bool json = false;
+  bool stats = false;
 
   /// Whether every move is checked against triangles.
   [[nodiscard]] bool checks() const { return verify || !against.scenes.empty(); }

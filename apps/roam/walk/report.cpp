@@ -6,7 +6,9 @@
 
 #include "cli/progress.h"
 #include "cli/tell.h"
+#include "words/lines.h"
 #include "words/measures.h"
+#include "words/verification.h"
 
 namespace roam::app {
 namespace {
@@ -23,6 +25,19 @@ std::string clearance_line(const WalkReport& report) {
   return fmt::format("at least {:.6f} m from its axis, {:.6f} m from its surface (certified{})",
                      result.least_axis_clearance, result.least_gap, cap);
 }
+
+/// "0.60 m wide and 1.80 m high, walking, on a support disc of radius 0.645 m, from gallery.ply.roam.json".
+std::string body_line(const WalkReport& report) {
+  const WalkerSettings& s = report.settings;
+  std::string text = words::size_of(s.radius, s.height);
+  text += report.mode == Mode::walk ? ", walking" : report.mode == Mode::fly ? ", flying" : ", a ghost";
+  if (report.mode == Mode::walk && s.support_radius > s.radius) {
+    text += fmt::format(", with a support disc {:.2f} m wide", 2.0 * s.support_radius);
+  }
+  return report.profile.empty() ? text : text + "; of " + printable_part(report.profile);
+}
+
+Json wall(const Vec3& point, const std::string& object) { return {{"point", to_json(point)}, {"object", object}}; }
 
 }  // namespace
 
@@ -59,6 +74,10 @@ Json json_report(const WalkReport& report) {
                {"violations", nullptr},
                {"throttled", result.throttled},
                {"blocked_at", blocked},
+               {"narrowest", nullptr},
+               {"headroom", nullptr},
+               {"ducked", report.ducked},
+               {"measured_beside_m", report.reach},
                {"waypoints_reached", result.waypoints},
                {"end", {{"position", to_json(result.end)}, {"eye", to_json(report.eye)}}},
                {"verified", nullptr},
@@ -66,6 +85,20 @@ Json json_report(const WalkReport& report) {
   if (words::knows_clearance(report)) {
     json["least_clearance_m"] = result.least_axis_clearance;
     json["least_gap_m"] = result.least_gap;
+  }
+  if (report.narrowest) {
+    const measure::NarrowPlace& n = *report.narrowest;
+    json["narrowest"] = {{"width_m", n.width},
+                         {"spare_m", n.spare()},
+                         {"point", to_json(n.centre)},
+                         {"along_m", n.along},
+                         {"left", wall(n.left, report.left)},
+                         {"right", wall(n.right, report.right)}};
+  }
+  if (report.lowest) {
+    json["headroom"] = {{"height_m", report.lowest->height},
+                        {"point", to_json(report.lowest->centre)},
+                        {"along_m", report.lowest->along}};
   }
   json["profile"] = report.profile.empty() ? Json(nullptr) : Json(report.profile);
   if (report.paging) json["paging"] = to_json(*report.paging);
@@ -82,24 +115,38 @@ Json json_report(const WalkReport& report) {
 
 std::string text_report(const WalkReport& report) {
   const RouteResult& result = report.result;
-  std::string text = fmt::format("{}: {}\n", to_string(result.outcome), words::explain(report));
+  words::Lines lines(words::headline(report));
+  if (result.outcome != Outcome::reached) lines.add("why", words::explain(report));
+  if (const auto freed = words::first(result, EventKind::freed)) {
+    lines.add("start", fmt::format("did not fit where it was put, inside a wall or too near to one; freed to {}",
+                                   words::exactly_at(*freed)));
+  }
+  lines.add("tightest", words::tightest(report));
+  lines.add("headroom", words::headroom(report));
+  if (report.mode == Mode::fly && words::knows_clearance(report)) {
+    lines.add("nearest", fmt::format("at least {} from everything", words::metres(std::max(0.0, result.least_gap))));
+  }
+  lines.add("body", body_line(report));
+  if (report.paging && report.paging->failed > 0) {
+    lines.add("not read", fmt::format("{} tiles or pages of the store are solid: {}", report.paging->failed,
+                                      printable_part(report.paging->last_failure)));
+  }
+  if (report.verified) {
+    lines.add("checked", words::checked(*report.verified, report.triangles));
+    for (const std::string& remark : verification::remarks(*report.verified)) lines.add("", printable_part(remark));
+  }
+  return lines.text();
+}
+
+std::string stats_report(const WalkReport& report) {
+  const RouteResult& result = report.result;
+  std::string text;
   const auto line = [&](const char* what, const std::string& value) {
     text += fmt::format("  {:<17}{}\n", what, printable_part(value));
   };
-  if (const auto freed = words::first(result, EventKind::freed)) {
-    line("start", fmt::format("did not fit where it was put, inside a wall or too near to one; freed to {}",
-                              words::exactly_at(*freed)));
-  }
   line("scene", fmt::format("{}, {} triangles", report.scene, report.triangles));
-  line("body", fmt::format("{}, radius {:g} m, height {:g} m", to_string(report.mode), report.settings.radius,
-                           report.settings.height));
-  if (report.settings.support_radius > 0.0)
-    line("", fmt::format("support radius {:g} m", report.settings.support_radius));
-  if (!report.profile.empty()) line("profile", report.profile);
-  line("way", fmt::format("{:.2f} m in {:.1f} s, {} steps", result.length, result.simulated, result.steps));
-  if (report.mode != Mode::ghost) {
-    line("least clearance", clearance_line(report));
-  }
+  line("steps", fmt::format("{} in {:.1f} s, to {}", result.steps, result.simulated, words::exactly_at(result.end)));
+  if (report.mode != Mode::ghost) line("least clearance", clearance_line(report));
   line("time of a step", fmt::format("{:.2f} us median, {:.2f} us p99, {:.2f} us at most", report.times.median * 1e-3,
                                      report.times.p99 * 1e-3, report.times.max * 1e-3));
   if (result.throttled > 0) line("throttled", fmt::format("{} steps ended early or were slowed", result.throttled));
@@ -107,12 +154,9 @@ std::string text_report(const WalkReport& report) {
     const PagerStats& p = *report.paging;
     line("paging", fmt::format("{}B of memory, {} loads, {} evictions, {}B read", short_count(double(p.memory)),
                                p.loads, p.evictions, short_count(double(p.bytes_read))));
-    if (p.failed > 0) line("", fmt::format("{} tiles or pages are solid: {}", p.failed, p.last_failure));
   }
   if (report.verified) {
-    const verification::Verification& v = *report.verified;
-    line("verified", verification::summary(v) + ", " + short_time(report.verify_seconds));
-    for (const std::string& remark : verification::remarks(v)) line("", remark);
+    line("verified", verification::summary(*report.verified) + ", " + short_time(report.verify_seconds));
   }
   return text;
 }

@@ -33,5 +33,7 @@ struct WalkReport : words::EndedWalk {
 
 [[nodiscard]] Json json_report(const WalkReport& report);
 [[nodiscard]] std::string text_report(const WalkReport& report);
+/// For `--stats`: certified clearances, times, paging, counts of the check.
+[[nodiscard]] std::string stats_report(const WalkReport& report);
 
 }  // namespace roam::app
