@@ -141,7 +141,7 @@ double Move::look_along(const Vec3& motion) {
   }
   const bool in_the_open = same_body && ball.gap >= reach;
   const double look = std::min({in_the_open ? reach + ways_ahead * length : reach, known.nearest, Space::reach_limit});
-  const double gap = Nearby::gap(space, vicinity, {body(), place, motion}, look);
+  const double gap = Nearby::gap_bound(space, vicinity, {body(), place, motion}, look);
   if (gap > free_gap) {
     ball = {place + motion, gap, length, settings.radius, height};
     // The near object may be near only at the far end of the way.

@@ -78,11 +78,11 @@ bool carries(const Move& m, Gait& gait, const FloorPlane& plane, const Vec3& pla
 
 /// Stands on the plane that carries. The plane is remembered if it is that of a floor.
 void stand_on_foot(Move& m, Gait& gait, const FloorPlane& plane, bool is_floor) {
-  if (gait.footing != Footing::foot) m.note(EventKind::bridged);
+  if (gait.footing != Footing::disc) m.note(EventKind::bridged);
   stand_on(
       m, gait,
       {plane.normal, plane.level(m.place), true, false, gait.foot.carrying == Carrying::unknown, gait.floor_object});
-  gait.footing = Footing::foot;
+  gait.footing = Footing::disc;
   gait.floor_seen = is_floor;
   gait.floor = plane;
 }

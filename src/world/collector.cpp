@@ -17,7 +17,7 @@ bool nearer(const Contact& a, const Contact& b) {
 }  // namespace
 
 Collector::Collector(Kind kind, double reach, std::span<Contact> out)
-    : out_(out), asked_(reach), reach_(reach), enough_(reach), kind_(kind) {
+    : out_(out), initial_reach_(reach), reach_(reach), enough_(reach), kind_(kind) {
   if (kind == Kind::clearance) {
     tolerance_ = query::clearance_tolerance;
     part_ = query::least_part;

@@ -257,17 +257,17 @@ PagedScene Pager::State::scene(const Query& query, double reach, Vicinity* vicin
                               [this](const Box& box, index::Roots& out) { return gather(residents, box, out); })};
 }
 
-FirstImpact Pager::ask_first(const Query& query, Vicinity* vicinity) const {
+FirstImpact Pager::find_first(const Query& query, Vicinity* vicinity) const {
   PagedScene scene = state_->scene(query, query::hit_reach, vicinity);
   return query::first_of(scene, query);
 }
 
-void Pager::ask_near(const Query& query, Collector& collector, Vicinity* vicinity) const {
+void Pager::find_near(const Query& query, Collector& collector, Vicinity* vicinity) const {
   if (const FirstImpact* const only = collector.only()) {
     return query::collect_one(index_of(state_->residents, *only), query, collector);
   }
   if (state_->store->info().lossless) collector.demand(query::lossless_tolerance);
-  query::collect_of(state_->scene(query, collector.asked(), vicinity), query, {}, collector);
+  query::collect_of(state_->scene(query, collector.initial_reach(), vicinity), query, {}, collector);
 }
 
 SpaceFacts Pager::facts() const {
