@@ -149,7 +149,7 @@ void Walker::State::take(const walking::InstanceMotion& shift, const walking::Re
   gait_.ground = shift.turned(gait_.ground);
   gait_.floor.normal = shift.turned(gait_.floor.normal);
   gait_.floor.point = shift.carried(gait_.floor.point);
-  gait_.foot.lasts = gait_.disc.found = false;
+  gait_.disc_result.lasts = gait_.disc.found = false;
 }
 
 void Walker::State::append(const walking::InstanceMotion& shift, const walking::Response& to) {

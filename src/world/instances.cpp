@@ -120,11 +120,11 @@ struct Instances::State {
     query::Frame frame;
     Query query;
 
-    Seen(const query::Frame& of, const Query& asked) : frame(of) {
-      frame.pad = turn_rounding * (largest(asked.from - of.position) + largest(asked.motion));
-      query.body = {asked.body.radius + frame.pad, asked.body.half_height};
-      query.from = of.to_instance(asked.from);
-      query.motion = of.to_instance_way(asked.motion);
+    Seen(const query::Frame& of, const Query& original) : frame(of) {
+      frame.pad = turn_rounding * (largest(original.from - of.position) + largest(original.motion));
+      query.body = {original.body.radius + frame.pad, original.body.half_height};
+      query.from = of.to_instance(original.from);
+      query.motion = of.to_instance_way(original.motion);
     }
     [[nodiscard]] query::Part part(const WorldData& data, double reach) const {
       return query::part_of(query, query::reached(query, reach).meets(data.reach));

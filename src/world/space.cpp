@@ -53,11 +53,11 @@ Clearance as_clearance(const Collector& collector, double distance) {
 constexpr std::size_t at_a_time = 64;
 
 /// Computes all results of a batch; throws before the first if a query is refused.
-template <class Answer, class Ask>
-void answer_all(std::span<const Query> queries, std::span<Answer> answers, const Ask& ask) {
-  if (queries.size() != answers.size()) {
-    refuse("there are " + std::to_string(queries.size()) + " queries and room for " + std::to_string(answers.size()) +
-           " answers");
+template <class Result, class Compute>
+void compute_all(std::span<const Query> queries, std::span<Result> results, const Compute& compute) {
+  if (queries.size() != results.size()) {
+    refuse("there are " + std::to_string(queries.size()) + " queries and room for " + std::to_string(results.size()) +
+           " results");
   }
   for (std::size_t i = 0; i < queries.size(); ++i) {
     try {
@@ -67,12 +67,12 @@ void answer_all(std::span<const Query> queries, std::span<Answer> answers, const
     }
   }
   if (queries.size() <= at_a_time) {
-    for (std::size_t i = 0; i < queries.size(); ++i) answers[i] = ask(queries[i]);
+    for (std::size_t i = 0; i < queries.size(); ++i) results[i] = compute(queries[i]);
     return;
   }
   in_default_floating_point([&] {
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, queries.size(), at_a_time), [&](const auto& some) {
-      for (std::size_t i = some.begin(); i < some.end(); ++i) answers[i] = ask(queries[i]);
+      for (std::size_t i = some.begin(); i < some.end(); ++i) results[i] = compute(queries[i]);
     });
   });
 }
@@ -192,21 +192,21 @@ double Space::gap_over(const Query& query, double reach, Vicinity* vicinity) con
   return collector.count() > 0 ? collector.certified() : reach;
 }
 
-void Space::sweep(std::span<const Query> queries, std::span<Impact> answers) const {
+void Space::sweep(std::span<const Query> queries, std::span<Impact> results) const {
   const DefaultFloatingPoint guard;
-  answer_all(queries, answers, [this](const Query& query) { return sweep(query); });
+  compute_all(queries, results, [this](const Query& query) { return sweep(query); });
 }
 
-void Space::clearance(std::span<const Query> queries, double reach, std::span<Clearance> answers) const {
+void Space::clearance(std::span<const Query> queries, double reach, std::span<Clearance> results) const {
   const DefaultFloatingPoint guard;
   check_reach(reach);
-  answer_all(queries, answers, [&](const Query& query) { return clearance(query, reach); });
+  compute_all(queries, results, [&](const Query& query) { return clearance(query, reach); });
 }
 
-void Space::gap_bound(std::span<const Query> queries, double reach, std::span<double> answers) const {
+void Space::gap_bound(std::span<const Query> queries, double reach, std::span<double> results) const {
   const DefaultFloatingPoint guard;
   check_reach(reach);
-  answer_all(queries, answers, [&](const Query& query) { return gap_bound(query, reach); });
+  compute_all(queries, results, [&](const Query& query) { return gap_bound(query, reach); });
 }
 
 Impact Nearby::sweep(const Space& space, Vicinity& vicinity, const Query& query) {

@@ -252,8 +252,8 @@ bool Pager::wait(const Body& body, const Vec3& place, const Vec3& velocity, doub
 
 PagedScene Pager::State::scene(const Query& query, double reach, Vicinity* vicinity) const {
   if (vicinity == nullptr) return PagedScene(residents);
-  const Question question{query.body, query.from, query.motion, reach, store->info().largest_error_m, revision};
-  return {residents, roots_in(*vicinity, question,
+  const QueryRegion region{query.body, query.from, query.motion, reach, store->info().largest_error_m, revision};
+  return {residents, roots_in(*vicinity, region,
                               [this](const Box& box, index::Roots& out) { return gather(residents, box, out); })};
 }
 
