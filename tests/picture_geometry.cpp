@@ -279,7 +279,7 @@ TEST(PictureSurvey, FindsTheDoorAndItsWidth) {
   way.points = {{{2, 2, 0.902}, 1.8, 0, false}, {{18, 2, 0.902}, 1.8, 16, false}};
   way.length = 16;
   roam::WalkerSettings settings;
-  const Survey found = survey(world, way, settings, roam::Mode::walk);
+  const RoomSurvey found = survey(world, way, settings, roam::Mode::walk);
   ASSERT_TRUE(found.narrowest);
   EXPECT_NEAR(found.narrowest->width, 0.8, 0.005);
   EXPECT_LE(found.narrowest->width, 0.8);

@@ -92,7 +92,7 @@ void StoreBuilder::build() {
     state = {};
     state.phase = LoadState::Phase::done;
     state.share = 1.0;
-    notes_ = told_notes(report, output_);
+    notes_ = notes_as_sentences(report, output_);
     pager_ = std::move(pager);
   });
 }
