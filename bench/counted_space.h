@@ -28,18 +28,18 @@ class CountedSpace final : public Space {
   [[nodiscard]] Object object(TriangleId triangle) const override { return space_.object(triangle); }
 
  protected:
-  [[nodiscard]] FirstImpact ask_first(const Query& query, Vicinity* vicinity) const override {
+  [[nodiscard]] FirstImpact find_first(const Query& query, Vicinity* vicinity) const override {
     const Timed timed{tallies_[sweeps]};
     ++tallies_[sweeps].asked;
-    return Space::ask_first_of(space_, query, vicinity);
+    return Space::find_first_of(space_, query, vicinity);
   }
-  void ask_near(const Query& query, Collector& collector, Vicinity* vicinity) const override {
+  void find_near(const Query& query, Collector& collector, Vicinity* vicinity) const override {
     // The contact of a sweep counts as part of the sweep.
     const bool completes = collector.kind() == Collector::Kind::one_contact;
     const Kind kind = completes ? sweeps : kind_of(collector);
     const Timed timed{tallies_[kind]};
     tallies_[kind].asked += completes ? 0 : 1;
-    Space::ask_near_of(space_, query, collector, vicinity);
+    Space::find_near_of(space_, query, collector, vicinity);
   }
 
  private:

@@ -39,10 +39,10 @@ class ChangingRoom final : public roam::Space {
   std::optional<Vec3> clings;
 
  protected:
-  [[nodiscard]] roam::FirstImpact ask_first(const roam::Query& query, roam::Vicinity*) const override {
+  [[nodiscard]] roam::FirstImpact find_first(const roam::Query& query, roam::Vicinity*) const override {
     ++asked_;
     const Vec3& motion = query.motion;
-    roam::FirstImpact first = Space::ask_first_of(*world_, query, nullptr);
+    roam::FirstImpact first = Space::find_first_of(*world_, query, nullptr);
     if (clings && motion.x == 0.0 && motion.y == 0.0 && motion.z < 0.0) {
       first.hit = true;
       first.time = 0.0;
@@ -51,9 +51,9 @@ class ChangingRoom final : public roam::Space {
     }
     return first;
   }
-  void ask_near(const roam::Query& query, roam::Collector& collector, roam::Vicinity*) const override {
+  void find_near(const roam::Query& query, roam::Collector& collector, roam::Vicinity*) const override {
     asked_ += collector.kind() == roam::Collector::Kind::one_contact ? 0 : 1;
-    Space::ask_near_of(*world_, query, collector, nullptr);
+    Space::find_near_of(*world_, query, collector, nullptr);
   }
 
  private:

@@ -93,7 +93,7 @@ void ask_beside(Random& random, const Wall& wall, bool lossless, int queries) {
     const double reach = q % 7 == 0 ? random.between(0.0, 0.2) : 1.0;
     const roam::Clearance c = world.clearance(body, from, motion, reach);
     const double gap = true_gap(wall.mesh, body, from, motion);
-    const double bound = world.gap(body, from, motion, reach);
+    const double bound = world.gap_bound(body, from, motion, reach);
     if (gap > -body.radius) {
       ASSERT_LE(bound, gap + above) << q;
     }
@@ -177,7 +177,7 @@ TEST(Queries, DoNotAllocate) {
     const Body body{random.between(0.0, 0.3), i % 2 == 0 ? 0.0 : 0.5};
     const Vec3 from = random.in_box(1.0), motion = random.between(0.1, 100.0) * random.direction();
     met += world.sweep(body, from, motion).hit ? 1U : 0U;
-    near += world.gap(body, from, motion, 1.0) < 1.0 ? 1U : 0U;
+    near += world.gap_bound(body, from, motion, 1.0) < 1.0 ? 1U : 0U;
     near += world.clearance(body, from, motion, 1.0).found ? 1U : 0U;
     near += world.contacts(body, from, motion, 0.5, contacts);
   }

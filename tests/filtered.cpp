@@ -51,7 +51,7 @@ TEST(Filtered, IsTheSpaceWithoutThoseObjects) {
     for (const Query& q : first_impacts::queries(22, 4.0, 1500)) {
       const Impact s = some.sweep(q), unfiltered = world.sweep(q);
       if (glm::length(q.motion) < 10.0) judged::judge_sweep(s, q.body, q.from, q.motion, farthest, judge);
-      if (glm::length(q.motion) < 10.0) judged::judge_gap(some.gap(q, 1.0), q.body, q.from, q.motion, 1.0, judge);
+      if (glm::length(q.motion) < 10.0) judged::judge_gap(some.gap_bound(q, 1.0), q.body, q.from, q.motion, 1.0, judge);
       ASSERT_FALSE(HasFatalFailure());
       other += s.time != unfiltered.time ? 1 : 0;
       ASSERT_TRUE(!s.hit || !some.ignores(s.object));
@@ -81,7 +81,7 @@ TEST(Filtered, OfAFilteredIgnoresBoth) {
   outer_only.ignore(3);
   for (const Query& q : first_impacts::queries(24, 4.0, 500)) {
     ASSERT_TRUE(course::same(outer.sweep(q), outer_only.sweep(q)));
-    ASSERT_EQ(outer.gap(q, 1.0), outer_only.gap(q, 1.0));
+    ASSERT_EQ(outer.gap_bound(q, 1.0), outer_only.gap_bound(q, 1.0));
   }
 }
 

@@ -67,10 +67,10 @@ void ask(const roam::Space& space, const std::vector<Query>& queries, double rea
     bits(space.clearance(q.body, q.from, q.motion, reach));
     bits(space.clearance(q.body, q.from, reach));
     bits(space.floor_clearance(q.body, q.from, reach, {.slope_degrees = 40.0}));
-    bits(space.gap(q.body, q.from, q.motion, reach));
+    bits(space.gap_bound(q.body, q.from, q.motion, reach));
     bits(space.first_impact(q.body, q.from, q.motion).time);
     bits(roam::Nearby::sweep(space, vicinity, {q.body, q.from, q.motion}));
-    bits(roam::Nearby::gap(space, vicinity, {q.body, q.from, q.motion}, reach));
+    bits(roam::Nearby::gap_bound(space, vicinity, {q.body, q.from, q.motion}, reach));
   }
 }
 

@@ -120,7 +120,7 @@ TEST(FloatingPoint, Stores) {
     bits(static_cast<std::uint64_t>(pager.wait(body, place, motion, 20.0, 3.0)));
     bits(pager.sweep(body, place, motion));
     bits(pager.clearance(body, place, 2.0));
-    bits(pager.gap(body, place, motion, 2.0));
+    bits(pager.gap_bound(body, place, motion, 2.0));
     roam::Contact contacts[8];
     for (std::size_t i = pager.contacts(body, place, motion, 2.0, contacts); i-- > 0;) bits(contacts[i]);
   });

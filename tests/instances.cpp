@@ -42,7 +42,7 @@ TEST(Instances, AnswerWhatBruteForceSaysOfThePosedTriangles) {
       if (glm::length(q.motion) > 10.0) q.motion *= 0.1;
       const Impact s = scene->space.sweep(q);
       judged::judge_sweep(s, q.body, q.from, q.motion, farthest, judge);
-      judged::judge_gap(scene->space.gap(q, 1.0), q.body, q.from, q.motion, 1.0, judge);
+      judged::judge_gap(scene->space.gap_bound(q, 1.0), q.body, q.from, q.motion, 1.0, judge);
       ASSERT_FALSE(HasFatalFailure()) << "from " << q.from.x << ' ' << q.from.y << ' ' << q.from.z;
       hits += s.hit ? 1 : 0;
       of_instances += s.hit && scene->space.has(s.object) ? 1 : 0;
@@ -241,7 +241,7 @@ TEST(Instances, AllocateNothingInQueries) {
   const long before = allocations;
   for (const Query& q : queries) {
     (void)scene->space.sweep(q);
-    (void)scene->space.gap(q, 1.0);
+    (void)scene->space.gap_bound(q, 1.0);
     (void)scene->space.clearance(q, 1.0);
     (void)scene->space.contacts(q, 1.0, contacts);
     (void)scene->space.floor_clearance(q.body, q.from, 1.0, {});

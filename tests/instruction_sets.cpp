@@ -24,7 +24,7 @@ Answers ask(const roam::World& world) {
     out.sweeps.push_back(world.sweep(body, from, motion));
     const roam::Vec3 way = q % 3 == 0 ? roam::Vec3(0.0) : motion;
     out.clearances.push_back(world.clearance(body, from, way, 0.5));
-    out.gaps.push_back(world.gap(body, from, way, 0.5));
+    out.gaps.push_back(world.gap_bound(body, from, way, 0.5));
   }
   return out;
 }

@@ -34,7 +34,7 @@ inline double along(const Vec3& way, const roam::Impact& impact) {
   return arrival_tolerance / std::max(0.01, steep);
 }
 
-/// Judges Space::gap if the body's surface comes as near as `gap` (m).
+/// Judges Space::gap_bound if the body's surface comes as near as `gap` (m).
 inline void judge_gap(double bound, double gap, const Body& body, double reach) {
   if (gap > -body.radius) {
     ASSERT_LE(bound, std::max(gap, 0.0) + nearest_allowed);

@@ -12,11 +12,11 @@ TEST(ManipulatorFailures, ASpaceThatFailsStopsTheBodyAndSaysWhy) {
   struct Failing final : roam::Space {
     roam::SpaceFacts facts() const override { return {.bounds = {Vec3(-1.0), Vec3(1.0)}}; }
     roam::Object object(roam::TriangleId) const override { return {}; }
-    roam::FirstImpact ask_first(const roam::Query&, roam::Vicinity*) const override {
+    roam::FirstImpact find_first(const roam::Query&, roam::Vicinity*) const override {
       if (broken) throw roam::Error("the disk is gone");
       return {};
     }
-    void ask_near(const roam::Query&, roam::Collector&, roam::Vicinity*) const override {
+    void find_near(const roam::Query&, roam::Collector&, roam::Vicinity*) const override {
       if (broken) throw roam::Error("the disk is gone");
     }
     bool broken = false;

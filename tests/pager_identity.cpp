@@ -67,12 +67,12 @@ class StoredWorld final : public roam::Space {
   [[nodiscard]] roam::Object object(TriangleId) const override { return {}; }
 
  protected:
-  [[nodiscard]] roam::FirstImpact ask_first(const roam::Query& query, roam::Vicinity*) const override {
+  [[nodiscard]] roam::FirstImpact find_first(const roam::Query& query, roam::Vicinity*) const override {
     roam::FirstImpact first = query::first_impact(data_, query);
     if (first.hit) first.triangle = number(first.triangle);
     return first;
   }
-  void ask_near(const roam::Query& query, roam::Collector& collector, roam::Vicinity*) const override {
+  void find_near(const roam::Query& query, roam::Collector& collector, roam::Vicinity*) const override {
     if (collector.only() != nullptr) return query::collect_one(data_.index, query, collector);
     if (data_.lossless) collector.demand(query::lossless_tolerance);
     query::collect(data_, query, {}, 0, collector);

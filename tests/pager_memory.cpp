@@ -71,7 +71,7 @@ TEST(PagerMemory, NothingIsAllocatedAndTheProcessDoesNotGrow) {
       (void)pager.update(body, place + 0.1 * k * velocity, velocity);
       impact = pager.sweep(body, place, motion);
       (void)pager.clearance(body, place, motion, 1.0);
-      (void)pager.gap(body, place, motion, 1.0);
+      (void)pager.gap_bound(body, place, motion, 1.0);
       (void)pager.contacts(body, place, motion, 0.5, contacts);
     }
     counting = false;

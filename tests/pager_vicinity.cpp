@@ -85,9 +85,9 @@ std::vector<Question> questions_of(const Pager& pager, const Mesh& mesh, const C
       asked.push_back({body, from, motion, 0.0, true});
       return pager.sweep(body, from, motion);
     }
-    double gap(const Body& body, const Vec3& from, const Vec3& motion, double reach) {
+    double gap_bound(const Body& body, const Vec3& from, const Vec3& motion, double reach) {
       asked.push_back({body, from, motion, reach, false});
-      return pager.gap(body, from, motion, reach);
+      return pager.gap_bound(body, from, motion, reach);
     }
   } asker{pager};
   Random random(seed);
@@ -107,7 +107,7 @@ Answer ask_in(const Pager& pager, Vicinity& vicinity, const Question& q) {
 }
 Answer ask(const Pager& pager, const Question& q) {
   if (q.sweep) return {pager.sweep(q.body, q.from, q.motion)};
-  return {{}, pager.gap(q.body, q.from, q.motion, q.reach)};
+  return {{}, pager.gap_bound(q.body, q.from, q.motion, q.reach)};
 }
 
 /// Where all around the body is in memory, its answers are judged as those of a world. Where it is not they are those

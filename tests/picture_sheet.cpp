@@ -304,12 +304,12 @@ TEST(PictureLabels, BreakTextThatIsTooLong) {
 }
 
 TEST(PictureLabels, ShowWhatIsNoTextAsQuestionMarks) {
-  EXPECT_EQ(draw::printable("Tür \xe2\x82\xac"), "Tür \xe2\x82\xac");
-  EXPECT_EQ(draw::printable("a\xff"
-                            "b\x01\n"),
+  EXPECT_EQ(draw::with_question_marks("Tür \xe2\x82\xac"), "Tür \xe2\x82\xac");
+  EXPECT_EQ(draw::with_question_marks("a\xff"
+                                      "b\x01\n"),
             "a?b??");
-  EXPECT_EQ(draw::printable("\xc3"), "?");
-  EXPECT_EQ(draw::printable("\xed\xa0\x80"), "???");  // half of a surrogate pair
+  EXPECT_EQ(draw::with_question_marks("\xc3"), "?");
+  EXPECT_EQ(draw::with_question_marks("\xed\xa0\x80"), "???");  // half of a surrogate pair
 }
 
 }  // namespace

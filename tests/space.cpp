@@ -145,7 +145,7 @@ TEST(Batches, AreAnsweredAsOneByOne) {
       std::vector<double> gaps(all.size());
       space->sweep(all, impacts);
       space->clearance(all, 0.7, clearances);
-      space->gap(all, 0.7, gaps);
+      space->gap_bound(all, 0.7, gaps);
       for (std::size_t i = 0; i < all.size(); ++i) {
         SCOPED_TRACE(i);
         ASSERT_TRUE(course::same(impacts[i], space->sweep(all[i])));
@@ -153,7 +153,7 @@ TEST(Batches, AreAnsweredAsOneByOne) {
         ASSERT_TRUE(course::same(clearances[i].distance, one.distance));
         ASSERT_EQ(clearances[i].found, one.found);
         ASSERT_EQ(clearances[i].triangle, one.triangle);
-        ASSERT_TRUE(course::same(gaps[i], space->gap(all[i], 0.7)));
+        ASSERT_TRUE(course::same(gaps[i], space->gap_bound(all[i], 0.7)));
       }
     }
   }
@@ -174,7 +174,7 @@ TEST(Batches, AreRefusedAsAWhole) {
   }
   for (const Impact& impact : impacts) ASSERT_FALSE(impact.hit);
   std::vector<double> gaps(all.size());
-  EXPECT_THROW(world.gap(std::span(all).first(300), -1.0, std::span(gaps).first(300)), roam::Error);
+  EXPECT_THROW(world.gap_bound(std::span(all).first(300), -1.0, std::span(gaps).first(300)), roam::Error);
 }
 
 /// A space of one's own: triangles in a list, and no index.
@@ -187,7 +187,7 @@ class List final : public Space {
   [[nodiscard]] roam::Object object(roam::TriangleId) const override { return {0, "list"}; }
 
  protected:
-  [[nodiscard]] FirstImpact ask_first(const Query& query, roam::Vicinity*) const override {
+  [[nodiscard]] FirstImpact find_first(const Query& query, roam::Vicinity*) const override {
     FirstImpact first;
     double deepest = 0.0;
     for (std::size_t i = 0; i < triangles_.size(); ++i) {
@@ -201,7 +201,7 @@ class List final : public Space {
     }
     return first;
   }
-  void ask_near(const Query& query, roam::Collector& collector, roam::Vicinity*) const override {
+  void find_near(const Query& query, roam::Collector& collector, roam::Vicinity*) const override {
     for (std::size_t i = 0; i < triangles_.size(); ++i) collector.offer(query, triangles_[i], i);
   }
 
@@ -236,7 +236,7 @@ TEST(ASpaceOfOnesOwn, AnswersAsALosslessWorldDoes) {
       ASSERT_EQ(list.first_impact(q).triangle, a.triangle);
     }
     ASSERT_NEAR(list.clearance(q, 1.0).distance, world.clearance(q, 1.0).distance, stored);
-    const double gap = list.gap(q, 1.0), least = list.clearance(q, 1.0).distance;
+    const double gap = list.gap_bound(q, 1.0), least = list.clearance(q, 1.0).distance;
     ASSERT_LE(gap, std::max(least, 0.0) + 1e-9);
     if (least > 0.0) {
       ASSERT_GE(gap, 7.0 / 8.0 * least - 2e-3);
@@ -266,18 +266,18 @@ TEST(ASpaceOfOnesOwn, IsAskedNothingThatNoQueryTakes) {
   struct Untouched final : Space {
     [[nodiscard]] roam::SpaceFacts facts() const override { return {}; }
     [[nodiscard]] roam::Object object(roam::TriangleId) const override { return {}; }
-    [[nodiscard]] FirstImpact ask_first(const Query&, roam::Vicinity*) const override {
+    [[nodiscard]] FirstImpact find_first(const Query&, roam::Vicinity*) const override {
       ADD_FAILURE() << "it was asked";
       return {};
     }
-    void ask_near(const Query&, roam::Collector&, roam::Vicinity*) const override { ADD_FAILURE() << "it was asked"; }
+    void find_near(const Query&, roam::Collector&, roam::Vicinity*) const override { ADD_FAILURE() << "it was asked"; }
   };
   const Untouched space;
   constexpr double nan = std::numeric_limits<double>::quiet_NaN(), infinity = std::numeric_limits<double>::infinity();
   std::array<Contact, 4> contacts;
   const auto refuses = [&](const Query& q, double reach) {
     EXPECT_THROW((void)space.clearance(q, reach), roam::Error);
-    EXPECT_THROW((void)space.gap(q, reach), roam::Error);
+    EXPECT_THROW((void)space.gap_bound(q, reach), roam::Error);
     EXPECT_THROW((void)space.contacts(q, reach, contacts), roam::Error);
   };
   const auto refuses_way = [&](const Query& q) {

@@ -178,16 +178,16 @@ TEST(Cracks, KnowTheFootThatThinBodiesNeedBesideAWall) {
   for (const FloorCase& c : floor_cases()) {
     SCOPED_TRACE(c.name);
     for (const FoundCrack& crack : find_cracks(survey_of(c.mesh), {}, c.is_reached))
-      EXPECT_GE(crack.foot, crack.radius);
+      EXPECT_GE(crack.foot_radius, crack.radius);
   }
   const Survey along = survey_of(holed({rectangle(0.0, 0.0, long_side, 0.5)}));
   const auto beside = find_cracks(along, {}, [](const Vec3& foot) { return foot.z > -0.35; });
   ASSERT_EQ(beside.size(), 1u);
-  EXPECT_NEAR(beside[0].foot, 0.5 - nearest, lattice);
+  EXPECT_NEAR(beside[0].foot_radius, 0.5 - nearest, lattice);
   const auto across = find_cracks(survey_of(straight_split("", 0.5, 2.0, 0.0).mesh), {},
                                   [](const Vec3& foot) { return foot.z > -0.35; });
   ASSERT_EQ(across.size(), 1u);
-  EXPECT_NEAR(across[0].foot, 0.25, 2e-5);
+  EXPECT_NEAR(across[0].foot_radius, 0.25, 2e-5);
 }
 
 TEST(Cracks, NarrowerThanTheSmallestBodyAreNotLookedFor) {

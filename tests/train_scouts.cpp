@@ -24,10 +24,10 @@ struct Grown {
   std::vector<NodeId> parents, neighbours;
   bool operator==(const Grown&) const = default;
 };
-/// And how many steps scouts had answered.
+/// And how many steps scouts had computed.
 struct Scouted {
   Grown grown;
-  std::uint64_t answered = 0;
+  std::uint64_t computed = 0;
 };
 
 Scouted grown(const seeded::Gallery& gallery, const Measure& measure, std::uint64_t most, int threads,
@@ -46,11 +46,11 @@ Scouted grown(const seeded::Gallery& gallery, const Measure& measure, std::uint6
     found.parents.push_back(tree.parent(id));
     for (const NodeId other : tree.neighbours(id)) found.neighbours.push_back(other);
   }
-  return {found, tree.answered_ahead()};
+  return {found, tree.computed_ahead()};
 }
 
 TEST(Scouts, ChangeNoPlaceOfTheLattice) {
-  std::uint64_t answered = 0;
+  std::uint64_t computed = 0;
   for (const std::uint64_t seed : {1u, 2u, 3u}) {
     const seeded::Gallery gallery = seeded::gallery(seed);
     for (const double height : {1.9, 0.0}) {
@@ -58,29 +58,29 @@ TEST(Scouts, ChangeNoPlaceOfTheLattice) {
         const Measure measure{.height = height};
         const Scouted alone = grown(gallery, measure, most, 1), scouted = grown(gallery, measure, most, 4);
         EXPECT_GT(alone.grown.places.size(), 1'000u);
-        EXPECT_EQ(alone.answered, 0u);
+        EXPECT_EQ(alone.computed, 0u);
         EXPECT_TRUE(alone.grown == scouted.grown) << "seed " << seed << ", height " << height;
-        answered += scouted.answered;
+        computed += scouted.computed;
       }
     }
   }
   // How many depends on what else the machine does.
-  EXPECT_GT(answered, 0u);
+  EXPECT_GT(computed, 0u);
 }
 
 TEST(Scouts, ChangeNoPlaceWhereTheyAreForgotten) {
-  std::uint64_t answered = 0;
+  std::uint64_t computed = 0;
   for (const std::uint64_t seed : {1u, 2u}) {
     const seeded::Gallery gallery = seeded::gallery(seed);
     const Measure measure{.height = 1.9};
     const Scouted alone = grown(gallery, measure, 1'000'000, 1);
     for (const AheadLimits& ahead : {AheadLimits{3, 1 << 20}, AheadLimits{8192, 20}, AheadLimits{1, 1}}) {
       const Scouted scouted = grown(gallery, measure, 1'000'000, 4, ahead);
-      EXPECT_TRUE(alone.grown == scouted.grown) << seed << " " << ahead.places << " " << ahead.points;
-      answered += scouted.answered;
+      EXPECT_TRUE(alone.grown == scouted.grown) << seed << " " << ahead.most_requests << " " << ahead.most_points;
+      computed += scouted.computed;
     }
   }
-  EXPECT_GT(answered, 0u);
+  EXPECT_GT(computed, 0u);
 }
 
 TEST(Scouts, AreWaitedForWhereALatticeEndsBeforeThem) {

@@ -151,7 +151,7 @@ TEST(Vicinity, AnswersAsWithoutWhereNothingIsKept) {
       const Impact s = sweep_in(world, vicinity, b, from, motion);
       ASSERT_TRUE(same(s, world.sweep(b, from, motion)));
       hits += s.hit ? 1 : 0;
-      ASSERT_TRUE(same(gap_in(world, vicinity, b, from, motion, reach), world.gap(b, from, motion, reach)));
+      ASSERT_TRUE(same(gap_in(world, vicinity, b, from, motion, reach), world.gap_bound(b, from, motion, reach)));
     };
     ASSERT_NO_FATAL_FAILURE(as_without(body, at, random.between(5.0, 300.0) * way, 0.1));
     for (const Body& thin : {Body{0.0, 0.0}, Body{1e-6, 0.0}}) {
@@ -246,7 +246,7 @@ struct Twins {
     hits += a.hit ? 1 : 0;
     return a;
   }
-  double gap(const Body& body, const Vec3& from, const Vec3& motion, double reach) {
+  double gap_bound(const Body& body, const Vec3& from, const Vec3& motion, double reach) {
     const double a = gap_in(world, *one, body, from, motion, reach),
                  b = gap_in(world, *other, body, from, motion, reach);
     [&] { ASSERT_TRUE(same(a, b)); }();
@@ -262,7 +262,7 @@ struct Alone {
   Impact sweep(const Body& body, const Vec3& from, const Vec3& motion) {
     return sweep_in(world, vicinity, body, from, motion);
   }
-  double gap(const Body& body, const Vec3& from, const Vec3& motion, double reach) {
+  double gap_bound(const Body& body, const Vec3& from, const Vec3& motion, double reach) {
     return gap_in(world, vicinity, body, from, motion, reach);
   }
 };
@@ -320,7 +320,7 @@ TEST(Vicinity, ThatWasMovedFromIsAsGoodAsNone) {
     Vicinity none = copy_of_none;
     for (Vicinity* v : {&left, &none}) {
       ASSERT_TRUE(same(sweep_in(world, *v, body, at, way), world.sweep(body, at, way)));
-      ASSERT_TRUE(same(gap_in(world, *v, body, at, way, 0.1), world.gap(body, at, way, 0.1)));
+      ASSERT_TRUE(same(gap_in(world, *v, body, at, way, 0.1), world.gap_bound(body, at, way, 0.1)));
     }
   }
   EXPECT_THROW((void)sweep_in(world, left, {-1.0, 0.0}, Vec3(0.0), Vec3(0.0)), roam::Error);

@@ -26,7 +26,7 @@ inline Impact sweep_in(const Space& space, Vicinity& vicinity, const Body& body,
 }
 inline double gap_in(const Space& space, Vicinity& vicinity, const Body& body, const Vec3& from, const Vec3& motion,
                      double reach) {
-  return roam::Nearby::gap(space, vicinity, {body, from, motion}, reach);
+  return roam::Nearby::gap_bound(space, vicinity, {body, from, motion}, reach);
 }
 
 /// Compares bits, not values: -0 is not 0.
@@ -58,7 +58,7 @@ inline Vec3 beside(clutter::Random& random, const Mesh& mesh, const Body& body) 
          Vec3(0.0, 0.0, std::copysign(body.half_height, out.z));
 }
 
-/// Moves on through the mesh. Calls `asker.gap(body, from, motion, reach)` and `asker.sweep(body, from, motion)`.
+/// Moves on through the mesh. Calls `asker.gap_bound(body, from, motion, reach)` and `asker.sweep(body, from, motion)`.
 template <class Asker>
 void go(clutter::Random& random, const Mesh& mesh, const Course& course, Asker& asker) {
   constexpr double skin = 3e-3;
@@ -86,7 +86,7 @@ void go(clutter::Random& random, const Mesh& mesh, const Course& course, Asker& 
       stuck = s.time == 0.0 ? stuck + 1 : 0;
       return s;
     };
-    const double gap = asker.gap(body, at, motion, random.engine() % 4 == 0 ? 0.25 : random.between(0.0, 0.25));
+    const double gap = asker.gap_bound(body, at, motion, random.engine() % 4 == 0 ? 0.25 : random.between(0.0, 0.25));
     if (gap > 0.1 && random.engine() % 2 == 0) {
       at += motion;
     } else if (const Impact s = sweep(motion); s.hit) {
@@ -134,7 +134,7 @@ class Judged {
     note();
     return s;
   }
-  double gap(const Body& body, const Vec3& from, const Vec3& motion, double reach) {
+  double gap_bound(const Body& body, const Vec3& from, const Vec3& motion, double reach) {
     const double bound = gap_in(*space_, vicinity, body, from, motion, reach);
     SCOPED_TRACE(testing::Message() << "gap " << tally.gaps << " after " << tally.sweeps << " sweeps");
     judged::judge_gap(bound, body, from, motion, reach, judge_);

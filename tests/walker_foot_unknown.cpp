@@ -179,9 +179,7 @@ class Counting final : public roam::Space {
     facts.revision = tells ? std::optional(changes) : std::nullopt;
     return facts;
   }
-  [[nodiscard]] roam::Object object(roam::TriangleId triangle) const override {
-    return world.object(triangle);
-  }
+  [[nodiscard]] roam::Object object(roam::TriangleId triangle) const override { return world.object(triangle); }
 
   roam::World world;
   std::uint64_t changes = 0;
@@ -189,12 +187,12 @@ class Counting final : public roam::Space {
   mutable int asked = 0;
 
  protected:
-  [[nodiscard]] roam::FirstImpact ask_first(const roam::Query& query, roam::Vicinity*) const override {
-    return Space::ask_first_of(world, query, nullptr);
+  [[nodiscard]] roam::FirstImpact find_first(const roam::Query& query, roam::Vicinity*) const override {
+    return Space::find_first_of(world, query, nullptr);
   }
-  void ask_near(const roam::Query& query, roam::Collector& collector, roam::Vicinity*) const override {
+  void find_near(const roam::Query& query, roam::Collector& collector, roam::Vicinity*) const override {
     asked += collector.kind() == roam::Collector::Kind::floor_clearance ? 1 : 0;
-    Space::ask_near_of(world, query, collector, nullptr);
+    Space::find_near_of(world, query, collector, nullptr);
   }
 };
 

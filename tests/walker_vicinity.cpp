@@ -31,13 +31,13 @@ class Counting final : public Space {
   [[nodiscard]] roam::Object object(TriangleId triangle) const override { return world_.object(triangle); }
 
  protected:
-  [[nodiscard]] roam::FirstImpact ask_first(const roam::Query& query, Vicinity* vicinity) const override {
+  [[nodiscard]] roam::FirstImpact find_first(const roam::Query& query, Vicinity* vicinity) const override {
     ++(vicinity ? sweeps_in : sweeps);
-    return Space::ask_first_of(world_, query, forgets ? nullptr : vicinity);
+    return Space::find_first_of(world_, query, forgets ? nullptr : vicinity);
   }
-  void ask_near(const roam::Query& query, Collector& collector, Vicinity* vicinity) const override {
+  void find_near(const roam::Query& query, Collector& collector, Vicinity* vicinity) const override {
     if (collector.kind() == Collector::Kind::gap) ++(vicinity ? gaps_in : gaps);
-    Space::ask_near_of(world_, query, collector, forgets ? nullptr : vicinity);
+    Space::find_near_of(world_, query, collector, forgets ? nullptr : vicinity);
   }
 
  private:

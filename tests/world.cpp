@@ -16,9 +16,9 @@
 namespace {
 
 using clutter::Random;
-using judged::judge_gap;
-using judged::farthest_off;
 using judged::farthest_lossless;
+using judged::farthest_off;
+using judged::judge_gap;
 using judged::nearest_allowed;
 using roam::Body;
 using roam::Box;
@@ -97,7 +97,7 @@ TEST_P(WorldAgainstBruteForce, ClearanceIsALowerBoundAndTight) {
     if (gap > -body.radius) {
       ASSERT_LE(near.distance, std::max(gap, 0.0) + nearest_allowed) << "query " << q;
     }
-    judge_gap(world.gap(body, from, motion, reach), gap, body, reach);
+    judge_gap(world.gap_bound(body, from, motion, reach), gap, body, reach);
     ASSERT_FALSE(HasFatalFailure()) << "query " << q;
     if (!near.found) {
       ASSERT_GE(gap, reach - farthest) << "query " << q;
@@ -133,7 +133,8 @@ TEST_P(WorldAgainstBruteForce, ContactsAreAllTrianglesWithinReach) {
     }
     for (std::size_t t = 0; t < found.size(); ++t) {
       if (found[t]) continue;
-      ASSERT_GE(oracle::least_distance(body, from, motion, 1.0, mesh.triangle(t)), body.radius + reach - nearest_allowed)
+      ASSERT_GE(oracle::least_distance(body, from, motion, 1.0, mesh.triangle(t)),
+                body.radius + reach - nearest_allowed)
           << "query " << q << " triangle " << t;
     }
     const std::size_t few = std::min<std::size_t>(count, 3);
@@ -171,7 +172,7 @@ TEST(World, GapsAreLowerBoundsWhereTilesAreAboutEquallyNear) {
       const Vec3 motion = q % 3 == 0 ? Vec3(0.0) : random.between(0.0, 4.0) * random.direction();
       const double reach = std::min(World::reach_limit, random.between(0.3, 1.0) * recipe.half);
       const double gap = double(least_distance(mesh, body, from, motion, 1.0) - (long double)(body.radius));
-      judge_gap(world.gap(body, from, motion, reach), gap, body, reach);
+      judge_gap(world.gap_bound(body, from, motion, reach), gap, body, reach);
       ASSERT_FALSE(HasFatalFailure()) << "scene " << scene << " query " << q;
     }
   }

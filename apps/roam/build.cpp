@@ -133,7 +133,7 @@ Json json_report(const BuildVerb& verb, const StoreBuildReport& report, double s
 }
 
 void tell_notes(const BuildVerb& verb, const StoreBuildReport& report) {
-  for (const std::string& note : told_notes(report, verb.output)) tell("note: " + note);
+  for (const std::string& note : notes_as_sentences(report, verb.output)) tell("note: " + note);
 }
 
 void print_report(const BuildVerb& verb, const Json& report) {

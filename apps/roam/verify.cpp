@@ -106,7 +106,7 @@ std::uint64_t repair(const VerifyOptions& options) {
     };
     report = repair_store(build);
   }
-  for (const std::string& note : told_notes(report, options.store)) tell("note: " + note);
+  for (const std::string& note : notes_as_sentences(report, options.store)) tell("note: " + note);
   return report.shards_built;
 }
 

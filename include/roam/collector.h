@@ -1,8 +1,8 @@
 #pragma once
 /// \file
-/// The collector of contacts: for authors of spaces, the receiver of what Space::ask_near() finds.
+/// The collector of contacts: for authors of spaces, the receiver of what Space::find_near() finds.
 ///
-///     void ask_near(const roam::Query& query, roam::Collector& collector, roam::Vicinity*) const override {
+///     void find_near(const roam::Query& query, roam::Collector& collector, roam::Vicinity*) const override {
 ///       for (std::size_t i = 0; i < triangles.size(); ++i) collector.offer(query, triangles[i], i);
 ///     }
 ///
@@ -54,7 +54,12 @@ class Collector {
 
   Collector(Kind kind, double reach, std::span<Contact> out);
   Collector(const FirstImpact& first, Contact& out)
-      : out_(&out, 1), only_(&first), asked_(4e-3), reach_(asked_), enough_(asked_), kind_(Kind::one_contact) {}
+      : out_(&out, 1),
+        only_(&first),
+        initial_reach_(4e-3),
+        reach_(initial_reach_),
+        enough_(initial_reach_),
+        kind_(Kind::one_contact) {}
   void expect_repeats() { repeats_ = true; }  ///< one triangle may be offered twice; costs a scan an offer
   void take_floor_only(const query::FloorOnly& floor) { floor_ = &floor; }
   void take_only(const Contact& contact) {
@@ -64,7 +69,7 @@ class Collector {
   }
   void enter(const query::Frame* frame) { frame_ = frame; }  ///< the frame of offers from now on; null: the scene's
   void sort();                                               ///< nearest first
-  [[nodiscard]] double asked() const { return asked_; }      ///< the reach that it was made with
+  [[nodiscard]] double initial_reach() const { return initial_reach_; }  ///< the reach that it was made with
   /// The least gap, of a clearance that found something.
   [[nodiscard]] double certified() const { return out_[0].distance < left_out_ ? out_[0].distance : left_out_; }
   [[nodiscard]] std::span<Contact> kept() const { return out_.first(count_); }
@@ -84,7 +89,7 @@ class Collector {
   const query::FloorOnly* floor_ = nullptr;
   const query::Frame* frame_ = nullptr;
   const FirstImpact* only_ = nullptr;
-  double asked_, reach_, enough_;
+  double initial_reach_, reach_, enough_;
   double left_out_ = std::numeric_limits<double>::infinity();
   double tolerance_ = 0.0, part_ = 0.0;
   Kind kind_;

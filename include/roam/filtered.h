@@ -37,8 +37,8 @@ class Filtered final : public LiveSpace {
   [[nodiscard]] Object object(TriangleId triangle) const override { return space_->object(triangle); }
 
  protected:
-  [[nodiscard]] FirstImpact ask_first(const Query& query, Vicinity* vicinity) const override;
-  void ask_near(const Query& query, Collector& collector, Vicinity* vicinity) const override;
+  [[nodiscard]] FirstImpact find_first(const Query& query, Vicinity* vicinity) const override;
+  void find_near(const Query& query, Collector& collector, Vicinity* vicinity) const override;
 
  private:
   [[nodiscard]] ObjectFilter filter(const Query& query) const { return {ignored_, query.ignored}; }

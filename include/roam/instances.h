@@ -87,8 +87,8 @@ class Instances final : public LiveSpace {
   [[nodiscard]] static TriangleId source_triangle(TriangleId triangle);  ///< its number in its own world or space
 
  protected:
-  [[nodiscard]] FirstImpact ask_first(const Query& query, Vicinity* vicinity) const override;
-  void ask_near(const Query& query, Collector& collector, Vicinity* vicinity) const override;
+  [[nodiscard]] FirstImpact find_first(const Query& query, Vicinity* vicinity) const override;
+  void find_near(const Query& query, Collector& collector, Vicinity* vicinity) const override;
 
  private:
   struct State;

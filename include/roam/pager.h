@@ -42,16 +42,16 @@ struct PagerOptions {
 
 /// Contents and work of a pager.
 struct PagerStats {
-  std::uint64_t memory = 0;     ///< bytes allocated; constant
-  std::uint64_t used = 0;       ///< bytes of it that hold tiles and pages
-  std::uint64_t tiles = 0;      ///< resident
-  std::uint64_t pages = 0;      ///< resident
-  std::uint64_t triangles = 0;  ///< resident
-  std::uint64_t wanted = 0;     ///< tiles and pages within the horizon that are not resident
-  std::uint64_t loads = 0;      ///< tiles and pages loaded so far
-  std::uint64_t evictions = 0;  ///< tiles and pages evicted so far
-  std::uint64_t failures = 0;   ///< failed reads and decodings so far
-  std::uint64_t failed = 0;     ///< tiles and pages that are solid now because of a failure
+  std::uint64_t memory = 0;      ///< bytes allocated; constant
+  std::uint64_t used = 0;        ///< bytes of it that hold tiles and pages
+  std::uint64_t tiles = 0;       ///< resident
+  std::uint64_t pages = 0;       ///< resident
+  std::uint64_t triangles = 0;   ///< resident
+  std::uint64_t wanted = 0;      ///< tiles and pages within the horizon that are not resident
+  std::uint64_t loads = 0;       ///< tiles and pages loaded so far
+  std::uint64_t evictions = 0;   ///< tiles and pages evicted so far
+  std::uint64_t failures = 0;    ///< failed reads and decodings so far
+  std::uint64_t failed = 0;      ///< tiles and pages that are solid now because of a failure
   std::uint64_t bytes_read = 0;  ///< from the store
   double worst_read_s = 0.0;     ///< longest read of a tile
   double worst_decode_s = 0.0;   ///< longest decoding of a tile
@@ -86,8 +86,8 @@ class Pager final : public LiveSpace {
   [[nodiscard]] PagerStats stats() const;
 
  protected:
-  [[nodiscard]] FirstImpact ask_first(const Query& query, Vicinity* vicinity) const override;
-  void ask_near(const Query& query, Collector& collector, Vicinity* vicinity) const override;
+  [[nodiscard]] FirstImpact find_first(const Query& query, Vicinity* vicinity) const override;
+  void find_near(const Query& query, Collector& collector, Vicinity* vicinity) const override;
 
  private:
   struct State;

@@ -89,8 +89,8 @@ class Patchwork final : public LiveSpace {
   [[nodiscard]] PatchworkStats stats() const;
 
  protected:
-  [[nodiscard]] FirstImpact ask_first(const Query& query, Vicinity* vicinity) const override;
-  void ask_near(const Query& query, Collector& collector, Vicinity* vicinity) const override;
+  [[nodiscard]] FirstImpact find_first(const Query& query, Vicinity* vicinity) const override;
+  void find_near(const Query& query, Collector& collector, Vicinity* vicinity) const override;
 
  private:
   struct State;

@@ -5,7 +5,7 @@
 ///     const double headroom = 100.0 * space.first_impact({.radius = 0.3}, position, {0.0, 0.0, 100.0}).time;
 ///
 /// sweep() returns the first impact of a motion, contacts() the triangles near it, clearance() its least gap and the
-/// nearest triangle. first_impact() and gap() return less, for less time.
+/// nearest triangle. first_impact() and gap_bound() return less, for less time.
 ///
 /// Lengths are metres. Space is *hit*, *free* or *unknown*. Unknown space is not loaded yet and counts as solid: a
 /// query meets its border like a wall and sets `unknown` in the result. For a radius and triangles as the caller passed
@@ -14,7 +14,7 @@
 ///     nearer gets a hit at time 0;
 ///   - at the `time` of a hit some triangle is within radius + 2 mm of the axis. A body that starts with a gap below
 ///     2 mm may get a hit at time 0, even if it moves away: keep 2 * largest_error() from contacts, as Walker does;
-///   - a gap() above 0 certifies the first of these for the whole motion.
+///   - a gap_bound() above 0 certifies the first of these for the whole motion.
 ///
 /// Queries are const, never wait and may run at the same time, unless an implementation's header says otherwise. Only
 /// batches allocate. Each query throws roam::Error, before it writes a result, for a position or motion that is not
@@ -106,9 +106,9 @@ struct FirstImpact {
   TriangleId triangle = no_triangle;
   ObjectId object = no_object;
   // For authors of spaces: how Space::completed() finds the contact.
-  std::array<std::uint32_t, 4> place{};  ///< whatever the space finds the triangle by
-  std::optional<Contact> contact;        ///< at `time`, if the space has found it already
-  std::uint64_t revision = 0;            ///< of the space; set by Space
+  std::array<std::uint32_t, 4> locator{};  ///< whatever the space finds the triangle by
+  std::optional<Contact> contact;          ///< at `time`, if the space has found it already
+  std::uint64_t revision = 0;              ///< of the space; set by Space
 };
 
 /// Which triangles count as floor.
@@ -123,7 +123,7 @@ struct SpaceFacts {
   Box bounds = {};             ///< of everything, known or unknown; empty for an empty space
   double largest_error = 0.0;  ///< farthest that a stored vertex lies from where the caller put it; never grows
   /// Changes whenever something came or went: then a held body tries again, and until then Walker reuses results of
-  /// gap(). None: the space may change without notice.
+  /// gap_bound(). None: the space may change without notice.
   std::optional<std::uint64_t> revision = {};
   /// m/s: the speed at which space ahead is known in time. Walker slows down to it; a faster body stops at the unknown.
   double speed_limit = std::numeric_limits<double>::infinity();
@@ -159,13 +159,13 @@ class Space {
   /// A certified lower bound of the least gap on the motion, or `reach` if nothing is within it. A value above 0 means
   /// that the whole motion is free; if below `reach`, the true gap is at most value * 8 / 7 + 2 mm. A value <= 0 means
   /// touching, overlapping or a gap below 2 mm; it is not a depth.
-  [[nodiscard]] double gap(const Query& query, double reach) const { return gap_over(query, reach, nullptr); }
+  [[nodiscard]] double gap_bound(const Query& query, double reach) const { return gap_over(query, reach, nullptr); }
 
-  /// Batches on all cores; they allocate. answers[i] is, to the bit, what the function above returns for queries[i];
-  /// both spans have one size. An error names the query by its index, and no answer is written.
-  void sweep(std::span<const Query> queries, std::span<Impact> answers) const;
-  void clearance(std::span<const Query> queries, double reach, std::span<Clearance> answers) const;
-  void gap(std::span<const Query> queries, double reach, std::span<double> answers) const;
+  /// Batches on all cores; they allocate. results[i] is, to the bit, what the function above returns for queries[i];
+  /// both spans have one size. An error names the query by its index, and no result is written.
+  void sweep(std::span<const Query> queries, std::span<Impact> results) const;
+  void clearance(std::span<const Query> queries, double reach, std::span<Clearance> results) const;
+  void gap_bound(std::span<const Query> queries, double reach, std::span<double> results) const;
 
   // The same queries from separate arguments.
   [[nodiscard]] Impact sweep(const Body& body, const Vec3& from, const Vec3& motion) const {
@@ -184,8 +184,8 @@ class Space {
   [[nodiscard]] Clearance clearance(const Body& body, const Vec3& place, double reach) const {
     return clearance(Query{body, place}, reach);
   }
-  [[nodiscard]] double gap(const Body& body, const Vec3& from, const Vec3& motion, double reach) const {
-    return gap(Query{body, from, motion}, reach);
+  [[nodiscard]] double gap_bound(const Body& body, const Vec3& from, const Vec3& motion, double reach) const {
+    return gap_bound(Query{body, from, motion}, reach);
   }
 
   /// First triangle on the ray from + t * motion, t in [0, 1]: the sweep of a point. It slips through no shared edge.
@@ -208,16 +208,16 @@ class Space {
   // library's own spaces, or null: other spaces ignore it.
 
   /// The earliest impact, without ignored objects. At time 0 it names the triangle with the most negative distance.
-  [[nodiscard]] virtual FirstImpact ask_first(const Query& query, Vicinity* vicinity) const = 0;
+  [[nodiscard]] virtual FirstImpact find_first(const Query& query, Vicinity* vicinity) const = 0;
   /// Offers the collector (roam/collector.h) all that comes within its reach of the body on its motion.
-  virtual void ask_near(const Query& query, Collector& collector, Vicinity* vicinity) const = 0;
+  virtual void find_near(const Query& query, Collector& collector, Vicinity* vicinity) const = 0;
 
   // For a space made of others. Pass the vicinity to at most one, for the same body and motion; pass null to the rest.
-  [[nodiscard]] static FirstImpact ask_first_of(const Space& other, const Query& query, Vicinity* vicinity) {
-    return other.ask_first(query, vicinity);
+  [[nodiscard]] static FirstImpact find_first_of(const Space& other, const Query& query, Vicinity* vicinity) {
+    return other.find_first(query, vicinity);
   }
-  static void ask_near_of(const Space& other, const Query& query, Collector& collector, Vicinity* vicinity) {
-    other.ask_near(query, collector, vicinity);
+  static void find_near_of(const Space& other, const Query& query, Collector& collector, Vicinity* vicinity) {
+    other.find_near(query, collector, vicinity);
   }
 
   Space() = default;

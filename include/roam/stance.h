@@ -16,7 +16,7 @@ enum class Footing : std::uint8_t {
   falling,  ///< nothing, and it has dropped by more than Walker::fall_limit()
   ground,   ///< ground within the slope limit
   rim,      ///< the rim of a crack or step, or slopes that wedge the body; it cannot step up
-  foot,     ///< the support disc alone, over a crack: see WalkerSettings::support_radius
+  disc,     ///< the support disc alone, over a crack: see WalkerSettings::support_radius
 };
 
 struct Stance {
@@ -29,7 +29,7 @@ struct Stance {
   Vec3 ground_velocity{0.0};
   [[nodiscard]] bool grounded() const { return footing != Footing::air && footing != Footing::falling; }
   /// Whether ground within the slope limit, or the support disc, carries the body.
-  [[nodiscard]] bool firm() const { return footing == Footing::ground || footing == Footing::foot; }
+  [[nodiscard]] bool firm() const { return footing == Footing::ground || footing == Footing::disc; }
 };
 
 }  // namespace roam

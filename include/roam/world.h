@@ -57,8 +57,8 @@ class World final : public Space {
   [[nodiscard]] const WorldStats& stats() const;
 
  protected:
-  [[nodiscard]] FirstImpact ask_first(const Query& query, Vicinity* vicinity) const override;
-  void ask_near(const Query& query, Collector& collector, Vicinity* vicinity) const override;
+  [[nodiscard]] FirstImpact find_first(const Query& query, Vicinity* vicinity) const override;
+  void find_near(const Query& query, Collector& collector, Vicinity* vicinity) const override;
 
  private:
   friend class Patchwork;  // these ask many worlds as one

@@ -59,7 +59,7 @@ FoundCrack crack_of(const VoidProbe& probe, const MeasuredVoid& measured,
   crack.point = measured.disc.centre;
   crack.radius = measured.disc.radius;
   crack.direction = across(probe.floor(), measured.disc);
-  crack.foot = measured.foot;
+  crack.foot_radius = measured.foot_radius;
   const double depth = bottom ? crack.point.z - bottom->z : 0.0;
   if (depth <= carrying_band + same_depth) crack.shallow_depth = depth;
   crack.rim = measured.rim;
@@ -71,12 +71,12 @@ std::vector<FoundCrack> drops_of(const CrackOptions& options, const std::vector<
   std::vector<FoundCrack> all;
   std::vector<Vec3> centres;
   for (const RimPlace& place : open) centres.push_back(place.disc.centre);
-  for (const std::vector<std::size_t>& group : together(centres, options.support_max, options.step)) {
+  for (const std::vector<std::size_t>& group : groups_within(centres, options.support_max, options.step)) {
     FoundCrack& drop = all.emplace_back();
     const RimPlace& first = open[group.front()];
     drop.kind = Crack::Kind::open_drop;
     drop.point = first.disc.centre;
-    drop.radius = drop.foot = options.support_max;
+    drop.radius = drop.foot_radius = options.support_max;
     const Vec3 out = drop.point - first.rim;
     const double length = std::hypot(out.x, out.y);
     drop.direction = length > 0.0 ? Vec3(out.x / length, out.y / length, 0.0) : Vec3(1.0, 0.0, 0.0);
@@ -98,7 +98,7 @@ std::vector<FoundCrack> find(const Survey& survey, RimEdges& edges,
   }
   const std::vector<RimPlace> voids = find_voids(survey, options, probe, edges, is_reached, finding, ended);
   std::vector<RimPlace> open, rest;
-  for (const RimPlace& place : voids) (place.disc.radius >= probe.open() ? open : rest).push_back(place);
+  for (const RimPlace& place : voids) (place.disc.radius >= probe.open_radius() ? open : rest).push_back(place);
   const OpenDrops drops(options, probe, open);
   // The rim's position assigns it to a drop, not the end of its climb, which may be at the far end of a long gap.
   const auto split = std::stable_partition(open.begin(), open.end(),
@@ -108,7 +108,7 @@ std::vector<FoundCrack> find(const Survey& survey, RimEdges& edges,
   std::sort(rest.begin(), rest.end(), lies_before);
   std::vector<FoundCrack> cracks;
   for (const MeasuredVoid& measured : measure_voids(options, probe, drops, rest, is_reached, measuring, ended)) {
-    if (measured.disc.radius >= probe.open()) {
+    if (measured.disc.radius >= probe.open_radius()) {
       for (const Vec3& rim : measured.rim) open.push_back({rim, measured.disc.centre, measured.disc});
     } else if (measured.disc.radius >= options.smallest - VoidProbe::precision) {
       cracks.push_back(crack_of(probe, measured, is_reached));

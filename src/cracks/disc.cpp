@@ -40,7 +40,7 @@ std::optional<Climb> steepest(const Vec3& centre, const std::vector<NearPlace>& 
 }
 
 /// The first place on the way from a place to one with a disc as large as `enough` where the disc is that large.
-Vec3 first_enough(const Plan& plan, const Vec3& from, const Vec3& to, double enough) {
+Vec3 first_enough(const PlanObstacles& plan, const Vec3& from, const Vec3& to, double enough) {
   constexpr double precision = 1e-6;  // m
   double below = 0.0, above = 1.0;
   while ((above - below) * std::hypot(to.x - from.x, to.y - from.y) > precision) {
@@ -65,7 +65,7 @@ std::vector<TouchedFloor> touched_floor(const FloorPlan& plan, const Disc& disc)
   return touched;
 }
 
-Disc grow(const Plan& plan, const Vec3& start, double enough, double precision, const MayMove& may_move) {
+Disc grow(const PlanObstacles& plan, const Vec3& start, double enough, double precision, const MayMove& may_move) {
   // Rims that part by less than this per metre count as parallel: 0.04 mm over the examined 4 m.
   constexpr double least_rate = 1e-5;
   constexpr double fair_share = 0.3;  // a step needs at least this share of the growth that the rate promises

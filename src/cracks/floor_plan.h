@@ -16,9 +16,9 @@ struct NearPlace {
 };
 
 /// Obstacles for a disc, seen from above.
-class Plan {
+class PlanObstacles {
  public:
-  virtual ~Plan() = default;
+  virtual ~PlanObstacles() = default;
   /// The obstacle nearest to `place`, no farther than `reach`.
   [[nodiscard]] virtual NearPlace nearest(const Vec3& place, double reach) const = 0;
   /// Fills `near` with the nearest place of each triangle at most `slack` farther than the nearest of all, which comes
@@ -26,9 +26,9 @@ class Plan {
   virtual void touching(const Vec3& place, double reach, double slack, std::vector<NearPlace>& near) const = 0;
 
  protected:
-  Plan() = default;
-  Plan(const Plan&) = default;
-  Plan& operator=(const Plan&) = default;
+  PlanObstacles() = default;
+  PlanObstacles(const PlanObstacles&) = default;
+  PlanObstacles& operator=(const PlanObstacles&) = default;
 };
 
 /// By distance, then by place.
@@ -36,7 +36,7 @@ void sort_near(std::vector<NearPlace>& near);
 
 /// The floor alone: of every triangle, the part within `band` (m) above and below the queried place. The distance
 /// differs from that of a capsule as high as the band, which would also see floor a little below its end.
-class FloorPlan final : public Plan {
+class FloorPlan final : public PlanObstacles {
  public:
   FloorPlan(const Survey& survey, double band);
 
@@ -55,7 +55,7 @@ class FloorPlan final : public Plan {
 
 /// Floor and walls: the distance is the radius of the largest body that can stand at a place. A wall counts if it
 /// touches a ball whose lowest point is at knee height, like the lower end of a walking body.
-class BodyPlan final : public Plan {
+class BodyPlan final : public PlanObstacles {
  public:
   BodyPlan(const Survey& survey, const FloorPlan& floor, double knee);
   [[nodiscard]] NearPlace nearest(const Vec3& place, double reach) const override;
@@ -90,6 +90,7 @@ using MayMove = std::function<bool(const Vec3& from, const Vec3& to)>;
 /// Climbs from `start` to a place where the free disc is largest, to `precision` (m). Moves along the bisector of the
 /// nearly touched obstacles, so it can follow a ridge between two rims that part slowly. Ends early where the disc is
 /// exactly as large as `enough`.
-[[nodiscard]] Disc grow(const Plan& plan, const Vec3& start, double enough, double precision, const MayMove& may_move);
+[[nodiscard]] Disc grow(const PlanObstacles& plan, const Vec3& start, double enough, double precision,
+                        const MayMove& may_move);
 
 }  // namespace roam::cracks

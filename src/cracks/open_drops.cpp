@@ -29,7 +29,7 @@ bool has_floor_on_both_sides(const VoidProbe& probe, const std::function<bool(co
                              const Disc& disc) {
   std::vector<Vec3> ways;
   for (const TouchedFloor& floor : touched_floor(probe.floor(), disc)) {
-    const Vec3 beyond = disc.centre + (floor.near.distance + probe.outside()) * floor.way;
+    const Vec3 beyond = disc.centre + (floor.near.distance + probe.rim_offset()) * floor.way;
     if (is_reached(floor.near.point) && probe.sees(disc.centre, beyond)) ways.push_back(floor.way);
   }
   return std::any_of(ways.begin(), ways.end(), [&](const Vec3& a) {
@@ -54,7 +54,7 @@ class WayOut {
     while (!next.empty() && !ended) {
       const Outlet at = next.top();
       next.pop();
-      if (at.floor >= probe_.open()) return true;
+      if (at.floor >= probe_.open_radius()) return true;
       const Vec3 from = *seen.at({at.x, at.y});
       for (const auto& [dx, dy] : {std::pair{1, 0}, {-1, 0}, {0, 1}, {0, -1}}) {
         const std::pair<std::int64_t, std::int64_t> to(at.x + dx, at.y + dy);
@@ -63,7 +63,7 @@ class WayOut {
             room_near(body_.centre + Vec3(double(to.first) * spacing_, double(to.second) * spacing_, 0.0));
         if (place && !goes(from, *place)) continue;  // the place may still be reached from another side
         seen.emplace(to, place);
-        if (place) next.push({probe_.floor().nearest(*place, probe_.open()).distance, to.first, to.second});
+        if (place) next.push({probe_.floor().nearest(*place, probe_.open_radius()).distance, to.first, to.second});
       }
     }
     return false;
@@ -145,15 +145,15 @@ OpenDrops::OpenDrops(const CrackOptions& options, const VoidProbe& probe, const 
   }
 }
 
-template <typename Asked>
-bool OpenDrops::any(const Vec3& place, int squares, const Asked& asked) const {
+template <typename Accept>
+bool OpenDrops::any(const Vec3& place, int squares, const Accept& accept) const {
   if (centres_.empty()) return false;
   for (int x = -squares; x <= squares; ++x) {
     for (int y = -squares; y <= squares; ++y) {
       const auto near = centres_.find(square_at(place.x + x * side_, place.y + y * side_, side_));
       if (near == centres_.end()) continue;
       for (const Vec3& centre : near->second) {
-        if (std::abs(centre.z - place.z) <= options_.step && asked(centre)) return true;
+        if (std::abs(centre.z - place.z) <= options_.step && accept(centre)) return true;
       }
     }
   }

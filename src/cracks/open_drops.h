@@ -30,8 +30,8 @@ class OpenDrops {
   [[nodiscard]] bool any_near(const Vec3& place, double reach) const;
 
  private:
-  template <typename Asked>
-  bool any(const Vec3& place, int squares, const Asked& asked) const;
+  template <typename Accept>
+  bool any(const Vec3& place, int squares, const Accept& accept) const;
 
   CrackOptions options_;
   const VoidProbe& probe_;

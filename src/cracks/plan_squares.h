@@ -28,8 +28,8 @@ namespace roam::cracks {
 
 /// Groups of places within `reach` of each other, level, and within `step` in height, as indices. Each group is
 /// ascending; groups are in the order of their first members.
-[[nodiscard]] inline std::vector<std::vector<std::size_t>> together(const std::vector<Vec3>& places, double reach,
-                                                                    double step) {
+[[nodiscard]] inline std::vector<std::vector<std::size_t>> groups_within(const std::vector<Vec3>& places, double reach,
+                                                                         double step) {
   DisjointSets sets(places.size());
   std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> squares;
   for (std::uint32_t i = 0; i < places.size(); ++i) {
@@ -52,7 +52,7 @@ namespace roam::cracks {
 
 /// Groups of places farther than `side` from each other, level, as indices. Each group is ascending; groups are in the
 /// order of their first members.
-[[nodiscard]] inline std::vector<std::vector<std::size_t>> apart(const std::vector<Vec3>& places, double side) {
+[[nodiscard]] inline std::vector<std::vector<std::size_t>> groups_apart(const std::vector<Vec3>& places, double side) {
   std::unordered_map<std::uint64_t, std::uint32_t> squares;
   DisjointSets sets;
   std::vector<std::uint32_t> square_of;

@@ -19,7 +19,7 @@ namespace {
 /// The phase after those of SharedEdges.
 constexpr int last_phase = SharedEdges::phases;
 /// Floors between two calls of `goes_on`: some milliseconds of work.
-constexpr std::size_t asked_every = 2048;
+constexpr std::size_t edges_of_a_block = 2048;
 
 }  // namespace
 
@@ -99,16 +99,16 @@ bool RimEdges::look_at_all(const Look& look, const std::function<bool(double)>& 
   s.end();
   for (; s.phase < last_phase; s.next_phase())
     tbb::parallel_for(s.piece, s.pieces(), [&](std::size_t piece) { s.shared.run(s.phase, piece); });
-  const std::size_t blocks = (s.edges.size() + asked_every - 1) / asked_every;
+  const std::size_t blocks = (s.edges.size() + edges_of_a_block - 1) / edges_of_a_block;
   std::atomic<bool> is_ended{false};
-  std::mutex asking;
+  std::mutex progress;
   std::size_t done = 0;
   tbb::parallel_for(std::size_t{0}, blocks, [&](std::size_t block) {
     if (is_ended) return;
-    const std::size_t end = std::min((block + 1) * asked_every, s.edges.size());
-    for (std::size_t f = block * asked_every; f < end; ++f) look(f, s.edges[f], f < s.looked_at);
+    const std::size_t end = std::min((block + 1) * edges_of_a_block, s.edges.size());
+    for (std::size_t f = block * edges_of_a_block; f < end; ++f) look(f, s.edges[f], f < s.looked_at);
     if (!goes_on) return;
-    const std::lock_guard lock(asking);
+    const std::lock_guard lock(progress);
     if (!is_ended && !goes_on(double(++done) / double(blocks))) is_ended = true;
   });
   if (!is_ended) s.looked_at = s.edges.size();

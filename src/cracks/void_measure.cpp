@@ -29,8 +29,8 @@ constexpr std::size_t most_beside = 3;                 ///< likewise, up to the 
 struct Cell {
   std::int64_t x = 0, y = 0;
   double level = 0.0;
-  double distance = 0.0;  ///< from floor or wall
-  double floor = 0.0;     ///< from floor
+  double distance = 0.0;        ///< from floor or wall
+  double floor_distance = 0.0;  ///< from floor
   std::uint32_t flood = 0;
   bool inside = false;  ///< of the flood; else floor, a wall, too narrow, or an open drop
   bool drop = false;    ///< proved to belong to an open drop
@@ -68,9 +68,9 @@ class Floods {
     std::map<std::pair<std::uint32_t, bool>, MeasuredVoid> voids;
     for (std::uint32_t flood = 0; flood < discs_.size(); ++flood) {
       const Disc& disc = discs_[flood];
-      const bool is_open = disc.radius >= probe_.open();
+      const bool is_open = disc.radius >= probe_.open_radius();
       MeasuredVoid& whole = voids[{sets_.find(flood), is_open}];
-      whole.foot = std::max({whole.foot, disc.radius, feet_[flood]});
+      whole.foot_radius = std::max({whole.foot_radius, disc.radius, feet_[flood]});
       if (disc.radius > whole.disc.radius ||
           (disc.radius == whole.disc.radius && comes_before(disc.centre, whole.disc.centre)))
         whole.disc = disc;
@@ -147,7 +147,7 @@ class Floods {
     std::vector<Vec3> own_drops = open_discs(filled);
     discs_.push_back(largest(seed, filled, own_drops));
     const Disc& disc = discs_.back();
-    feet_.push_back(disc.radius > 0.0 && disc.radius < probe_.open() ? foot_over(filled, own_drops) : 0.0);
+    feet_.push_back(disc.radius > 0.0 && disc.radius < probe_.open_radius() ? foot_over(filled, own_drops) : 0.0);
     return flood;
   }
 
@@ -170,7 +170,7 @@ class Floods {
     // Where the probe just fits on a ridge, the cells nearest to the ridge have this much less room.
     const double least = probe_.radius() - half_diagonal();
     if (cell->distance < least) return std::nullopt;
-    if (drops_.cover(place, cell->floor)) return std::nullopt;
+    if (drops_.cover(place, cell->floor_distance)) return std::nullopt;
     const double sphere = std::min(cell->distance, probe_.radius()) - sink_margin;
     if (!probe_.sees(from, place) || !probe_.sinks(place, sphere)) return std::nullopt;
     cell->level = level;
@@ -217,15 +217,16 @@ class Floods {
   /// The greatest distance from floor of a smallest body's axis, outside open drops, which no foot bridges.
   double foot_over(std::vector<Cell>& cells, const std::vector<Vec3>& own_drops) {
     std::sort(cells.begin(), cells.end(), [](const Cell& a, const Cell& b) {
-      return a.floor != b.floor ? a.floor > b.floor : std::tie(a.x, a.y) < std::tie(b.x, b.y);
+      return a.floor_distance != b.floor_distance ? a.floor_distance > b.floor_distance
+                                                  : std::tie(a.x, a.y) < std::tie(b.x, b.y);
     });
     std::vector<Vec3> beside;
     for (const Cell& cell : cells) {
       const Vec3 place = place_of(cell);
-      if (cell.distance < probe_.radius() || cell.floor >= probe_.open() || is_in(own_drops, place, cell.floor) ||
-          is_near(beside, place, 2.0 * options_.smallest))
+      if (cell.distance < probe_.radius() || cell.floor_distance >= probe_.open_radius() ||
+          is_in(own_drops, place, cell.floor_distance) || is_near(beside, place, 2.0 * options_.smallest))
         continue;
-      if (!is_beside_drop(place, own_drops)) return cell.floor;
+      if (!is_beside_drop(place, own_drops)) return cell.floor_distance;
       beside.push_back(place);
     }
     return 0.0;
@@ -251,7 +252,7 @@ class Floods {
       if (most <= std::max(best.radius, options_.smallest - VoidProbe::precision) || starts.size() == most_discs) break;
       const Vec3 start = place_of(cell);
       Cell& marked = *find(cell.x, cell.y, cell.level);
-      marked.drop = cell.floor >= probe_.open() || is_in(own_drops, start, cell.floor) ||
+      marked.drop = cell.floor_distance >= probe_.open_radius() || is_in(own_drops, start, cell.floor_distance) ||
                     is_near(beside, start, std::max(0.25 * cell.distance, 2.0 * options_.smallest));
       if (marked.drop || is_near(starts, start, 0.5 * cell.distance) || !is_highest(cell)) continue;
       Disc disc = grown_outside(start, own_drops);
@@ -274,7 +275,7 @@ class Floods {
   Disc grown_outside(const Vec3& start, std::vector<Vec3>& own_drops) const {
     while (!is_open(start, own_drops)) {
       const Disc disc = grown(start, [&](const Vec3& to) { return !is_open(to, own_drops); });
-      if (disc.radius < probe_.open()) return disc;
+      if (disc.radius < probe_.open_radius()) return disc;
       own_drops.push_back(disc.centre);
     }
     return {};
@@ -284,15 +285,15 @@ class Floods {
   Disc grown_beside(const Vec3& start, const std::vector<Vec3>& own_drops) const {
     constexpr double about = 0.01;  // m: the border of such places is no sharper than this
     const auto may_be = [&](const Vec3& to) { return !is_open(to, own_drops) && !is_beside_drop(to, own_drops); };
-    const Disc near = grow(probe_.body(), start, probe_.open(), about,
+    const Disc near = grow(probe_.body(), start, probe_.open_radius(), about,
                            [&](const Vec3& from, const Vec3& to) { return stays(from, to) && may_be(to); });
     const auto in_reach = [&](const Vec3& to) {
       return level_distance(to, near.centre) <= about && !is_open(to, own_drops);
     };
-    const Disc body = grow(probe_.body(), near.centre, probe_.open(), finest,
+    const Disc body = grow(probe_.body(), near.centre, probe_.open_radius(), finest,
                            [&](const Vec3& from, const Vec3& to) { return stays(from, to) && in_reach(to); });
     // Stopped before the ridge, it is that much nearer to a wall than to floor, although no wall limits the void.
-    const double floor = probe_.floor().nearest(body.centre, probe_.open()).distance;
+    const double floor = probe_.floor().nearest(body.centre, probe_.open_radius()).distance;
     return floor <= body.radius + 2.0 * about ? body : grown(near.centre, in_reach);
   }
 
@@ -300,7 +301,7 @@ class Floods {
   std::vector<Vec3> open_discs(const std::vector<Cell>& cells) const {
     std::vector<Vec3> discs;
     for (const Cell& cell : cells) {
-      if (cell.floor < probe_.open()) continue;
+      if (cell.floor_distance < probe_.open_radius()) continue;
       const Vec3 centre = place_of(cell);
       if (std::none_of(discs.begin(), discs.end(),
                        [&](const Vec3& other) { return level_distance(other, centre) < 2.0 * options_.smallest; }))
@@ -320,9 +321,9 @@ class Floods {
     constexpr double walls_decide = 0.001;  // m: walls limit the body if floor is farther than this beyond them
     constexpr double widest_share = 0.8;    // of the room between the walls; assumed width of bodies
     const auto may_move = [&](const Vec3& from, const Vec3& to) { return stays(from, to) && may_be(to); };
-    const Disc body = grow(probe_.body(), start, probe_.open(), finest, may_move);
-    if (probe_.floor().nearest(body.centre, probe_.open()).distance <= body.radius + walls_decide) return body;
-    return grow(probe_.floor(), body.centre, probe_.open(), finest, [&](const Vec3& from, const Vec3& to) {
+    const Disc body = grow(probe_.body(), start, probe_.open_radius(), finest, may_move);
+    if (probe_.floor().nearest(body.centre, probe_.open_radius()).distance <= body.radius + walls_decide) return body;
+    return grow(probe_.floor(), body.centre, probe_.open_radius(), finest, [&](const Vec3& from, const Vec3& to) {
       const double room = widest_share * body.radius;
       return may_move(from, to) && probe_.body().nearest_wall(to, room).distance >= room;
     });
@@ -347,13 +348,13 @@ std::vector<MeasuredVoid> climbed(const CrackOptions& options, const OpenDrops& 
   std::vector<MeasuredVoid> voids;
   std::vector<Vec3> centres;
   for (const RimPlace& place : places) centres.push_back(place.disc.centre);
-  for (const std::vector<std::size_t>& group : together(centres, options.support_max, options.step)) {
+  for (const std::vector<std::size_t>& group : groups_within(centres, options.support_max, options.step)) {
     MeasuredVoid& found = voids.emplace_back();
     for (const std::size_t i : group) {
       if (places[i].disc.radius > found.disc.radius) found.disc = places[i].disc;
       found.rim.push_back(places[i].rim);
     }
-    found.foot = found.disc.radius;
+    found.foot_radius = found.disc.radius;
   }
   return voids;
 }
@@ -366,12 +367,12 @@ std::vector<MeasuredVoid> measure_voids(const CrackOptions& options, const VoidP
                                         const std::function<bool(double)>& goes_on, std::atomic<bool>& ended) {
   std::vector<Vec3> seeds;
   for (const RimPlace& place : places) seeds.push_back(place.outside);
-  const std::vector<std::vector<std::size_t>> parts = apart(seeds, 2.0 * window + 0.5);
+  const std::vector<std::vector<std::size_t>> parts = groups_apart(seeds, 2.0 * window + 0.5);
   std::vector<std::vector<MeasuredVoid>> measured(parts.size());
   std::vector<std::vector<RimPlace>> left(parts.size());
   std::mutex mutex;
   std::size_t done = 0;
-  const auto asked = [&] {
+  const auto check_ended = [&] {
     if (!goes_on || ended) return;
     const std::lock_guard lock(mutex);
     if (!ended && !goes_on(double(done++) / double(places.size()))) ended = true;
@@ -380,7 +381,7 @@ std::vector<MeasuredVoid> measure_voids(const CrackOptions& options, const VoidP
     Floods floods(options, probe, drops, is_reached, ended);
     for (const std::size_t k : parts[i]) {
       const RimPlace& place = places[k];
-      asked();
+      check_ended();
       if (!ended)
         floods.add(place);
       else if (!floods.add_to_known(place))

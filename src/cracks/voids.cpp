@@ -36,7 +36,7 @@ VoidProbe::VoidProbe(const Survey& survey, const CrackOptions& options)
       options_(options),
       step_(options.step + step_slack),
       radius_(probe_share * options.smallest),
-      outside_(1.02 * radius_ + 2.0 * survey.world().largest_error()),
+      rim_offset_(1.02 * radius_ + 2.0 * survey.world().largest_error()),
       floor_(survey, step_),
       body_(survey, floor_, options.knee) {}
 
@@ -77,14 +77,14 @@ class Rims {
  public:
   Rims(const VoidProbe& probe, const CrackOptions& options) : probe_(probe), spacing_(2.0 * options.smallest) {}
 
-  /// Finds rim places with a void outside, on the edges without a bit in `known`. Examines places for which `asks`
+  /// Finds rim places with a void outside, on the edges without a bit in `known`. Examines places for which `wants`
   /// returns true, and calls take(rim) for each that has a void; false from `take` ends that edge. Returns `known` plus
   /// the edges without a void.
-  template <class Asks, class Take>
-  std::uint8_t with_void(const Triangle& t, std::uint8_t known, const Asks& asks, const Take& take) const {
+  template <class Wants, class Take>
+  std::uint8_t with_void(const Triangle& t, std::uint8_t known, const Wants& wants, const Take& take) const {
     for (std::size_t k = 0; k < 3; ++k) {
       if ((known >> k & 1u) != 0) continue;
-      if (!of_edge(t[k], t[(k + 1) % 3], t[(k + 2) % 3], asks, take))
+      if (!of_edge(t[k], t[(k + 1) % 3], t[(k + 2) % 3], wants, take))
         known = static_cast<std::uint8_t>(known | 1u << k);
     }
     return known;
@@ -92,8 +92,8 @@ class Rims {
 
  private:
   /// Whether the edge may have a void.
-  template <class Asks, class Take>
-  bool of_edge(const Vec3& a, const Vec3& b, const Vec3& inner, const Asks& asks, const Take& take) const {
+  template <class Wants, class Take>
+  bool of_edge(const Vec3& a, const Vec3& b, const Vec3& inner, const Wants& wants, const Take& take) const {
     const Vec3 along = b - a;
     const double level = std::hypot(along.x, along.y);
     if (level < shortest_way) return false;
@@ -104,11 +104,11 @@ class Rims {
     bool any = false;
     for (double i = 0.5; i < parts; i += 1.0) {
       const Vec3 at = a + (i / parts) * along;
-      const Rim rim{at, out, at + probe_.outside() * out};
-      const bool is_asked = asks(at);
-      if (is_asked && !is_void(rim)) continue;
+      const Rim rim{at, out, at + probe_.rim_offset() * out};
+      const bool is_wanted = wants(at);
+      if (is_wanted && !is_void(rim)) continue;
       any = true;
-      if (is_asked && !take(rim)) break;
+      if (is_wanted && !take(rim)) break;
     }
     return any;
   }
@@ -116,7 +116,7 @@ class Rims {
   /// The cheap tests first: most edges have floor on both sides, and most others have a wall.
   bool is_void(const Rim& rim) const {
     // The sight line starts a little inside: a wall on the rim itself would count as touched from its far side.
-    return !probe_.has_floor(rim.outside) && probe_.sees(rim.at - probe_.outside() * rim.out, rim.outside) &&
+    return !probe_.has_floor(rim.outside) && probe_.sees(rim.at - probe_.rim_offset() * rim.out, rim.outside) &&
            probe_.sinks(rim.outside, probe_.radius());
   }
 
@@ -125,7 +125,7 @@ class Rims {
 };
 
 Disc climb(const VoidProbe& probe, const Vec3& outside) {
-  return grow(probe.floor(), outside, probe.open(), climb_precision,
+  return grow(probe.floor(), outside, probe.open_radius(), climb_precision,
               [&](const Vec3& from, const Vec3& to) { return probe.sees(from, to); });
 }
 

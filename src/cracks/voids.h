@@ -25,11 +25,11 @@ class VoidProbe {
   /// exactly that size.
   [[nodiscard]] double radius() const { return radius_; }
   /// The distance from a rim at which that sphere passes it.
-  [[nodiscard]] double outside() const { return outside_; }
+  [[nodiscard]] double rim_offset() const { return rim_offset_; }
   [[nodiscard]] const FloorPlan& floor() const { return floor_; }
   [[nodiscard]] const BodyPlan& body() const { return body_; }
   /// A disc this large is an open drop.
-  [[nodiscard]] double open() const { return options_.support_max - precision; }
+  [[nodiscard]] double open_radius() const { return options_.support_max - precision; }
 
   /// Whether there is floor within a step up or down.
   [[nodiscard]] bool has_floor(const Vec3& place) const;
@@ -47,7 +47,7 @@ class VoidProbe {
  private:
   const Survey& survey_;
   CrackOptions options_;
-  double step_, radius_, outside_;
+  double step_, radius_, rim_offset_;
   FloorPlan floor_;
   BodyPlan body_;
 };
@@ -56,7 +56,7 @@ class VoidProbe {
 struct RimPlace {
   Vec3 rim{0.0};
   Vec3 outside{0.0};  ///< in the void
-  Disc disc;          ///< radius at least probe.open(): an open drop
+  Disc disc;          ///< radius at least probe.open_radius(): an open drop
 };
 
 class RimEdges;

@@ -18,7 +18,7 @@ struct Contents {
   const words::EndedWalk& report;
   const Record& record;
   const Way& way;
-  const Survey& survey;
+  const RoomSurvey& survey;
   const std::vector<Mark>& marks;
   const Levels& levels;
   const Frames& frames;

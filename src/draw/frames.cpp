@@ -38,7 +38,7 @@ struct Sights {
   std::vector<Vec3> beside;
 };
 
-Sights find_sights(const Way& way, const Survey& survey, double radius) {
+Sights find_sights(const Way& way, const RoomSurvey& survey, double radius) {
   Sights sights;
   for (const WayPoint& p : way.points) sights.way.push_back(p.position);
   for (const Station& s : survey.stations) {
@@ -103,7 +103,7 @@ Frame plan_frame(const Sights& sights, const Turn& turn, const Box& scene, doubl
   return {Rect::around(shown.center(), content_width / scale, height / scale), scale, scale};
 }
 
-void frame_section(Frames& frames, const Way& way, const Survey& survey, double body_height, double radius) {
+void frame_section(Frames& frames, const Way& way, const RoomSurvey& survey, double body_height, double radius) {
   double low = std::numeric_limits<double>::infinity(), high = -low;
   for (const Station& s : survey.stations) {
     low = std::min({low, s.centre.z - 0.5 * s.height, s.floor.value_or(low)});
@@ -140,7 +140,7 @@ void frame_section(Frames& frames, const Way& way, const Survey& survey, double 
   frames.section = {{{left, low}, {left + width / scale, high}}, scale, scale_y};
 }
 
-void frame_details(Frames& frames, const Survey& survey, const std::vector<Mark>& marks,
+void frame_details(Frames& frames, const RoomSurvey& survey, const std::vector<Mark>& marks,
                    const WalkerSettings& settings) {
   double size = std::max(28.0 * settings.radius, 4.0 * settings.height);  // metres across
   // The measure of the narrowest place should be visible whole, unless it is nearly open.
@@ -208,7 +208,7 @@ double round_length(double limit) {
   return power;
 }
 
-Frames choose_frames(const Way& way, const Survey& survey, const std::vector<Mark>& marks, const Box& scene,
+Frames choose_frames(const Way& way, const RoomSurvey& survey, const std::vector<Mark>& marks, const Box& scene,
                      const WalkerSettings& settings) {
   Frames frames;
   const Sights sights = find_sights(way, survey, settings.radius);

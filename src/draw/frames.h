@@ -50,7 +50,7 @@ struct Frames {
 ///   the way;
 /// - uses the plan's scale for the section if that fits;
 /// - adds details if the body would be smaller than a dot.
-[[nodiscard]] Frames choose_frames(const Way& way, const Survey& survey, const std::vector<Mark>& marks,
+[[nodiscard]] Frames choose_frames(const Way& way, const RoomSurvey& survey, const std::vector<Mark>& marks,
                                    const Box& scene, const WalkerSettings& settings);
 
 /// The largest of 1, 2, 5, 10, 20, 50, ... and 0.5, 0.2, ... that is at most `limit` (> 0).

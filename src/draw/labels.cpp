@@ -33,7 +33,7 @@ Point nearest_of(const Rect& r, const Point& p) {
 
 }  // namespace
 
-std::string printable(const std::string& text) {
+std::string with_question_marks(const std::string& text) {
   std::string result;
   for (std::size_t i = 0; i < text.size();) {
     const std::size_t size = character(text, i);
@@ -46,7 +46,7 @@ std::string printable(const std::string& text) {
 std::vector<std::string> wrapped(const std::string& text, double width, double size, bool bold,
                                  const MeasureText& measure) {
   const auto fits = [&](const std::string& line) { return measure(line, size, bold).width() <= width; };
-  const std::string shown = printable(text);
+  const std::string shown = with_question_marks(text);
   std::vector<std::string> lines{""};
   for (std::size_t i = 0; i < shown.size();) {
     std::size_t end = std::min(shown.find(' ', i), shown.size());
@@ -77,7 +77,7 @@ std::vector<std::string> wrapped(const std::string& text, double width, double s
 
 Rect Labels::write(const std::string& what, const std::string& text, const Point& at, double size, bool bold,
                    const Colour& colour, Align align) {
-  const std::string shown = printable(text);
+  const std::string shown = with_question_marks(text);
   const Rect extent = measure_(shown, size, bold);
   const double shift = align == Align::left ? 0.0 : align == Align::centre ? 0.5 * extent.width() : extent.width();
   const Point from = at - Point(shift, 0.0);

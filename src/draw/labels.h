@@ -13,7 +13,7 @@ inline constexpr Colour paper{1.0, 1.0, 1.0, 1.0};
 inline constexpr Colour ink{0.11, 0.13, 0.17, 1.0};
 
 /// The text with every byte that is not printable UTF-8 replaced by "?": file and object names may contain any bytes.
-[[nodiscard]] std::string printable(const std::string& text);
+[[nodiscard]] std::string with_question_marks(const std::string& text);
 
 /// The printable text in lines no wider than `width`, broken at spaces, or inside words that are too long.
 [[nodiscard]] std::vector<std::string> wrapped(const std::string& text, double width, double size, bool bold,
@@ -25,7 +25,7 @@ class Labels {
   Labels(Sheet& sheet, MeasureText measure) : sheet_(sheet), measure_(std::move(measure)) {}
 
   [[nodiscard]] Rect measured(const std::string& text, double size, bool bold) const {
-    return measure_(printable(text), size, bold);
+    return measure_(with_question_marks(text), size, bold);
   }
   [[nodiscard]] const MeasureText& measure() const { return measure_; }
 

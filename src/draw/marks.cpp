@@ -44,7 +44,7 @@ std::string length_text(double metres) {
 }
 
 std::vector<Mark> find_marks(const words::EndedWalk& report, const Record& record, const Way& way,
-                             const Survey& survey) {
+                             const RoomSurvey& survey) {
   std::vector<Mark> marks;
   const WayPoint &first = way.points.front(), &last = way.points.back();
   const RouteResult& result = report.result;

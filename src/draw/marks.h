@@ -26,7 +26,7 @@ struct Mark {
 /// The marks in their order along the way. `nearest`, the place of the least certified clearance, only for flying: on
 /// foot that would be the ground.
 [[nodiscard]] std::vector<Mark> find_marks(const words::EndedWalk& report, const Record& record, const Way& way,
-                                           const Survey& survey);
+                                           const RoomSurvey& survey);
 
 /// A length for people: "0.62 m", "12.5 m", "1.79 km"; below a centimetre in millimetres: "4.2 mm".
 [[nodiscard]] std::string length_text(double metres);

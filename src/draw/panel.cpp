@@ -14,7 +14,7 @@ constexpr double way_width = 4.0;
 constexpr double least_outline = 4.0;   ///< pixels; bodies of a smaller radius are drawn as a dot
 constexpr double touch_distance = 8.0;  ///< pixels between two drawn touches, roughly
 constexpr double label_size = 22.0;
-constexpr double steepest_wall = 0.7;  ///< of a normal's z: surfaces with a larger one are floor or ceiling
+constexpr double largest_wall_normal_z = 0.7;  ///< of a normal's z: surfaces with a larger one are floor or ceiling
 
 /// A capsule from the side, with corners fine enough for any scale; metres, around its centre.
 Polyline capsule(double radius, double height) {
@@ -114,7 +114,7 @@ void PanelPainter::touches(const std::string& prefix, const Map& map, bool is_pl
   // A walk along a wall leaves many touches: one for each cell of a grid is drawn.
   std::set<std::pair<int, int>> drawn;
   for (const Touch& touch : c_.record.touches) {
-    if (c_.report.mode == Mode::walk && std::abs(touch.normal.z) > steepest_wall) continue;
+    if (c_.report.mode == Mode::walk && std::abs(touch.normal.z) > largest_wall_normal_z) continue;
     const Vec3& centre = c_.record.places[touch.place].position;
     const Point place =
         is_plan ? c_.frames.turn.plan(touch.point) : unrolled(touch.point, centre, c_.way.along[touch.place]);

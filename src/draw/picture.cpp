@@ -28,8 +28,8 @@ std::vector<double> depths_below(const WalkerSettings& settings) {
   return legs > margin ? std::vector{legs, feet + settings.step + margin} : std::vector{feet + settings.step + margin};
 }
 
-std::vector<PlanView> plan_views(const Walked& walked, const Frames& frames, const Survey& survey, const Levels& levels,
-                                 const std::vector<Mark>& marks) {
+std::vector<PlanView> plan_views(const Walked& walked, const Frames& frames, const RoomSurvey& survey,
+                                 const Levels& levels, const std::vector<Mark>& marks) {
   const WalkerSettings& settings = walked.report.settings;
   std::vector<double> below;
   double ground = 1.0;

@@ -31,7 +31,7 @@ namespace roam::draw {
 /// Measurements that need the space.
 struct Measured {
   Way way;
-  Survey survey;
+  RoomSurvey survey;
 };
 
 [[nodiscard]] Measured measure(const Space& space, const words::EndedWalk& report, const Record& record,

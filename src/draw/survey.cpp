@@ -55,9 +55,9 @@ class Surveyor {
 
 }  // namespace
 
-Survey survey(const Space& space, const Way& way, const WalkerSettings& settings, Mode mode, const Arrive& arrive) {
+RoomSurvey survey(const Space& space, const Way& way, const WalkerSettings& settings, Mode mode, const Arrive& arrive) {
   const Surveyor surveyor(space, settings, mode, arrive);
-  Survey result;
+  RoomSurvey result;
   result.reach = surveyor.reach();
   const auto& points = way.points;
   const bool is_true = way.tolerance < measure::slimmer;

@@ -35,7 +35,7 @@ struct Narrowest {
   Vec3 right{0.0};
 };
 
-struct Survey {
+struct RoomSurvey {
   double reach = 0.0;  ///< measured metres beside the body, at most
   std::vector<Station> stations;
   std::optional<Narrowest> narrowest;  ///< set by the caller; survey() leaves it empty
@@ -47,7 +47,7 @@ using Arrive = std::function<void(const Vec3& place, double reach)>;
 /// Measures at every corner of the way, and in between at least every half radius, at some 10,000 places at most. If
 /// the way is too imprecise for the body to fit on it, measures only at its corners. On foot the room beside the body
 /// counts above the step height, because the body walks over lower obstacles.
-[[nodiscard]] Survey survey(const Space& space, const Way& way, const WalkerSettings& settings, Mode mode,
-                            const Arrive& arrive = {});
+[[nodiscard]] RoomSurvey survey(const Space& space, const Way& way, const WalkerSettings& settings, Mode mode,
+                                const Arrive& arrive = {});
 
 }  // namespace roam::draw

@@ -54,44 +54,44 @@ class Search {
     smallest_ = std::max(least_half, least_half_part * foot.radius);
   }
 
-  enum class Answer : std::uint8_t { none, free, hidden };
+  enum class Result : std::uint8_t { none, free, hidden };
 
   /// `none`: there is no disc. `free`: there is one, or the search reached a limit undecided. With `past_walls` walls
   /// are not looked for until a disc is found. `hidden` then means that a wall may stand before that disc, or that the
   /// search is undecided; search again without `past_walls`.
-  Answer run(bool past_walls, walking::DiscFound& disc) {
+  Result run(bool past_walls, walking::DiscFound& disc) {
     std::array<Square, stack_size> stack;
     std::size_t depth = 0;
     stack[depth++] = {0.0, 0.0, foot_.radius};
     for (int count = 0; depth > 0; ++count) {
-      if (count >= square_limit || queries_ >= query_limit) return Answer::free;
+      if (count >= square_limit || queries_ >= query_limit) return Result::free;
       const Square square = stack[--depth];
       if (!meets_domain(square) || settled(square)) continue;
-      if (ask(square.x, square.y)) {
+      if (meets_floor(square.x, square.y)) {
         if (settled(square)) continue;
       } else if (std::hypot(square.x, square.y) <= foot_.radius) {
         if (in_sight(square.x, square.y)) {
           disc = {true, axis_.x + square.x, axis_.y + square.y};
-          return Answer::free;
+          return Result::free;
         }
-        if (past_walls) return Answer::hidden;
+        if (past_walls) return Result::hidden;
       }
       if (!past_walls && square.half <= hidden_part * foot_.radius && hidden(square)) continue;
-      if (square.half <= smallest_) return past_walls ? Answer::hidden : Answer::free;
+      if (square.half <= smallest_) return past_walls ? Result::hidden : Result::free;
       const double half = 0.5 * square.half;
-      if (depth + 4 > stack.size()) return Answer::free;
+      if (depth + 4 > stack.size()) return Result::free;
       for (const double dx : {-half, half}) {
         for (const double dy : {-half, half}) stack[depth++] = {square.x + dx, square.y + dy, half};
       }
     }
-    return Answer::none;
+    return Result::none;
   }
 
   /// Whether the disc found for another axis is still there.
   bool is_free(const walking::DiscFound& disc) {
     if (!disc.found) return false;
     const double x = disc.x - axis_.x, y = disc.y - axis_.y;
-    return std::hypot(x, y) <= foot_.radius && !ask(x, y) && in_sight(x, y);
+    return std::hypot(x, y) <= foot_.radius && !meets_floor(x, y) && in_sight(x, y);
   }
 
   /// Whether any floor that was met is unknown space.
@@ -118,7 +118,7 @@ class Search {
   }
 
   /// Whether there is floor nearer than the radius; remembers its nearest point.
-  bool ask(double x, double y) {
+  bool meets_floor(double x, double y) {
     ++queries_;
     const Clearance near = space_.floor_clearance(column_, over(x, y), foot_.radius, floor_);
     if (!near.found) return false;
@@ -166,10 +166,10 @@ DiscRoom walking::find_disc(const Space& space, const FloorPlane& plane, const S
   Search search(space, plane, disc, axis);
   if (search.is_free(last)) return DiscRoom::free;
   last = {};
-  Search::Answer answer = search.run(true, last);
+  Search::Result result = search.run(true, last);
   // Walls only exclude discs, so they are looked for only if there is a disc.
-  if (answer == Search::Answer::hidden) answer = search.run(false, last);
-  if (answer != Search::Answer::none) return DiscRoom::free;
+  if (result == Search::Result::hidden) result = search.run(false, last);
+  if (result != Search::Result::none) return DiscRoom::free;
   return search.met_unknown() ? DiscRoom::unknown : DiscRoom::none;
 }
 

@@ -18,7 +18,7 @@ struct Size {
 };
 
 /// The last result for a support disc. It is computed again only when one of its inputs has changed.
-struct FootAnswer {
+struct DiscResult {
   Vec3 place{0.0};  ///< centre of the body, metres
   double height = 0.0;
   Size size;
@@ -28,7 +28,7 @@ struct FootAnswer {
   Carrying carrying = Carrying::no;
 
   /// Whether the inputs are the same.
-  [[nodiscard]] bool same_question(const FootAnswer& other) const {
+  [[nodiscard]] bool same_input(const DiscResult& other) const {
     return place == other.place && height == other.height && size == other.size && floor == other.floor &&
            revision == other.revision;
   }
@@ -40,7 +40,7 @@ struct Gait : Stance {
   FloorPlane floor;
   bool floor_seen = false;
   ObjectId floor_object = no_object;  ///< the object of `floor`
-  FootAnswer foot;                    ///< the last result for the support disc
+  DiscResult disc_result;             ///< the last result for the support disc
   DiscFound disc;                     ///< where the support disc last found room to fall
 
   bool moved_along = false;  ///< move_instances() has already moved it with the ground for the next step

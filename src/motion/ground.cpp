@@ -121,8 +121,9 @@ std::optional<Ground> footing_here(const Move& move, const Gait& gait) {
 }
 
 void stand_on(Move& move, Gait& gait, const Ground& ground) {
-  const bool told = gait.footing == Footing::falling || !gait.level;
-  if (!told && ground.level < *gait.level - (move.settings.radius + move.settings.step)) move.note(EventKind::fell);
+  const bool fall_noted = gait.footing == Footing::falling || !gait.level;
+  if (!fall_noted && ground.level < *gait.level - (move.settings.radius + move.settings.step))
+    move.note(EventKind::fell);
   gait.ground = ground.normal;
   gait.level = ground.level;
   gait.rise_speed = 0.0;

@@ -27,9 +27,9 @@ constexpr double gap_tolerance = 2e-3;
 /// way, which ends at most `away` from the ball's centre. The gap at the centre is at least T - away. Over the ball's
 /// own way it is at least T - away - way, and the gap found is at least gap_part (T - away - way). From that, `away` is
 /// subtracted. The sum of all losses must be at most an eighth of T, and T is at least gap - away.
-constexpr double told_part = 3.0 / 4.0;
-constexpr double away_weight = (1.0 + gap_part) / (gap_part - told_part) + 1.0;  // 16
-constexpr double way_weight = gap_part / (gap_part - told_part);                 // 7
+constexpr double reported_part = 3.0 / 4.0;
+constexpr double away_weight = (1.0 + gap_part) / (gap_part - reported_part) + 1.0;  // 16
+constexpr double way_weight = gap_part / (gap_part - reported_part);                 // 7
 
 /// Each merge of two pieces in one direction may shift the straight line by a rounding of the coordinates, 1e-9 m at
 /// 6.4e6 m. This many merges stay far below world_tolerance.
@@ -141,7 +141,7 @@ double Move::look_along(const Vec3& motion) {
   }
   const bool in_the_open = same_body && ball.gap >= reach;
   const double look = std::min({in_the_open ? reach + ways_ahead * length : reach, known.nearest, Space::reach_limit});
-  const double gap = Nearby::gap(space, vicinity, {body(), place, motion}, look);
+  const double gap = Nearby::gap_bound(space, vicinity, {body(), place, motion}, look);
   if (gap > free_gap) {
     ball = {place + motion, gap, length, settings.radius, height};
     // The near object may be near only at the far end of the way.

@@ -35,7 +35,7 @@ constexpr double turn_rounding = 0x1p-48;
 /// The gap over a way, metres, at most `reach`; nothing if the way may not be free or is too long for a query.
 std::optional<double> gap_over(const Space& space, const Query& way, double reach) {
   if (way.body.radius > Space::reach_limit || largest(way.motion) > Space::motion_limit) return std::nullopt;
-  const double gap = space.gap(way, reach);
+  const double gap = space.gap_bound(way, reach);
   if (gap >= 0.0) return gap;
   // In touch, a clearance is more exact than a gap.
   if (space.clearance(way, 0.0).distance >= -world_tolerance) return -world_tolerance;
@@ -149,7 +149,7 @@ void Walker::State::take(const walking::InstanceMotion& shift, const walking::Re
   gait_.ground = shift.turned(gait_.ground);
   gait_.floor.normal = shift.turned(gait_.floor.normal);
   gait_.floor.point = shift.carried(gait_.floor.point);
-  gait_.foot.lasts = gait_.disc.found = false;
+  gait_.disc_result.lasts = gait_.disc.found = false;
 }
 
 void Walker::State::append(const walking::InstanceMotion& shift, const walking::Response& to) {

@@ -77,7 +77,7 @@ void adapt(Move& m, const Gait& gait, const Sizes& sizes) {
   const Size want = wanted(sizes, m.place, m.place - Vec3(0.0, 0.0, 0.5 * m.height));
   // The support disc touches nothing. But over a crack it does not shrink.
   const double foot = m.settings.support_radius;
-  if (want.support_radius > foot || (want.support_radius < foot && gait.footing != Footing::foot)) {
+  if (want.support_radius > foot || (want.support_radius < foot && gait.footing != Footing::disc)) {
     sizes.present.support_radius = want.support_radius;
   }
   if (want.radius < m.settings.radius) narrow(m, sizes, want.radius);

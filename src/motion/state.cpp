@@ -79,7 +79,7 @@ void Walker::State::finish() {
   report_.height = at_.height;
   report_.radius = settings_.radius;
   report_.grounded = gait_.grounded();
-  report_.bridging = gait_.footing == Footing::foot;
+  report_.bridging = gait_.footing == Footing::disc;
   report_.ground_velocity = gait_.ground_velocity;
   if (mode_ == Mode::ghost) {
     at_.known.forget_place();

@@ -42,7 +42,7 @@ double fine_stride_seconds(const Move& move, const Vec3& velocity) { return stri
 bool stride(Move& move, Gait& gait, const Vec3& velocity, double seconds) {
   const double start = move.time, wish = glm::length(velocity);
   const Vec3 origin = move.place;
-  const bool was_carried = gait.footing == Footing::foot;
+  const bool was_carried = gait.footing == Footing::disc;
   PlaneSet walls, grounds;
   grounds.add(gait.ground);
   Vec3 v = velocity;

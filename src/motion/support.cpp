@@ -67,22 +67,22 @@ bool has_floor(const Space& space, double slope_degrees, double band, const Floo
 bool carries(const Move& m, Gait& gait, const FloorPlane& plane, const Vec3& place) {
   const Size size{m.settings.radius, m.settings.support_radius};
   const std::optional<std::uint64_t> revision = m.space.facts().revision;
-  FootAnswer asked{place, m.height, size, plane, revision.value_or(0)};
-  if (!gait.foot.lasts || !gait.foot.same_question(asked)) {
-    asked.carrying = carrying(m.space, m.settings, m.skin, m.height, plane, place, gait.disc);
-    asked.lasts = revision.has_value();
-    gait.foot = asked;
+  DiscResult result{place, m.height, size, plane, revision.value_or(0)};
+  if (!gait.disc_result.lasts || !gait.disc_result.same_input(result)) {
+    result.carrying = carrying(m.space, m.settings, m.skin, m.height, plane, place, gait.disc);
+    result.lasts = revision.has_value();
+    gait.disc_result = result;
   }
-  return gait.foot.carrying != Carrying::no;
+  return gait.disc_result.carrying != Carrying::no;
 }
 
 /// Stands on the plane that carries. The plane is remembered if it is that of a floor.
 void stand_on_foot(Move& m, Gait& gait, const FloorPlane& plane, bool is_floor) {
-  if (gait.footing != Footing::foot) m.note(EventKind::bridged);
-  stand_on(
-      m, gait,
-      {plane.normal, plane.level(m.place), true, false, gait.foot.carrying == Carrying::unknown, gait.floor_object});
-  gait.footing = Footing::foot;
+  if (gait.footing != Footing::disc) m.note(EventKind::bridged);
+  stand_on(m, gait,
+           {plane.normal, plane.level(m.place), true, false, gait.disc_result.carrying == Carrying::unknown,
+            gait.floor_object});
+  gait.footing = Footing::disc;
   gait.floor_seen = is_floor;
   gait.floor = plane;
 }

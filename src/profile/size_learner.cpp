@@ -97,7 +97,7 @@ std::optional<Walker> carried_at(const Walker& walker, double foot, const Vec3& 
   }
   const Vec3& end = trial.position();
   const bool there = std::hypot(to.x - end.x, to.y - end.y) < arrived;
-  if (!there || trial.stance().footing != Footing::foot || trial.stance().unknown) return std::nullopt;
+  if (!there || trial.stance().footing != Footing::disc || trial.stance().unknown) return std::nullopt;
   return trial;
 }
 

@@ -23,7 +23,7 @@ void demand_no_link(const std::filesystem::path& store) {
                   store.string()));
 }
 
-std::vector<std::string> told_notes(const StoreBuildReport& report, const std::filesystem::path& store) {
+std::vector<std::string> notes_as_sentences(const StoreBuildReport& report, const std::filesystem::path& store) {
   std::vector<std::string> told = report.notes;
   if (report.parts_read == report.parts) return told;
   for (std::string& note : told) note = fmt::format("of the build of {}: \"{}\"", store.string(), note);

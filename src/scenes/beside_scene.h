@@ -19,6 +19,7 @@ void demand_no_link(const std::filesystem::path& store);
 
 /// The notes of a build, as sentences of the program. Notes of parts read now are the program's own. Notes of parts
 /// read before are stored in the store, which may come from a stranger: they are quoted.
-[[nodiscard]] std::vector<std::string> told_notes(const StoreBuildReport& report, const std::filesystem::path& store);
+[[nodiscard]] std::vector<std::string> notes_as_sentences(const StoreBuildReport& report,
+                                                          const std::filesystem::path& store);
 
 }  // namespace roam::app

@@ -82,7 +82,7 @@ class Confirmation {
     for (std::size_t i = 0; i < tries.size(); ++i)
       tries[i].nodes = layout_.tree.way(layout_.paths[i].ends.from, layout_.paths[i].ends.to);
     for (int round = 0; walk_all(tries) && !stages_.ended(); ++round) {
-      if (ask_for_more(tries)) {
+      if (try_other_bodies(tries)) {
         --round;
         continue;
       }
@@ -114,22 +114,22 @@ class Confirmation {
     return std::any_of(tries.begin(), tries.end(), [](const Tries& t) { return t.stop.has_value(); });
   }
 
-  /// For each crack that stopped a walker, raises its Evidence::carried, or demands a foot, a limited number of times.
-  /// If nothing helps, restores the old value. Returns whether there is another body to send.
-  bool ask_for_more(std::vector<Tries>& tries) {
+  /// For each crack that stopped a walker, raises its Evidence::carried_radius, or demands a foot, a limited number of
+  /// times. If nothing helps, restores the old value. Returns whether there is another body to send.
+  bool try_other_bodies(std::vector<Tries>& tries) {
     std::set<std::size_t> cracks;
     for (const Tries& t : tries)
       if (t.stop && t.stop->crack) cracks.insert(*t.stop->crack);
     for (const std::size_t crack : cracks) {
-      double& carried = evidence_.carried[crack];
-      const auto [asked, is_new] = asked_.try_emplace(crack, Asked{carried, 0});
-      ++asked->second.times;
-      if (asked->second.times <= most_larger) {
+      double& carried = evidence_.carried_radius[crack];
+      const auto [attempts, is_new] = attempts_.try_emplace(crack, Attempts{carried, 0});
+      ++attempts->second.times;
+      if (attempts->second.times <= most_larger) {
         carried *= larger;
-      } else if (asked->second.times == most_larger + 1) {
+      } else if (attempts->second.times == most_larger + 1) {
         carried = std::numeric_limits<double>::infinity();
       } else {
-        carried = asked->second.before;
+        carried = attempts->second.before;
       }
     }
     for (Tries& t : tries) {
@@ -144,7 +144,7 @@ class Confirmation {
   [[nodiscard]] std::optional<std::size_t> crack_at(const std::vector<Vec3>& way, double from, double to,
                                                     const BodySize& body) const {
     for (const Crossing& crossing : crossings_.on(way)) {
-      if (!is_asked(crossing.crack, body)) continue;
+      if (!may_change(crossing.crack, body)) continue;
       const double radius = evidence_.cracks[crossing.crack].radius;
       const auto gap = gap_on(survey_, way, crossing.at, radius, layout_.measure.step);
       if (gap && to >= gap->from - body.radius - beside_gap && from <= gap->to + body.radius + beside_gap)
@@ -153,20 +153,20 @@ class Confirmation {
     return std::nullopt;
   }
 
-  /// Whether Evidence::carried of the crack that stopped such a body may still change.
-  [[nodiscard]] bool is_asked(std::size_t crack, const BodySize& body) const {
+  /// Whether Evidence::carried_radius of the crack that stopped such a body may still change.
+  [[nodiscard]] bool may_change(std::size_t crack, const BodySize& body) const {
     const cracks::FoundCrack& found = evidence_.cracks[crack];
-    const auto asked = asked_.find(crack);
-    const bool given_up = asked != asked_.end() && asked->second.times > most_larger + 1;
+    const auto attempts = attempts_.find(crack);
+    const bool given_up = attempts != attempts_.end() && attempts->second.times > most_larger + 1;
     return found.kind == Crack::Kind::crack && found.shallow_depth == 0.0 && !given_up &&
-           (body.support_radius < found.radius || asked != asked_.end()) &&
-           (asked != asked_.end() || body.radius < unhindered * evidence_.carried[crack]);
+           (body.support_radius < found.radius || attempts != attempts_.end()) &&
+           (attempts != attempts_.end() || body.radius < unhindered * evidence_.carried_radius[crack]);
   }
 
   /// The place where a body is stopped on its way back, up over a gap that it came down over.
   [[nodiscard]] std::optional<Stop> stop_back(const std::vector<Vec3>& way, const BodySize& body) const {
     for (const Crossing& crossing : crossings_.on(way)) {
-      if (!is_asked(crossing.crack, body)) continue;
+      if (!may_change(crossing.crack, body)) continue;
       const double radius = evidence_.cracks[crossing.crack].radius;
       const auto gap = gap_on(survey_, way, crossing.at, radius, layout_.measure.step);
       if (!gap) continue;
@@ -309,11 +309,11 @@ class Confirmation {
   Stages& stages_;
   const Crossings crossings_;
   /// The attempts at one crack.
-  struct Asked {
-    double before = 0.0;  ///< Evidence::carried, before
+  struct Attempts {
+    double before = 0.0;  ///< Evidence::carried_radius, before
     int times = 0;
   };
-  std::map<std::size_t, Asked> asked_;
+  std::map<std::size_t, Attempts> attempts_;
 };
 
 }  // namespace

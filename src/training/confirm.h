@@ -11,9 +11,9 @@
 namespace roam::training {
 
 /// On foot, for the interval. Sends the body that body_of_paths() gives along each path, and back over gaps whose far
-/// rim is lower. If it is stopped or falls at a crack, a larger body or one on a foot is tried first; Evidence::carried
-/// keeps the radius needed. If that fails, the lattice is closed at that place and the way is planned again. If no way
-/// is left, the path moves to Layout::unwalked, and other paths are drawn instead, once.
+/// rim is lower. If it is stopped or falls at a crack, a larger body or one on a foot is tried first;
+/// Evidence::carried_radius keeps the radius needed. If that fails, the lattice is closed at that place and the way is
+/// planned again. If no way is left, the path moves to Layout::unwalked, and other paths are drawn instead, once.
 void confirm_paths(const Survey& survey, const TrainOptions& options, const ways::BodyKind& kind, Evidence& evidence,
                    Layout& layout, Stages& stages);
 

@@ -16,7 +16,7 @@ constexpr double before_rim = 0.3;
 
 }  // namespace
 
-std::optional<Ends> must_be_crossed(const Survey& survey, const Layout& layout, const Reached& reached,
+std::optional<Ends> must_be_crossed(const Survey& survey, const Layout& layout, const ReachedFloor& reached,
                                     const Crack& crack) {
   const Vec3 aside = (crack.radius + before_rim) * crack.direction;
   const Ends ends{reached.near(crack.point - aside), reached.near(crack.point + aside)};

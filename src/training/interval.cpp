@@ -61,7 +61,7 @@ std::vector<cracks::FoundCrack> cracks_of(const Survey& survey, const TrainOptio
       std::min(most_searched, static_cast<std::size_t>(std::distance(layout.components.begin(), small)));
   for (std::size_t i = 0; i < count && !stages.ended(); ++i) {
     const Component& component = layout.components[i];
-    const Reached reached(survey, layout, options.spacing, {&component, 1});
+    const ReachedFloor reached(survey, layout, options.spacing, {&component, 1});
     std::vector<cracks::FoundCrack> found = find_cracks(
         survey, edges, [&](const Vec3& foot) { return reached(foot); },
         [&](double done) { return stages.at((static_cast<double>(i) + done) / static_cast<double>(count)); });
@@ -80,8 +80,8 @@ std::vector<cracks::FoundCrack> cracks_of(const Survey& survey, const TrainOptio
 void note_width(const cracks::FoundCrack& crack, const TrainOptions& options, double narrowest, Evidence& evidence) {
   // Beside a wall a foot's disc finds room where no body fits. Elsewhere the largest foot bridges everything but open
   // drops.
-  const bool is_beside_wall = crack.foot > crack.radius + foot_precision;
-  const double foot = is_beside_wall ? crack.foot + foot_precision + narrowest + foot_margin
+  const bool is_beside_wall = crack.foot_radius > crack.radius + foot_precision;
+  const double foot = is_beside_wall ? crack.foot_radius + foot_precision + narrowest + foot_margin
                                      : std::min(crack.radius + foot_margin, options.support_max);
   evidence.least_foot = std::max(evidence.least_foot, foot);
 }
@@ -111,7 +111,7 @@ class Paths {
     if (passage.limited) path.largest = passage.radius;
     if (path.largest && (!training_.largest || *path.largest < *training_.largest)) {
       training_.largest = path.largest;
-      evidence_.narrowest = i;
+      evidence_.limiting_path = i;
     }
     training_.paths.push_back(std::move(path));
   }
@@ -126,21 +126,21 @@ class Paths {
       path.smallest = std::max(path.smallest, crack.radius);
       if (crack.radius > training_.smallest) {
         training_.smallest = crack.radius;
-        evidence_.widest = crossing.crack;
+        evidence_.limiting_crack = crossing.crack;
       }
       note_hardest(crossing.crack);
     }
   }
 
   void note_hardest(std::size_t crack) {
-    const double carried = evidence_.carried[crack];
+    const double carried = evidence_.carried_radius[crack];
     if (carried <= carried_share * evidence_.cracks[crack].radius) return;
-    if (!evidence_.hardest || carried > evidence_.carried[*evidence_.hardest]) evidence_.hardest = crack;
+    if (!evidence_.hardest || carried > evidence_.carried_radius[*evidence_.hardest]) evidence_.hardest = crack;
   }
 
   /// The cracks are sorted by width: the first one that must be crossed decides.
   void add_crossings(const Crossings& crossings) {
-    const Reached reached(survey_, layout_, options_.spacing, layout_.components);
+    const ReachedFloor reached(survey_, layout_, options_.spacing, layout_.components);
     for (const cracks::FoundCrack& crack : evidence_.cracks) {
       if (crack.kind != Crack::Kind::crack || crack.on_a_path) continue;
       if (crack.radius <= training_.smallest) return;
@@ -180,8 +180,8 @@ void choose(const ways::BodyKind& kind, const TrainOptions& options, const Evide
   training.radius = std::min(person, upper);
   if (training.feasible && training.radius < lower) training.radius = lower <= upper ? lower : 0.5 * (least + most);
   training.support_radius = 0.0;
-  const auto widest = std::max_element(evidence.carried.begin(), evidence.carried.end());
-  if (widest != evidence.carried.end() && training.radius < *widest)
+  const auto widest = std::max_element(evidence.carried_radius.begin(), evidence.carried_radius.end());
+  if (widest != evidence.carried_radius.end() && training.radius < *widest)
     training.support_radius = std::min(options.support_max, evidence.least_foot);
   // Only a larger body rolls up over uneven rims. Here the foot must still exceed the body, or it would be no foot.
   if (training.support_radius > 0.0 && training.support_radius <= training.radius)
@@ -190,13 +190,13 @@ void choose(const ways::BodyKind& kind, const TrainOptions& options, const Evide
 }
 
 void describe_decisive(const Layout& layout, const Evidence& evidence, Training& training) {
-  if (evidence.narrowest) {
-    const Passage& passage = layout.paths[*evidence.narrowest].passage;
+  if (evidence.limiting_path) {
+    const Passage& passage = layout.paths[*evidence.limiting_path].passage;
     const Opening opening = passage.opening.value_or(Opening{.width = 2.0 * passage.radius});
     training.decisive.push_back({Decisive::Kind::opening, opening.point, opening.width, opening.direction});
   }
-  if (evidence.widest) {
-    const Crack& crack = evidence.cracks[*evidence.widest];
+  if (evidence.limiting_crack) {
+    const Crack& crack = evidence.cracks[*evidence.limiting_crack];
     training.decisive.push_back({Decisive::Kind::split, crack.point, 2.0 * crack.radius, crack.direction});
   }
 }
@@ -220,7 +220,7 @@ Evidence find_cracks(const Survey& survey, const TrainOptions& options, const La
   stages.begin(TrainStage::cracks);
   evidence.cracks = cracks_of(survey, options, layout, ahead, stages);
   evidence.complete = !stages.ended();
-  evidence.carried.assign(evidence.cracks.size(), 0.0);
+  evidence.carried_radius.assign(evidence.cracks.size(), 0.0);
   for (std::size_t i = 0; i < evidence.cracks.size(); ++i) {
     const cracks::FoundCrack& crack = evidence.cracks[i];
     if (crack.kind != Crack::Kind::crack) continue;
@@ -228,7 +228,8 @@ Evidence find_cracks(const Survey& survey, const TrainOptions& options, const La
       note_width(crack, options, layout.measure.narrowest, evidence);
       const double rise = rise_of(survey, crack, layout.measure.step);
       // No foot carries a body above its band; a body climbs higher rims by its step.
-      evidence.carried[i] = carried_from(crack.radius, rise > carrying_band ? 0.0 : rise, survey.slope_degrees());
+      evidence.carried_radius[i] =
+          carried_from(crack.radius, rise > carrying_band ? 0.0 : rise, survey.slope_degrees());
     } else if (!evidence.shallow || crack.radius > evidence.cracks[*evidence.shallow].radius) {
       evidence.shallow = i;
     }
@@ -249,7 +250,7 @@ BodySize body_of_paths(const ways::BodyKind& kind, const TrainOptions& options, 
       const cracks::FoundCrack& crack = evidence.cracks[crossing.crack];
       if (crack.kind != Crack::Kind::crack) continue;
       first.smallest = std::max(first.smallest, crack.radius);
-      carried = std::max(carried, evidence.carried[crossing.crack]);
+      carried = std::max(carried, evidence.carried_radius[crossing.crack]);
     }
   }
   choose(kind, options, evidence, std::max(carried, carried_share * first.smallest), first);
@@ -272,7 +273,7 @@ double trapped_below(double crack_radius, double step) {
 
 double carried_on_paths(const Evidence& evidence, const Training& training) {
   const double level = carried_share * training.smallest;
-  return evidence.hardest ? std::max(level, evidence.carried[*evidence.hardest]) : level;
+  return evidence.hardest ? std::max(level, evidence.carried_radius[*evidence.hardest]) : level;
 }
 
 double least_on_paths(const Evidence& evidence, const Training& training) {

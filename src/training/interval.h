@@ -37,10 +37,10 @@ struct Evidence {
   std::vector<cracks::FoundCrack> cracks;  ///< along the reached floor
   /// m, for each crack with Kind::crack that is no trench: the least radius that its rims carry in both directions. The
   /// walkers that confirm the paths may raise it.
-  std::vector<double> carried;
-  std::vector<PathCrossing> crossings;   ///< of gaps with Kind::crack
-  std::optional<std::size_t> narrowest;  ///< the path that decides the upper end
-  std::optional<std::size_t> widest;     ///< the crack that decides the lower end
+  std::vector<double> carried_radius;
+  std::vector<PathCrossing> crossings;        ///< of gaps with Kind::crack
+  std::optional<std::size_t> limiting_path;   ///< the path that decides the upper end
+  std::optional<std::size_t> limiting_crack;  ///< the crack that decides the lower end
   std::optional<std::size_t> hardest;  ///< the crack on a path that needs the largest body, because its rims are uneven
   std::optional<std::size_t> shallow;  ///< the widest crack that no foot bridges, because it is shallow
   double least_foot = 0.0;             ///< m, the least foot that bridges all cracks; 0: there are none

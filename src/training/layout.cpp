@@ -30,18 +30,18 @@ constexpr std::size_t least_part = 100;
 constexpr double least_room = 2.0;
 constexpr std::size_t beside_room = 10;
 
-/// How many paths each component gets; 0: as many as it needs. If `asked` is 0, each component gets one per dead end,
+/// How many paths each component gets; 0: as many as it needs. If `wanted` is 0, each component gets one per dead end,
 /// at least one. Otherwise each gets one as far as they go, and the largest one gets the rest.
-std::vector<std::optional<int>> shares(const Layout& layout, int asked) {
+std::vector<std::optional<int>> shares(const Layout& layout, int wanted) {
   std::vector<std::optional<int>> counts(layout.components.size());
   for (std::size_t i = 0; i < counts.size(); ++i) {
-    if (asked == 0) {
+    if (wanted == 0) {
       counts[i] = i == 0 ? 0 : std::max(1, static_cast<int>(layout.rooms[i].dead_ends()));
-    } else if (static_cast<int>(i) < asked) {
+    } else if (static_cast<int>(i) < wanted) {
       counts[i] = 1;
     }
   }
-  if (asked > 0 && !counts.empty()) *counts[0] += std::max(0, asked - static_cast<int>(counts.size()));
+  if (wanted > 0 && !counts.empty()) *counts[0] += std::max(0, wanted - static_cast<int>(counts.size()));
   return counts;
 }
 
@@ -213,7 +213,8 @@ Layout lay_out(const Survey& survey, const TrainOptions& options, Stages& stages
   return layout;
 }
 
-Reached::Reached(const Survey& survey, const Layout& layout, double spacing, std::span<const Component> components)
+ReachedFloor::ReachedFloor(const Survey& survey, const Layout& layout, double spacing,
+                           std::span<const Component> components)
     : survey_(&survey),
       tree_(&layout.tree),
       side_(std::max(2.0 * spacing, 0.5 * layout.measure.widest)),
@@ -231,13 +232,13 @@ Reached::Reached(const Survey& survey, const Layout& layout, double spacing, std
             [](const Cell& a, const Cell& b) { return std::tie(a.x, a.y, a.node) < std::tie(b.x, b.y, b.node); });
 }
 
-std::int64_t Reached::cell(double at) const { return static_cast<std::int64_t>(std::floor(at / side_)); }
+std::int64_t ReachedFloor::cell(double at) const { return static_cast<std::int64_t>(std::floor(at / side_)); }
 
-bool Reached::sees(const Vec3& place, const Vec3& foot) const {
+bool ReachedFloor::sees(const Vec3& place, const Vec3& foot) const {
   return cracks::sees_at_knee(survey_->world(), place, foot, knee_, narrowest_);
 }
 
-ways::NodeId Reached::nearest(const Vec3& foot, bool in_sight) const {
+ways::NodeId ReachedFloor::nearest(const Vec3& foot, bool in_sight) const {
   // Nodes farther than half of `widest` are not needed: nearer ones exist, unless the way there is closed.
   const std::int64_t x = cell(foot.x), y = cell(foot.y);
   ways::NodeId nearest = ways::no_node;

@@ -59,10 +59,10 @@ struct Layout {
 
 /// Whether bodies reach a place of the floor: it lies within the clearance of a place of `components` at its level, or
 /// hardly more than a spacing beside one.
-class Reached {
+class ReachedFloor {
  public:
   /// `survey` and `layout` must outlive it.
-  Reached(const Survey& survey, const Layout& layout, double spacing, std::span<const Component> components);
+  ReachedFloor(const Survey& survey, const Layout& layout, double spacing, std::span<const Component> components);
   [[nodiscard]] bool operator()(const Vec3& foot) const { return near(foot) != ways::no_node; }
   /// The nearest place that reaches `foot`; no_node if none does.
   [[nodiscard]] ways::NodeId near(const Vec3& foot) const { return nearest(foot, false); }

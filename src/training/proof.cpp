@@ -39,34 +39,34 @@ constexpr double long_enough = 1.7 * foot_margin;
 /// m: sides of a crack that differ by less are level.
 constexpr double same_level = 0.02;
 
-using Tried = Contradiction::Body;
+using TriedBody = Contradiction::Body;
 
 /// A trial to make.
 struct Attempt {
   std::size_t path = 0;
   double radius = 0.0, support_radius = 0.0;
   std::vector<Vec3> way;
-  Tried body = Tried::chosen;
+  TriedBody body = TriedBody::chosen;
 };
 
 /// The result that a trial must have.
-Judgement expected_of(Tried body) {
+Judgement expected_of(TriedBody body) {
   switch (body) {
-    case Tried::outside_opening:
+    case TriedBody::outside_opening:
       return Judgement::cannot_enter;
-    case Tried::small_foot:
+    case TriedBody::small_foot:
       return Judgement::flies_off;
-    case Tried::chosen:
-    case Tried::chosen_back:
-    case Tried::inside_opening:
-    case Tried::wide_foot:
+    case TriedBody::chosen:
+    case TriedBody::chosen_back:
+    case TriedBody::inside_opening:
+    case TriedBody::wide_foot:
       break;
   }
   return Judgement::passed;
 }
 
 /// Whether it is the chosen body.
-bool is_chosen(Tried body) { return body == Tried::chosen || body == Tried::chosen_back; }
+bool is_chosen(TriedBody body) { return body == TriedBody::chosen || body == TriedBody::chosen_back; }
 
 class Proof {
  public:
@@ -87,7 +87,7 @@ class Proof {
       const TrainedPath& path = training_.paths[i];
       if (path.largest && *path.largest < training_.radius) continue;  // excluded when the body was chosen
       if (sinks_into_shallow(i)) continue;                             // reported as a trench
-      all.push_back({i, training_.radius, training_.support_radius, path.way, Tried::chosen});
+      all.push_back({i, training_.radius, training_.support_radius, path.way, TriedBody::chosen});
       add_way_back(i, all);
     }
     for (std::size_t i = 0; i < training_.paths.size(); ++i) add_opening(i, all);
@@ -109,7 +109,7 @@ class Proof {
       if (!gap) continue;
       std::vector<Vec3> back = back_over(survey_, way, *gap, training_.radius, layout_.measure.step);
       if (back.empty()) continue;
-      all.push_back({path, training_.radius, training_.support_radius, std::move(back), Tried::chosen_back});
+      all.push_back({path, training_.radius, training_.support_radius, std::move(back), TriedBody::chosen_back});
     }
   }
 
@@ -118,7 +118,8 @@ class Proof {
     if (!training_.paths[path].largest || !passage.opening) return;
     const double largest = *training_.paths[path].largest, outside = outside_share * largest;
     const double place = ways::nearest_on(passage.way, passage.opening->point, kind_.mode).along;
-    all.push_back({path, inside_share * largest, foot_, stretch(passage.way, place, run_up), Tried::inside_opening});
+    all.push_back(
+        {path, inside_share * largest, foot_, stretch(passage.way, place, run_up), TriedBody::inside_opening});
     // A way planned around something has a wider one beside it, which a larger body may find.
     if (!layout_.paths[path].is_widest) return;
     if (drops_off(stretch(passage.way, place, outside + layout_.measure.step))) return;
@@ -128,7 +129,7 @@ class Proof {
       through = stretch(passage.way, place, reach);
     // If the path begins or ends in a narrow place, or within a radius of one, the opening need not stop the body.
     if (!has_room() || place < outside + past_opening || passage.length - place < outside + past_opening) return;
-    all.push_back({path, outside, foot_, std::move(through), Tried::outside_opening});
+    all.push_back({path, outside, foot_, std::move(through), TriedBody::outside_opening});
   }
 
   /// Whether a way leads over an edge higher than a step. A body of any width drops down there, and none comes up.
@@ -176,8 +177,8 @@ class Proof {
     // width may fail at its higher rim.
     const double climbed = kind_.height > 0.0 ? carrying_band : std::min(body, carrying_band);
     if (rise_of(survey_, crack, layout_.measure.step) <= climbed)
-      all.push_back({crossing.path, body, foot, way, Tried::wide_foot});
-    all.push_back({crossing.path, body, small > body ? small : 0.0, std::move(way), Tried::small_foot});
+      all.push_back({crossing.path, body, foot, way, TriedBody::wide_foot});
+    all.push_back({crossing.path, body, small > body ? small : 0.0, std::move(way), TriedBody::small_foot});
   }
 
   /// Whether a body that begins at the end of a way stands on a crack's rim there, not on floor.
@@ -256,7 +257,7 @@ class Proof {
 
 /// The trial of the same body on the same path, made while confirming it.
 std::optional<Trial> walked_before(const Layout& layout, const Attempt& attempt) {
-  if (attempt.body != Tried::chosen) return std::nullopt;
+  if (attempt.body != TriedBody::chosen) return std::nullopt;
   const std::optional<Trial>& walked = layout.paths[attempt.path].walked;
   const bool same = walked && walked->radius == attempt.radius && walked->support_radius == attempt.support_radius;
   return same ? walked : std::nullopt;

@@ -30,8 +30,8 @@ class Progress {
   void tick(double fraction) {
     if (!report_) return;
     const std::lock_guard lock(mutex_);
-    told_ = std::max(told_, fraction);  // threads come in any order
-    if (cancelled_ || !report_(told_)) {
+    reported_ = std::max(reported_, fraction);  // threads come in any order
+    if (cancelled_ || !report_(reported_)) {
       cancelled_ = true;
       throw Cancelled();
     }
@@ -40,7 +40,7 @@ class Progress {
  private:
   const std::function<bool(double)>& report_;
   std::mutex mutex_;
-  double told_ = 0.0;
+  double reported_ = 0.0;
   bool cancelled_ = false;
 };
 

@@ -17,7 +17,7 @@ bool nearer(const Contact& a, const Contact& b) {
 }  // namespace
 
 Collector::Collector(Kind kind, double reach, std::span<Contact> out)
-    : out_(out), asked_(reach), reach_(reach), enough_(reach), kind_(kind) {
+    : out_(out), initial_reach_(reach), reach_(reach), enough_(reach), kind_(kind) {
   if (kind == Kind::clearance) {
     tolerance_ = query::clearance_tolerance;
     part_ = query::least_part;
@@ -73,8 +73,8 @@ void Collector::keep(const Contact& c, double doubt) {
   if (count_ == out_.size()) reach_ = std::min(reach_, out_[0].distance);
   enough_ = std::min(enough_, reach_);
   if (tolerance_ > 0.0 && count_ > 0 && c.distance > 0.0) {
-    const double told = bounds_only_ ? c.distance + doubt : c.distance;
-    enough_ = std::min(enough_, std::max(c.distance + doubt - tolerance_, told * (1.0 - part_)));
+    const double reported = bounds_only_ ? c.distance + doubt : c.distance;
+    enough_ = std::min(enough_, std::max(c.distance + doubt - tolerance_, reported * (1.0 - part_)));
   }
 }
 

@@ -47,16 +47,16 @@ SpaceFacts Filtered::facts() const {
   return facts;
 }
 
-FirstImpact Filtered::ask_first(const Query& query, Vicinity* vicinity) const {
-  if (ignored_.empty()) return ask_first_of(*space_, query, vicinity);
+FirstImpact Filtered::find_first(const Query& query, Vicinity* vicinity) const {
+  if (ignored_.empty()) return find_first_of(*space_, query, vicinity);
   const ObjectFilter filter = this->filter(query);
-  return ask_first_of(*space_, {query.body, query.from, query.motion, &filter}, vicinity);
+  return find_first_of(*space_, {query.body, query.from, query.motion, &filter}, vicinity);
 }
 
-void Filtered::ask_near(const Query& query, Collector& collector, Vicinity* vicinity) const {
-  if (ignored_.empty()) return ask_near_of(*space_, query, collector, vicinity);
+void Filtered::find_near(const Query& query, Collector& collector, Vicinity* vicinity) const {
+  if (ignored_.empty()) return find_near_of(*space_, query, collector, vicinity);
   const ObjectFilter filter = this->filter(query);
-  ask_near_of(*space_, {query.body, query.from, query.motion, &filter}, collector, vicinity);
+  find_near_of(*space_, {query.body, query.from, query.motion, &filter}, collector, vicinity);
 }
 
 }  // namespace roam

@@ -120,11 +120,11 @@ struct Instances::State {
     query::Frame frame;
     Query query;
 
-    Seen(const query::Frame& of, const Query& asked) : frame(of) {
-      frame.pad = turn_rounding * (largest(asked.from - of.position) + largest(asked.motion));
-      query.body = {asked.body.radius + frame.pad, asked.body.half_height};
-      query.from = of.to_instance(asked.from);
-      query.motion = of.to_instance_way(asked.motion);
+    Seen(const query::Frame& of, const Query& original) : frame(of) {
+      frame.pad = turn_rounding * (largest(original.from - of.position) + largest(original.motion));
+      query.body = {original.body.radius + frame.pad, original.body.half_height};
+      query.from = of.to_instance(original.from);
+      query.motion = of.to_instance_way(original.motion);
     }
     [[nodiscard]] query::Part part(const WorldData& data, double reach) const {
       return query::part_of(query, query::reached(query, reach).meets(data.reach));
@@ -146,7 +146,7 @@ struct Instances::State {
     if (collector.only() != nullptr) {
       query::collect_one(it.data->index, seen.query, collector);
     } else {
-      query::collect(*it.data, seen.query, seen.part(*it.data, collector.asked()), 0, collector);
+      query::collect(*it.data, seen.query, seen.part(*it.data, collector.initial_reach()), 0, collector);
     }
     collector.enter(nullptr);
     if (floor != nullptr) collector.take_floor_only(*floor);
@@ -248,9 +248,9 @@ TriangleId Instances::source_triangle(TriangleId triangle) {
   return !query::is_of_instance(triangle) ? triangle : triangle & query::source_bits;
 }
 
-FirstImpact Instances::ask_first(const Query& query, Vicinity* vicinity) const {
+FirstImpact Instances::find_first(const Query& query, Vicinity* vicinity) const {
   const State& s = *state_;
-  FirstImpact first = ask_first_of(s.space, for_base(query), vicinity);
+  FirstImpact first = find_first_of(s.space, for_base(query), vicinity);
   double until = first.time;
   s.tree.along(query::reached(query, query::hit_reach), until, [&](std::uint32_t i, const Interval&) {
     if (s.is_ignored(i, query)) return;
@@ -268,13 +268,13 @@ FirstImpact Instances::ask_first(const Query& query, Vicinity* vicinity) const {
   return first;
 }
 
-void Instances::ask_near(const Query& query, Collector& collector, Vicinity* vicinity) const {
+void Instances::find_near(const Query& query, Collector& collector, Vicinity* vicinity) const {
   const State& s = *state_;
   if (const FirstImpact* const only = collector.only(); only && query::is_of_instance(only->triangle)) {
     return s.offer(s.index(only->object), query, collector);
   }
   if (s.lossless && collector.only() == nullptr) collector.demand(query::lossless_tolerance);
-  ask_near_of(s.space, for_base(query), collector, vicinity);
+  find_near_of(s.space, for_base(query), collector, vicinity);
   if (collector.only() != nullptr) return;
   Sweep look = query::reached(query, collector.reach());
   s.tree.near(look, [&](std::uint32_t i, const Interval&) {

@@ -36,8 +36,8 @@ class Vicinity {
   std::unique_ptr<State> state_;
 };
 
-/// Space::sweep() and gap() for a body that queries again from near its last query. The guarantees are the same, and a
-/// World or a Pager has less to search. Results depend on where a search begins, so they may differ within the
+/// Space::sweep() and gap_bound() for a body that queries again from near its last query. The guarantees are the same,
+/// and a World or a Pager has less to search. Results depend on where a search begins, so they may differ within the
 /// tolerances. A hit may differ by 0.025 mm, the distance at which a body may arrive before it touches; by more along a
 /// grazing motion. A gap may differ by the part by which it may be too small. The same queries in the same order give
 /// the same bits, if they begin with an equal vicinity and the revision stays the same.
@@ -46,7 +46,7 @@ class Vicinity {
 /// through nothing.
 struct Nearby {
   [[nodiscard]] static Impact sweep(const Space& space, Vicinity& vicinity, const Query& query);
-  [[nodiscard]] static double gap(const Space& space, Vicinity& vicinity, const Query& query, double reach);
+  [[nodiscard]] static double gap_bound(const Space& space, Vicinity& vicinity, const Query& query, double reach);
 };
 
 }  // namespace roam

@@ -186,7 +186,7 @@ struct Patchwork::State {
   void collect(const Query& query, Collector& collector) const {
     // The part of the motion that is searched must not depend on earlier finds, or the last bits would depend on them
     // too.
-    const Sweep whole = query::reached(query, collector.asked(), margin);
+    const Sweep whole = query::reached(query, collector.initial_reach(), margin);
     Sweep look = whole;
     tree.near(look, [&](std::uint32_t index, const Interval&) {
       const Patch& patch = patches[index];
@@ -265,7 +265,7 @@ bool Patchwork::update(const Body& body, const Vec3& place) { return state_->upd
 
 bool Patchwork::update() { return state_->update(*this, nullptr, Vec3(0.0)); }
 
-FirstImpact Patchwork::ask_first(const Query& query, Vicinity* /*vicinity*/) const {
+FirstImpact Patchwork::find_first(const Query& query, Vicinity* /*vicinity*/) const {
   const State& s = *state_;
   FirstImpact first;
   double until = 1.0;
@@ -281,7 +281,7 @@ FirstImpact Patchwork::ask_first(const Query& query, Vicinity* /*vicinity*/) con
   return first;
 }
 
-void Patchwork::ask_near(const Query& query, Collector& collector, Vicinity* /*vicinity*/) const {
+void Patchwork::find_near(const Query& query, Collector& collector, Vicinity* /*vicinity*/) const {
   if (const FirstImpact* const only = collector.only()) {
     return query::collect_one(state_->world(only->triangle).index, query, collector);
   }

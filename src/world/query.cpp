@@ -73,7 +73,7 @@ class WorldScene {
   }
   [[nodiscard]] bool name(FirstImpact& first) const {
     first.triangle = number_at(index_, place_);
-    first.place = {place_.tile, place_.leaf, place_.triangle, 0};
+    first.locator = {place_.tile, place_.leaf, place_.triangle, 0};
     return true;
   }
   [[nodiscard]] Contact touched(const index::Piece& at_rest) const {
@@ -145,7 +145,7 @@ struct Visitor {
       const double most = double(near.most) - v.piece.body.radius + error;
       const bool tight = !tile.fine && near.most - near.least <= tight_bound;
       // A loose bound must not report a triangle beyond the requested reach.
-      if (tight || (most <= v.collector.asked() && least >= most * (1.0 - gap_part))) {
+      if (tight || (most <= v.collector.initial_reach() && least >= most * (1.0 - gap_part))) {
         Contact bound;
         bound.distance = least;
         v.collector.offer(bound, most - least);
@@ -207,7 +207,7 @@ void collect(const WorldData& world, const Query& query, const Part& part, Trian
 void collect_one(const index::Index& index, const Query& query, Collector& collector) {
   const FirstImpact& first = *collector.only();
   Contact c =
-      contact_at(index, {query.body, query.from, query.motion}, {first.place[0], first.place[1], first.place[2]});
+      contact_at(index, {query.body, query.from, query.motion}, {first.locator[0], first.locator[1], first.locator[2]});
   c.triangle = first.triangle;
   collector.take_only(c);
 }
@@ -247,22 +247,22 @@ namespace {
 /// The roots where a search in a world begins; null: at the root of the whole index.
 const index::Roots* roots_of(const WorldData& world, Vicinity* vicinity, const Query& query, double reach) {
   if (vicinity == nullptr) return nullptr;
-  const Question question{query.body, query.from, query.motion, reach, world.stats.largest_error_m, world.revision};
-  return roots_in(*vicinity, question, [&](const Box& box, index::Roots& out) {
+  const QueryRegion region{query.body, query.from, query.motion, reach, world.stats.largest_error_m, world.revision};
+  return roots_in(*vicinity, region, [&](const Box& box, index::Roots& out) {
     return world.reach.empty() || index::gather(world.index, 0, box, out);
   });
 }
 
 }  // namespace
 
-FirstImpact World::ask_first(const Query& query, Vicinity* vicinity) const {
+FirstImpact World::find_first(const Query& query, Vicinity* vicinity) const {
   return query::first_impact(*data_, query, {}, roots_of(*data_, vicinity, query, query::hit_reach));
 }
 
-void World::ask_near(const Query& query, Collector& collector, Vicinity* vicinity) const {
+void World::find_near(const Query& query, Collector& collector, Vicinity* vicinity) const {
   if (collector.only() != nullptr) return query::collect_one(data_->index, query, collector);
   if (data_->lossless) collector.demand(query::lossless_tolerance);
-  query::collect(*data_, query, {}, 0, collector, roots_of(*data_, vicinity, query, collector.asked()));
+  query::collect(*data_, query, {}, 0, collector, roots_of(*data_, vicinity, query, collector.initial_reach()));
   if (collector.bounds_only()) return;
   for (Contact& c : collector.kept()) c.object = data_->object(c.triangle);
 }

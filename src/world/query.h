@@ -30,7 +30,7 @@ inline constexpr double lossless_tolerance = 9e-6;
 
 /// Space::clearance may return a distance that is less by this part of it.
 inline constexpr double least_part = 1.0 / 16.0;
-/// The same for Space::gap, at any distance.
+/// The same for Space::gap_bound, at any distance.
 inline constexpr double gap_part = 1.0 / 8.0;
 
 /// The nearest contact of a body during its motion with a triangle in coordinates relative to the start.

@@ -37,7 +37,7 @@ void check_reach(double reach) { check_length(reach, Space::reach_limit, "the re
 /// The nearest contact, if any, as a clearance.
 Clearance as_clearance(const Collector& collector, double distance) {
   Clearance result;
-  result.distance = collector.asked();
+  result.distance = collector.initial_reach();
   if (collector.count() == 0) return result;
   const Contact& nearest = collector.kept()[0];
   static_cast<Proximity&>(result) = nearest;
@@ -53,11 +53,11 @@ Clearance as_clearance(const Collector& collector, double distance) {
 constexpr std::size_t at_a_time = 64;
 
 /// Computes all results of a batch; throws before the first if a query is refused.
-template <class Answer, class Ask>
-void answer_all(std::span<const Query> queries, std::span<Answer> answers, const Ask& ask) {
-  if (queries.size() != answers.size()) {
-    refuse("there are " + std::to_string(queries.size()) + " queries and room for " + std::to_string(answers.size()) +
-           " answers");
+template <class Result, class Compute>
+void compute_all(std::span<const Query> queries, std::span<Result> results, const Compute& compute) {
+  if (queries.size() != results.size()) {
+    refuse("there are " + std::to_string(queries.size()) + " queries and room for " + std::to_string(results.size()) +
+           " results");
   }
   for (std::size_t i = 0; i < queries.size(); ++i) {
     try {
@@ -67,12 +67,12 @@ void answer_all(std::span<const Query> queries, std::span<Answer> answers, const
     }
   }
   if (queries.size() <= at_a_time) {
-    for (std::size_t i = 0; i < queries.size(); ++i) answers[i] = ask(queries[i]);
+    for (std::size_t i = 0; i < queries.size(); ++i) results[i] = compute(queries[i]);
     return;
   }
   in_default_floating_point([&] {
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, queries.size(), at_a_time), [&](const auto& some) {
-      for (std::size_t i = some.begin(); i < some.end(); ++i) answers[i] = ask(queries[i]);
+      for (std::size_t i = some.begin(); i < some.end(); ++i) results[i] = compute(queries[i]);
     });
   });
 }
@@ -107,7 +107,7 @@ void query::check(const Query& query) {
     touched = &*first.contact;
   } else {
     Collector collector(first, found);
-    ask_near({query.body, query.from + query.motion * first.time, Vec3(0.0), query.ignored}, collector, nullptr);
+    find_near({query.body, query.from + query.motion * first.time, Vec3(0.0), query.ignored}, collector, nullptr);
   }
   result.hit = true;
   result.time = first.time;
@@ -125,14 +125,14 @@ void query::check(const Query& query) {
 Impact Space::swept(const Query& query, Vicinity* vicinity) const {
   const DefaultFloatingPoint guard;
   query::check(query);
-  const FirstImpact first = ask_first(query, vicinity);
+  const FirstImpact first = find_first(query, vicinity);
   return touched(query, first);
 }
 
 FirstImpact Space::first_impact(const Query& query) const {
   const DefaultFloatingPoint guard;
   query::check(query);
-  FirstImpact first = ask_first(query, nullptr);
+  FirstImpact first = find_first(query, nullptr);
   first.revision = facts().revision.value_or(0);
   return first;
 }
@@ -153,7 +153,7 @@ std::size_t Space::contacts(const Query& query, double reach, std::span<Contact>
   if (contacts.empty()) return 0;
   Collector collector(Collector::Kind::contacts, reach, contacts);
   if (largest(query.motion) > index::longest_piece) collector.expect_repeats();
-  ask_near(query, collector, nullptr);
+  find_near(query, collector, nullptr);
   collector.sort();
   return collector.count();
 }
@@ -164,7 +164,7 @@ Clearance Space::clearance(const Query& query, double reach) const {
   check_reach(reach);
   Contact nearest;
   Collector collector(Collector::Kind::clearance, reach, {&nearest, 1});
-  ask_near(query, collector, nullptr);
+  find_near(query, collector, nullptr);
   return as_clearance(collector, collector.certified());
 }
 
@@ -178,7 +178,7 @@ Clearance Space::floor_clearance(const Body& body, const Vec3& place, double rea
   Collector collector(Collector::Kind::floor_clearance, reach, {&nearest, 1});
   collector.expect_repeats();
   collector.take_floor_only(only);
-  ask_near(query, collector, nullptr);
+  find_near(query, collector, nullptr);
   return as_clearance(collector, nearest.distance);
 }
 
@@ -188,32 +188,32 @@ double Space::gap_over(const Query& query, double reach, Vicinity* vicinity) con
   check_reach(reach);
   Contact nearest;
   Collector collector(Collector::Kind::gap, reach, {&nearest, 1});
-  ask_near(query, collector, vicinity);
+  find_near(query, collector, vicinity);
   return collector.count() > 0 ? collector.certified() : reach;
 }
 
-void Space::sweep(std::span<const Query> queries, std::span<Impact> answers) const {
+void Space::sweep(std::span<const Query> queries, std::span<Impact> results) const {
   const DefaultFloatingPoint guard;
-  answer_all(queries, answers, [this](const Query& query) { return sweep(query); });
+  compute_all(queries, results, [this](const Query& query) { return sweep(query); });
 }
 
-void Space::clearance(std::span<const Query> queries, double reach, std::span<Clearance> answers) const {
+void Space::clearance(std::span<const Query> queries, double reach, std::span<Clearance> results) const {
   const DefaultFloatingPoint guard;
   check_reach(reach);
-  answer_all(queries, answers, [&](const Query& query) { return clearance(query, reach); });
+  compute_all(queries, results, [&](const Query& query) { return clearance(query, reach); });
 }
 
-void Space::gap(std::span<const Query> queries, double reach, std::span<double> answers) const {
+void Space::gap_bound(std::span<const Query> queries, double reach, std::span<double> results) const {
   const DefaultFloatingPoint guard;
   check_reach(reach);
-  answer_all(queries, answers, [&](const Query& query) { return gap(query, reach); });
+  compute_all(queries, results, [&](const Query& query) { return gap_bound(query, reach); });
 }
 
 Impact Nearby::sweep(const Space& space, Vicinity& vicinity, const Query& query) {
   return space.swept(query, &vicinity);
 }
 
-double Nearby::gap(const Space& space, Vicinity& vicinity, const Query& query, double reach) {
+double Nearby::gap_bound(const Space& space, Vicinity& vicinity, const Query& query, double reach) {
   return space.gap_over(query, reach, &vicinity);
 }
 

@@ -128,7 +128,7 @@ Impact sweep(const Box& box, double margin, const Body& body, const Vec3& from, 
 
 Contact nearest(const Box& box, double margin, const Body& body, const Vec3& from, const Vec3& motion) {
   const Approach way(box, margin, body, from, motion);
-  const auto answer = [&](const Sample& s, double gap) {
+  const auto contact_of = [&](const Sample& s, double gap) {
     Contact c;
     c.point = point_on(box, s, from + s.time * motion);
     c.normal = s.normal;
@@ -139,9 +139,9 @@ Contact nearest(const Box& box, double margin, const Body& body, const Vec3& fro
     return c;
   };
   Sample left = way.at(0.0);
-  if (left.slope >= 0.0) return answer(left, way.gap(left.distance));
+  if (left.slope >= 0.0) return contact_of(left, way.gap(left.distance));
   Sample right = way.at(1.0);
-  if (right.slope <= 0.0) return answer(right, way.gap(right.distance));
+  if (right.slope <= 0.0) return contact_of(right, way.gap(right.distance));
   const certified::Crossing lower = certified::narrow(
       left, right, advance_limit, [&](double time) { return way.at(time); },
       // The midpoint ensures that neither side of the bracket stands still for long.
@@ -149,7 +149,7 @@ Contact nearest(const Box& box, double margin, const Body& body, const Vec3& fro
       [&](const certified::Crossing& c) { return std::min(left.distance, right.distance) - c.distance <= tightness; });
   const Sample& least = left.distance <= right.distance ? left : right;
   // One bound for the planes, one for the arithmetic between them.
-  return answer(least, way.gap(std::min(lower.distance, least.distance)) - way.error());
+  return contact_of(least, way.gap(std::min(lower.distance, least.distance)) - way.error());
 }
 
 }  // namespace roam::unknown

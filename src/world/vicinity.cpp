@@ -6,7 +6,7 @@
 namespace roam {
 namespace {
 
-/// The box is this many metres wider than the question, and this many motions longer.
+/// The box is this many metres wider than the region, and this many motions longer.
 constexpr double spare = 0.25;
 constexpr double ways_ahead = 3.0;
 
@@ -22,18 +22,18 @@ constexpr double slack = 1e-2;
 
 }  // namespace
 
-bool Vicinity::State::cover(const Question& q) {
+bool Vicinity::State::cover(const QueryRegion& q) {
   const bool far = q.reach > farthest_reach || largest(q.motion) > longest_way;
   if (far || index::is_thin(q.body) || q.body.radius + q.body.half_height > largest_body) return false;
   const double r = q.body.radius + q.reach + 2.0 * q.largest_error + slack;
   const Vec3 around(r, r, r + q.body.half_height);
-  Box asked;
-  asked.include(q.from);
-  asked.include(q.from + q.motion);
-  asked = asked.grown(around);
-  if (box.holds(asked.lower) && box.holds(asked.upper)) return true;
+  Box needed;
+  needed.include(q.from);
+  needed.include(q.from + q.motion);
+  needed = needed.grown(around);
+  if (box.holds(needed.lower) && box.holds(needed.upper)) return true;
   const Vec3 ahead = q.from + (1.0 + ways_ahead) * q.motion;
-  box = asked;
+  box = needed;
   box.include(ahead - around);
   box.include(ahead + around);
   box = box.grown(spare);

@@ -10,7 +10,7 @@
 namespace roam {
 
 /// The region of a query: everything within `reach` (m) of the body during its motion. For a sweep reach is hit_reach.
-struct Question {
+struct QueryRegion {
   const Body& body;
   const Vec3& from;
   const Vec3& motion;
@@ -25,19 +25,19 @@ struct Vicinity::State {
   bool complete = false;       ///< they hold everything that meets the box
   index::Roots roots;
 
-  /// Whether the box covers the question; if not, the box is moved so that it does. False if the question is too far or
+  /// Whether the box covers the region; if not, the box is moved so that it does. False if the region is too far or
   /// too wide for a vicinity.
-  [[nodiscard]] bool cover(const Question& question);
+  [[nodiscard]] bool cover(const QueryRegion& region);
 };
 
 /// The roots at which a search begins; null: at the root of the whole index. gather(box, roots) adds everything that
 /// meets the box, and returns whether it could.
 template <class Gather>
-[[nodiscard]] const index::Roots* roots_in(Vicinity& vicinity, const Question& question, const Gather& gather) {
+[[nodiscard]] const index::Roots* roots_in(Vicinity& vicinity, const QueryRegion& region, const Gather& gather) {
   Vicinity::State* const kept = vicinity.state();
-  if (kept == nullptr || !kept->cover(question)) return nullptr;
-  if (kept->revision != question.revision) {
-    kept->revision = question.revision;
+  if (kept == nullptr || !kept->cover(region)) return nullptr;
+  if (kept->revision != region.revision) {
+    kept->revision = region.revision;
     kept->roots.count = 0;
     kept->complete = gather(kept->box, kept->roots);
   }

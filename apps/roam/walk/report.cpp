@@ -116,7 +116,7 @@ Json json_report(const WalkReport& report) {
 std::string text_report(const WalkReport& report) {
   const RouteResult& result = report.result;
   words::Lines lines(words::headline(report));
-  if (result.outcome != Outcome::reached) lines.add("why", words::explain(report));
+  if (report.interrupted || result.outcome != Outcome::reached) lines.add("why", words::explain(report));
   if (const auto freed = words::first(result, EventKind::freed)) {
     lines.add("start", fmt::format("did not fit where it was put, inside a wall or too near to one; freed to {}",
                                    words::exactly_at(*freed)));

@@ -289,7 +289,7 @@ void Sources::look(const std::vector<ScenePart>& parts, std::span<const fs::path
     if (known != known_.end() && known->second.size == file.seen.size &&
         known->second.changed_ns == file.seen.changed_ns) {
       file.seen.hash = known->second.hash;
-      file.seen.settled = true;
+      file.seen.time_is_conclusive = true;
       file.hashed = true;
     }
     tick();
@@ -342,7 +342,7 @@ void Sources::check_unchanged(const ScenePart& part) const {
 void Sources::save() const {
   std::map<std::string, Seen> settled;
   for (const auto& [name, seen] : seen_) {
-    if (seen.settled) settled.insert({name, seen});
+    if (seen.time_is_conclusive) settled.insert({name, seen});
   }
   if (settled == known_) return;
   Json json = Json::object();

@@ -49,9 +49,9 @@ class Sources {
  private:
   struct Seen {
     std::uint64_t size = 0;
-    std::int64_t changed_ns = 0;  ///< ctime: no program can set it back
-    std::string hash;             ///< SHA-256
-    bool settled = false;         ///< it had changed long before it was examined
+    std::int64_t changed_ns = 0;      ///< ctime: no program can set it back
+    std::string hash;                 ///< SHA-256
+    bool time_is_conclusive = false;  ///< it had changed long before it was examined
     bool operator==(const Seen&) const = default;
   };
   using Number = std::pair<std::uint64_t, std::uint64_t>;  ///< of a file, independent of its names: device and inode

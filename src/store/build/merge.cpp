@@ -36,7 +36,7 @@ std::vector<ShardInfo> collect(Work& work, const Plan& plan) {
   std::vector<std::string> wrong(plan.shards.size());
   const std::vector<std::size_t> built = plan.to_build();
   for (std::size_t i = 0; i < plan.shards.size(); ++i) {
-    if (!plan.shards[i].there) continue;
+    if (!plan.shards[i].in_force) continue;
     const auto old = before.find(plan.shards[i].key);
     if (old == before.end() || size_of(work.store, pack_file(old->second.pack)) != old->second.bytes) {
       throw Error(fmt::format("{} has been changed since the plan was made; plan again", work.store.string()));
@@ -155,7 +155,7 @@ std::string remove_scratch(const Folder& store) {
 
 std::string merge(Work& work, const Plan& plan) {
   std::uint64_t triangles = 0;
-  for (const PlannedShard& shard : plan.shards) triangles += shard.there ? 0 : shard.stretch.triangles;
+  for (const PlannedShard& shard : plan.shards) triangles += shard.in_force ? 0 : shard.stretch.triangles;
   work.begin(Work::Step::merge, 0, triangles);
   Manifest manifest;
   manifest.lossless = plan.lossless;

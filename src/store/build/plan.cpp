@@ -68,7 +68,7 @@ PartRecord record_of(const Json& json) {
 std::vector<std::size_t> Plan::to_build() const {
   std::vector<std::size_t> numbers;
   for (std::size_t i = 0; i < shards.size(); ++i) {
-    if (!shards[i].there) numbers.push_back(i);
+    if (!shards[i].in_force) numbers.push_back(i);
   }
   return numbers;
 }
@@ -92,7 +92,7 @@ void write_plan(const Work& work, const Plan& plan) {
     Json json = json_of(shard.stretch);
     json["parts"] = shard.stretch.parts;
     json["key"] = shard.key;
-    json["there"] = shard.there;
+    json["there"] = shard.in_force;
     shards.push_back(std::move(json));
   }
   const Json json = {{"scratch_version", scratch_version},
@@ -133,7 +133,7 @@ Plan read_plan(const Work& work) {
       shard.stretch.triangles = item.at("triangles").get<std::uint64_t>();
       shard.stretch.parts = item.at("parts").get<std::vector<std::uint32_t>>();
       shard.key = item.at("key").get<std::string>();
-      shard.there = item.at("there").get<bool>();
+      shard.in_force = item.at("there").get<bool>();
       if (shard.stretch.triangles > ShardLimits{}.shard) throw std::runtime_error("a shard is too large");
       for (const std::uint32_t p : shard.stretch.parts) {
         if (p >= plan.parts.size()) throw std::runtime_error("a part is out of range");

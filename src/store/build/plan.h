@@ -16,8 +16,8 @@ namespace roam::store {
 
 struct PlannedShard {
   Stretch stretch;
-  std::string key;     ///< see key_of
-  bool there = false;  ///< in the store in force
+  std::string key;        ///< see key_of
+  bool in_force = false;  ///< in the store in force
 };
 
 struct Plan {

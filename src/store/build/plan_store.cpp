@@ -224,7 +224,7 @@ class Planner {
       shard.key = key_of(stretch, plan_);
       shard.stretch = std::move(stretch);
       const auto old = before.find(shard.key);
-      shard.there = old != before.end() && is_there(*old->second);
+      shard.in_force = old != before.end() && is_there(*old->second);
       plan_.shards.push_back(std::move(shard));
     }
   }
@@ -277,7 +277,7 @@ class Planner {
   [[nodiscard]] std::vector<std::size_t> needed() const {
     std::set<std::size_t> parts(missing_.begin(), missing_.end());
     for (const PlannedShard& shard : plan_.shards) {
-      if (shard.there || built_shard(work_, shard.key)) continue;
+      if (shard.in_force || built_shard(work_, shard.key)) continue;
       for (const std::uint32_t p : shard.stretch.parts) {
         if (!plan_.parts[p].has_runs) parts.insert(p);
       }

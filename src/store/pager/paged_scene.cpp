@@ -122,7 +122,7 @@ bool PagedScene::name(FirstImpact& first) const {
   if (!known_) return false;
   const index::Absent none{};
   first.triangle = page_base(page_) + query::number_at(residents_.view(residents_.page(page_), none), place_);
-  first.place = {place_.tile, place_.leaf, place_.triangle, page_};
+  first.locator = {place_.tile, place_.leaf, place_.triangle, page_};
   return true;
 }
 
@@ -137,7 +137,7 @@ Contact PagedScene::touched(const index::Piece& at_rest) const {
 
 index::Index index_of(const Residents& residents, const FirstImpact& first) {
   const index::Absent none{};
-  return residents.view(residents.page(first.place[3]), none);
+  return residents.view(residents.page(first.locator[3]), none);
 }
 
 void PagedScene::near(const index::Piece& piece, Collector& collector) const {

@@ -252,22 +252,22 @@ bool Pager::wait(const Body& body, const Vec3& place, const Vec3& velocity, doub
 
 PagedScene Pager::State::scene(const Query& query, double reach, Vicinity* vicinity) const {
   if (vicinity == nullptr) return PagedScene(residents);
-  const Question question{query.body, query.from, query.motion, reach, store->info().largest_error_m, revision};
-  return {residents, roots_in(*vicinity, question,
+  const QueryRegion region{query.body, query.from, query.motion, reach, store->info().largest_error_m, revision};
+  return {residents, roots_in(*vicinity, region,
                               [this](const Box& box, index::Roots& out) { return gather(residents, box, out); })};
 }
 
-FirstImpact Pager::ask_first(const Query& query, Vicinity* vicinity) const {
+FirstImpact Pager::find_first(const Query& query, Vicinity* vicinity) const {
   PagedScene scene = state_->scene(query, query::hit_reach, vicinity);
   return query::first_of(scene, query);
 }
 
-void Pager::ask_near(const Query& query, Collector& collector, Vicinity* vicinity) const {
+void Pager::find_near(const Query& query, Collector& collector, Vicinity* vicinity) const {
   if (const FirstImpact* const only = collector.only()) {
     return query::collect_one(index_of(state_->residents, *only), query, collector);
   }
   if (state_->store->info().lossless) collector.demand(query::lossless_tolerance);
-  query::collect_of(state_->scene(query, collector.asked(), vicinity), query, {}, collector);
+  query::collect_of(state_->scene(query, collector.initial_reach(), vicinity), query, {}, collector);
 }
 
 SpaceFacts Pager::facts() const {

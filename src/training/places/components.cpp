@@ -35,10 +35,10 @@ constexpr std::uint64_t least_open = 200'000;
 /// something.
 constexpr std::uint64_t least_closed = 1'000;
 /// A component that began closed is open ground if most of its newest places see the sky in two checks running. The
-/// first check is after `first_asked` places, the next ones each time it has grown by `asked_growth`.
+/// first check is after `first_check` places, the next ones each time it has grown by `check_growth`.
 constexpr std::size_t newest = 16;
-constexpr std::uint64_t first_asked = 512;
-constexpr double asked_growth = 1.25;
+constexpr std::uint64_t first_check = 512;
+constexpr double check_growth = 1.25;
 /// A look at a closed component ends after this many calls of its callback without a new place, plus one call for each
 /// `places_a_turn` new places. Usually a call brings four times as many. The look has then met a tree of an earlier
 /// look. If a look was cut, the first number is 0, because the large component is grown later anyway.
@@ -65,7 +65,7 @@ class Search {
     std::size_t batch = first_batch;
     // Without the limit on places, huge closed components would be begun again and again until nothing is left for the
     // rest.
-    while (done_ < samples.size() && tree_.size() < most_places_ && asked_to_go_on()) {
+    while (done_ < samples.size() && tree_.size() < most_places_ && may_go_on()) {
       const std::size_t end = std::min(samples.size(), done_ + batch);
       for (const Start& start : starts({samples.data() + done_, samples.data() + end})) {
         if (start.sight == Sight::closed)
@@ -114,7 +114,7 @@ class Search {
     bool free = false;
   };
 
-  bool asked_to_go_on() {
+  bool may_go_on() {
     if (!ended_ && goes_on_ && !goes_on_(std::max(share_done_, share_reached()))) ended_ = true;
     return !ended_;
   }
@@ -170,18 +170,18 @@ class Search {
     const std::uint64_t most = std::min(before + std::min(most_new, most_places_), most_of_all);
     const bool is_look = sight == Sight::closed && most_new == first_look;
     const std::uint64_t idle_turns = look_was_cut_ ? 0 : most_turns;
-    std::uint64_t mark = before + first_asked, turns = 0;
+    std::uint64_t mark = before + first_check, turns = 0;
     int open_running = 0;
     bool out = false;
     const bool whole = tree_.grow(root, ways::no_node, [&](std::uint64_t places) {
       if (sight == Sight::closed && places >= mark) {
-        mark = before + static_cast<std::uint64_t>(asked_growth * static_cast<double>(places - before));
+        mark = before + static_cast<std::uint64_t>(check_growth * static_cast<double>(places - before));
         open_running = newest_are_open(root) ? open_running + 1 : 0;
       }
       out = open_running == 2;
       // A look that adds no places has met a tree that was examined before.
       const bool is_idle = is_look && turns++ > idle_turns + (places - before) / places_a_turn;
-      return !out && !is_idle && places < most && asked_to_go_on();
+      return !out && !is_idle && places < most && may_go_on();
     });
     if (tree_.size() >= most_of_all) ended_ = true;
     if (out) came_out_.push_back(root);
@@ -213,14 +213,14 @@ class Search {
   }
 
   [[nodiscard]] bool newest_are_open(ways::NodeId root) const {
-    std::vector<ways::NodeId> asked;
-    for (std::size_t id = tree_.size(); id > 0 && asked.size() < newest; --id)
-      if (const auto node = static_cast<ways::NodeId>(id - 1); tree_.root(node) == root) asked.push_back(node);
+    std::vector<ways::NodeId> examined;
+    for (std::size_t id = tree_.size(); id > 0 && examined.size() < newest; --id)
+      if (const auto node = static_cast<ways::NodeId>(id - 1); tree_.root(node) == root) examined.push_back(node);
     std::atomic<std::size_t> open{0};
-    tbb::parallel_for(std::size_t{0}, asked.size(), [&](std::size_t i) {
-      if (look_around(survey_, eye_over(measure_, tree_.node(asked[i]))).open) ++open;
+    tbb::parallel_for(std::size_t{0}, examined.size(), [&](std::size_t i) {
+      if (look_around(survey_, eye_over(measure_, tree_.node(examined[i]))).open) ++open;
     });
-    return 2 * open > asked.size();
+    return 2 * open > examined.size();
   }
 
   /// The limit for open ground: not more places than the closed components have.
@@ -288,7 +288,7 @@ class Search {
       if (was_reached_[id])
         found[number.at(tree_.root(static_cast<ways::NodeId>(id)))].nodes.push_back(static_cast<ways::NodeId>(id));
     }
-    mark_waste(found);
+    mark_unfinished(found);
     std::stable_sort(found.begin(), found.end(),
                      [](const Component& a, const Component& b) { return a.nodes.size() > b.nodes.size(); });
     return found;
@@ -296,7 +296,7 @@ class Search {
 
   /// Marks components that were not grown whole as unfinished if a whole one has more of the floors' triangles.
   /// Example: the ground under a dam, beside its gallery.
-  void mark_waste(std::vector<Component>& found) const {
+  void mark_unfinished(std::vector<Component>& found) const {
     const auto is_whole = [](const Component& c) { return c.whole; };
     if (std::all_of(found.begin(), found.end(), is_whole) || std::none_of(found.begin(), found.end(), is_whole)) return;
     const std::vector<std::size_t> details = floor_details(survey_, tree_, found);

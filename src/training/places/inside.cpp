@@ -31,7 +31,7 @@ const char* to_string(Verdict verdict) {
 namespace {
 
 /// Places of a component that are examined, at most.
-constexpr std::size_t asked = 64;
+constexpr std::size_t most_examined = 64;
 /// More than this share of a component's places, or of the directions out of it, decides.
 constexpr double majority = 0.5;
 /// Windings are trusted if at least this share of the shared edges runs both ways.
@@ -94,7 +94,7 @@ class Judge {
  private:
   /// Some of the nodes of a component, spread over it.
   [[nodiscard]] std::vector<ways::NodeId> some(const Component& c) const {
-    const std::size_t count = std::min(asked, c.nodes.size());
+    const std::size_t count = std::min(most_examined, c.nodes.size());
     std::vector<ways::NodeId> chosen;
     for (std::size_t i = 0; i < count; ++i) chosen.push_back(c.nodes[i * c.nodes.size() / count]);
     return chosen;
@@ -211,7 +211,7 @@ class Judge {
     // Few places of a wide component lie at its rim. So all places of a small component are examined, and a sample of a
     // large one.
     const std::vector<ways::NodeId>& nodes = components_[i].nodes;
-    const std::size_t stride_of_nodes = 1 + nodes.size() / (asked * asked);
+    const std::size_t stride_of_nodes = 1 + nodes.size() / (most_examined * most_examined);
     for (std::size_t n = 0; n < nodes.size(); n += stride_of_nodes) {
       const ways::Node& node = tree_.node(nodes[n]);
       ++looked_at;

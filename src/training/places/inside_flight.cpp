@@ -12,7 +12,7 @@ namespace roam::training {
 namespace {
 
 /// Triangles that are examined, at most, spread evenly over their order.
-constexpr std::uint64_t triangles_asked = 4096;
+constexpr std::uint64_t triangles_examined = 4096;
 /// m: side of the cells for looking up places. A place sees a triangle if it is in sight and in the cells around it.
 constexpr double cell = 0.5;
 /// m: sight lines start this far in front of a triangle.
@@ -60,7 +60,7 @@ std::vector<std::size_t> surfaces_seen(const Survey& survey, const ways::WidestT
       ++seen[owner];
     }
   };
-  const std::uint64_t stride = 1 + survey.triangles() / triangles_asked;
+  const std::uint64_t stride = 1 + survey.triangles() / triangles_examined;
   for (TriangleId id = 0; id < survey.triangles(); id += stride) {
     const Triangle t = survey.triangle(id);
     const Vec3 normal = glm::cross(t[1] - t[0], t[2] - t[0]), middle = (t[0] + t[1] + t[2]) / 3.0;

@@ -21,9 +21,9 @@ constexpr double end_reach = 2.0;
 constexpr std::uint32_t no_room = ~std::uint32_t(0);
 constexpr std::uint32_t nowhere = ~std::uint32_t(0);
 
-class Plan {
+class PathDrawer {
  public:
-  Plan(const ways::WidestTree& tree, const Component& component, const Rooms& rooms, std::uint64_t seed)
+  PathDrawer(const ways::WidestTree& tree, const Component& component, const Rooms& rooms, std::uint64_t seed)
       : tree_(tree),
         component_(component),
         rooms_(rooms),
@@ -260,7 +260,7 @@ std::vector<Ends> draw_paths(const ways::WidestTree& tree, const Component& comp
   if (component.nodes.size() < 2) return {};
   const bool given = count > 0;
   const std::size_t paths = given ? static_cast<std::size_t>(count) : std::max(usual_paths, rooms.dead_ends());
-  return Plan(tree, component, rooms, seed).run(paths, !given);
+  return PathDrawer(tree, component, rooms, seed).run(paths, !given);
 }
 
 }  // namespace roam::training

@@ -10,7 +10,7 @@ namespace roam::ways {
 namespace {
 
 /// Cubes followed between two calls of `goes_on`.
-constexpr std::uint64_t between_questions = 256;
+constexpr std::uint64_t steps_between_checks = 256;
 /// Sides. For a radius at least this large, no cube reaches through a wall without thickness. If its middle is half a
 /// side from the wall, its farthest corner is sqrt(1 + 1/4 + 1/4) sides from the nearest point of the wall.
 constexpr double through_wall = 1.25;
@@ -88,7 +88,7 @@ class NearestPair {
   }
 
   void look_at_all(std::span<const Middle> one, std::span<const Middle> other) {
-    if (++looks_ % between_questions == 0 && !goes_on_()) ended_ = true;
+    if (++looks_ % steps_between_checks == 0 && !goes_on_()) ended_ = true;
     for (const Middle& a : one) {
       for (const Middle& b : other) {
         const double apart = glm::distance(a.place, b.place);
@@ -243,10 +243,10 @@ Flight FlySearch::run() {
   for (std::uint64_t n = 0;; ++n) {
     for (int s = 0; s < 2; ++s) {
       Side& side = sides_[static_cast<std::size_t>(s)];
-      if (side.open.empty()) return certain_ ? Flight::not_seen : Flight::none;
+      if (side.open.empty()) return certain_ ? Flight::not_found : Flight::none;
       if (follow(side, sides_[static_cast<std::size_t>(1 - s)])) return Flight::found;
     }
-    if (n % between_questions == 0 && goes_on_ && !goes_on_(cells_.size())) return Flight::ended;
+    if (n % steps_between_checks == 0 && goes_on_ && !goes_on_(cells_.size())) return Flight::ended;
   }
 }
 
@@ -316,8 +316,8 @@ Flight FlySearch::look(double radius, int most) {
   }
 }
 
-Flight FlySearch::look_where_free(double radius) {
-  if (!begin(radius, true)) return Flight::not_seen;
+Flight FlySearch::search_free_cubes(double radius) {
+  if (!begin(radius, true)) return Flight::not_found;
   const Flight flight = run();
   if (flight == Flight::found) set_way(met_cells());
   return flight;
@@ -328,7 +328,7 @@ std::optional<std::array<Vec3, 2>> FlySearch::nearest_approach() {
   for (int s = 0; s < 2; ++s) {
     Side& side = sides_[static_cast<std::size_t>(s)];
     while (side.done < enough && !side.open.empty() && !follow(side, sides_[static_cast<std::size_t>(1 - s)])) {
-      if (side.done % between_questions == 0 && goes_on_ && !goes_on_(cells_.size())) break;
+      if (side.done % steps_between_checks == 0 && goes_on_ && !goes_on_(cells_.size())) break;
     }
   }
   std::array<std::vector<Middle>, 2> reached;

@@ -13,11 +13,11 @@ namespace roam::ways {
 
 /// How a search for one radius ended.
 enum class Flight : std::uint8_t {
-  found,     ///< a way: certified
-  none,      ///< no way exists: certified by a search through every cube that is not known to be closed
-  not_seen,  ///< a search through cubes known to be free found no way
-  unsure,    ///< some ways could neither be flown nor closed
-  ended,     ///< `goes_on` returned false
+  found,      ///< a way: certified
+  none,       ///< no way exists: certified by a search through every cube that is not known to be closed
+  not_found,  ///< a search through cubes known to be free found no way
+  unsure,     ///< some ways could neither be flown nor closed
+  ended,      ///< `goes_on` returned false
 };
 
 /// Searches between two places. Prefers cubes near the goal and wide ways (A*: Hart, Nilsson and Raphael, 1968). Runs
@@ -33,7 +33,7 @@ class FlySearch {
   /// finds, `most` times at most. `none` holds for all larger spheres too.
   Flight look(double radius, int most);
   /// The same through cubes that are known to be free. It overlooks passages narrower than these cubes.
-  Flight look_where_free(double radius);
+  Flight search_free_cubes(double radius);
   /// The way of the last search that found one: places between which the sphere goes straight.
   [[nodiscard]] const std::vector<Vec3>& way() const { return way_; }
 
@@ -43,7 +43,7 @@ class FlySearch {
   /// m: the side of cubes near surfaces that a sphere of `radius` may touch.
   [[nodiscard]] double side_for(double radius) const;
   /// The number of cubes so far.
-  [[nodiscard]] std::uint64_t places() const { return cells_.size(); }
+  [[nodiscard]] std::uint64_t cubes() const { return cells_.size(); }
   /// The nearest pair of places that the last search reached from the start and from the goal. First grows both sides
   /// to about the same number of cubes. None if the sides are far apart.
   [[nodiscard]] std::optional<std::array<Vec3, 2>> nearest_approach();

@@ -49,10 +49,10 @@ class WidestFlight {
     Passage passage;
     for (double radius = first_;; radius = std::max(next_radius * radius, measure_.narrowest)) {
       const bool last = radius <= measure_.narrowest;
-      Flight flight = Flight::not_seen;
+      Flight flight = Flight::not_found;
       if (radius >= search_.least_closed()) flight = search_.look(radius, first_splits);
       if (flight == Flight::none) bound_ = std::min(bound_, radius);
-      if (flight == Flight::not_seen || (flight == Flight::unsure && last)) flight = search_.look_where_free(radius);
+      if (flight == Flight::not_found || (flight == Flight::unsure && last)) flight = search_.search_free_cubes(radius);
       if (flight == Flight::found) {
         passage = taken(radius);
         break;
@@ -88,7 +88,7 @@ class WidestFlight {
   Passage finished(Passage passage) {
     passage.bound = passage.found && !passage.limited ? at_ends_ : bound_;
     passage.complete = !ended_;
-    passage.places = search_.places();
+    passage.places = search_.cubes();
     return passage;
   }
 

@@ -52,7 +52,7 @@ class FlyLattice final : public LatticeGraph {
 
   std::optional<NodeId> seed(const Vec3& place) override;
   Neighbours expand(NodeId id) override;
-  bool goes(NodeId, NodeId) override { return true; }
+  bool confirm_step(NodeId, NodeId) override { return true; }
   [[nodiscard]] Neighbours neighbours(NodeId id) const override;
 
  private:

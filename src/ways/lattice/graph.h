@@ -23,10 +23,10 @@ class LatticeGraph {
   /// Hint: `id` will be expanded soon. Does nothing unless let_look_ahead(true).
   virtual void look_ahead(NodeId /*id*/) {}
   /// The number of steps that were computed ahead of their use.
-  [[nodiscard]] virtual std::uint64_t answered_ahead() const { return 0; }
+  [[nodiscard]] virtual std::uint64_t computed_ahead() const { return 0; }
   /// Whether a body really goes from a place to one of its neighbours. If not, they stop being neighbours. Call it only
   /// for steps that will be used: on foot it sends walkers over gaps.
-  virtual bool goes(NodeId from, NodeId to) = 0;
+  virtual bool confirm_step(NodeId from, NodeId to) = 0;
   /// On foot, for a place over a gap: the next place straight below that stands on floor. no_node if there is none, or
   /// if the place itself stands on floor.
   [[nodiscard]] virtual NodeId floor_under_gap(NodeId /*id*/) const { return no_node; }

@@ -27,7 +27,7 @@ double clearance_at(const Survey& survey, const Measure& measure, const Vec3& pl
 std::optional<Vec3> foot_at(const Survey& survey, const Measure& measure, const Vec3& near) {
   const double level = level_at(survey, measure, near);
   auto foot = floor_below(survey, measure, near.x, near.y, level);
-  if (!foot) foot = carried_over(survey, measure, near.x, near.y, level);
+  if (!foot) foot = place_over_gap(survey, measure, near.x, near.y, level);
   return foot ? std::optional(foot->place) : std::nullopt;
 }
 

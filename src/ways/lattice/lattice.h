@@ -67,8 +67,8 @@ inline constexpr Box everywhere{Vec3(-std::numeric_limits<double>::infinity()),
 /// Limits for steps computed ahead on other cores, on foot. If one is exceeded, all requests are forgotten. That
 /// changes no result.
 struct AheadLimits {
-  std::size_t places = 8192;     ///< with steps in progress or not used yet
-  std::size_t points = 1 << 20;  ///< with steps requested so far; some megabytes
+  std::size_t most_requests = 8192;   ///< places with steps in progress or not used yet
+  std::size_t most_points = 1 << 20;  ///< lattice points with steps requested so far; some megabytes
 };
 
 /// A tree over all places reached from its root. Its path between two places is a widest one. Grown best first (Prim's
@@ -102,7 +102,7 @@ class WidestTree {
   [[nodiscard]] double spacing() const;
   [[nodiscard]] std::size_t size() const;
   /// The number of steps that other cores computed ahead of the growth.
-  [[nodiscard]] std::uint64_t answered_ahead() const;
+  [[nodiscard]] std::uint64_t computed_ahead() const;
   [[nodiscard]] const Node& node(NodeId id) const;
   /// The root of the tree that a place belongs to; no_node if no growth has reached it.
   [[nodiscard]] NodeId root(NodeId id) const;

@@ -24,7 +24,7 @@ struct Column {
   NodeId next = no_node;              ///< another place over the same point of the lattice, made earlier
   std::uint8_t settled = 0;           ///< bit set of the directions already examined
   std::uint8_t tried = 0;             ///< bit set of the directions in which a walker got through
-  bool carried = false;               ///< whether the foot is over a gap
+  bool over_gap = false;              ///< whether the foot is over a gap
   bool is_scouted = false;            ///< no more scouts are needed
   std::array<NodeId, directions> to;  ///< the neighbour in each direction, or no_node
   double level = 0.0;                 ///< of the foot
@@ -39,17 +39,17 @@ class WalkLattice final : public LatticeGraph {
   Neighbours expand(NodeId id) override;
   void let_look_ahead(bool may) override { looks_ahead_ = may; }
   void look_ahead(NodeId id) override;
-  bool goes(NodeId from, NodeId to) override;
+  bool confirm_step(NodeId from, NodeId to) override;
   [[nodiscard]] NodeId floor_under_gap(NodeId id) const override;
   void close(NodeId id) override;
   [[nodiscard]] Neighbours neighbours(NodeId id) const override;
-  [[nodiscard]] std::uint64_t answered_ahead() const override { return answered_ahead_; }
+  [[nodiscard]] std::uint64_t computed_ahead() const override { return computed_ahead_; }
 
  private:
   [[nodiscard]] Standing standing(NodeId id) const {
-    return {nodes_[id].place, columns_[id].level, nodes_[id].clearance, columns_[id].carried};
+    return {nodes_[id].place, columns_[id].level, nodes_[id].clearance, columns_[id].over_gap};
   }
-  NodeId make(const LatticePoint& at, const Foot& foot, float clearance);
+  NodeId make(const LatticePoint& at, const FloorPlace& foot, float clearance);
   [[nodiscard]] NodeId nearest_over(const LatticePoint& at, double level, double tolerance) const;
   [[nodiscard]] bool covers(const LatticePoint& at) const;
   [[nodiscard]] NodeId look(NodeId from, std::size_t direction, const ScoutedSteps* ahead);
@@ -62,17 +62,17 @@ class WalkLattice final : public LatticeGraph {
   const WalkSteps steps_;
   LatticeTable table_;
   std::vector<Column> columns_;
-  LatticeTable asked_about_;  ///< by storey: the place that sent scouts there
-  std::size_t asked_points_ = 0;
-  std::uint64_t answered_ahead_ = 0;
+  LatticeTable requested_;  ///< by storey: the place that sent scouts there
+  std::size_t requested_points_ = 0;
+  std::uint64_t computed_ahead_ = 0;
   bool looks_ahead_ = false;
   Scouts scouts_{steps_, plan_};
 };
 
-NodeId WalkLattice::make(const LatticePoint& at, const Foot& foot, float clearance) {
+NodeId WalkLattice::make(const LatticePoint& at, const FloorPlace& foot, float clearance) {
   const auto id = static_cast<NodeId>(nodes_.size());
   nodes_.push_back({foot.place, clearance});
-  Column column{.at = at, .next = table_.find(at), .carried = foot.carried, .to = {}, .level = foot.level};
+  Column column{.at = at, .next = table_.find(at), .over_gap = foot.over_gap, .to = {}, .level = foot.level};
   column.to.fill(no_node);
   columns_.push_back(column);
   table_.set(at, id);
@@ -100,21 +100,21 @@ NodeId WalkLattice::look(NodeId from, std::size_t direction, const ScoutedSteps*
   const LatticePoint at = beside(columns_[from].at, direction);
   if (!covers(at)) return no_node;
   const Standing here = standing(from);
-  bool is_new = false, is_answered = false;
+  bool is_new = false, is_ready = false;
   NodeId there = nearest_over(at, here.level, measure_.step);
   if (there == no_node) {
-    is_answered = ahead != nullptr && ahead->is_answered(direction);
-    if (is_answered) ++answered_ahead_;
-    const auto foot = is_answered ? ahead->foot[direction] : steps_.foot_from(here, plan_.point(at));
+    is_ready = ahead != nullptr && ahead->is_ready(direction);
+    if (is_ready) ++computed_ahead_;
+    const auto foot = is_ready ? ahead->foot[direction] : steps_.foot_from(here, plan_.point(at));
     if (!foot || foot->place.z < within_.lower.z || foot->place.z > within_.upper.z) return no_node;
     there = nearest_over(at, foot->level, same_height);
     is_new = there == no_node;
-    if (is_new) there = make(at, *foot, is_answered ? ahead->clearance[direction] : steps_.clearance(foot->place));
+    if (is_new) there = make(at, *foot, is_ready ? ahead->clearance[direction] : steps_.clearance(foot->place));
   }
   // The way back from there may already lead to another floor here.
   if (columns_[there].settled & 1U << opposite(direction)) return no_node;
   if (nodes_[there].clearance == 0.0F) return no_node;
-  const bool is_linked = is_new && is_answered ? ahead->linked[direction] : steps_.linked(here, standing(there));
+  const bool is_linked = is_new && is_ready ? ahead->linked[direction] : steps_.linked(here, standing(there));
   return is_linked ? there : no_node;
 }
 
@@ -124,7 +124,7 @@ void WalkLattice::look_ahead(NodeId id) {
   if (column.is_scouted || column.settled == all_directions || nodes_[id].clearance >= steps_.unlimited()) return;
   column.is_scouted = true;
   const Standing here = standing(id);
-  unsigned asked = 0;
+  unsigned requested = 0;
   for (std::size_t direction = 0; direction < directions; ++direction) {
     const unsigned bit = 1U << direction;
     const LatticePoint at = beside(column.at, direction);
@@ -132,18 +132,18 @@ void WalkLattice::look_ahead(NodeId id) {
     // Most points have neighbours on several sides. The first neighbour sends the scout.
     const auto storey = std::lround(here.level / std::max(measure_.step, same_height)) % LatticeTable::limit;
     const LatticePoint about{at.x, at.y, static_cast<std::int32_t>(storey)};
-    if (asked_about_.find(about) != no_node) continue;
-    asked_about_.set(about, id);
-    asked |= bit;
+    if (requested_.find(about) != no_node) continue;
+    requested_.set(about, id);
+    requested |= bit;
   }
-  if (asked == 0) return;
-  asked_points_ += static_cast<std::size_t>(std::popcount(asked));
-  if (scouts_.out() >= ahead_.places || asked_points_ > ahead_.points) {
+  if (requested == 0) return;
+  requested_points_ += static_cast<std::size_t>(std::popcount(requested));
+  if (scouts_.out() >= ahead_.most_requests || requested_points_ > ahead_.most_points) {
     scouts_.forget();
-    asked_about_ = {};
-    asked_points_ = 0;
+    requested_ = {};
+    requested_points_ = 0;
   }
-  scouts_.send(id, here, column.at, static_cast<std::uint8_t>(asked));
+  scouts_.send(id, here, column.at, static_cast<std::uint8_t>(requested));
 }
 
 Neighbours WalkLattice::expand(NodeId id) {
@@ -165,7 +165,7 @@ Neighbours WalkLattice::expand(NodeId id) {
   return neighbours(id);
 }
 
-bool WalkLattice::goes(NodeId from, NodeId to) {
+bool WalkLattice::confirm_step(NodeId from, NodeId to) {
   auto& there = columns_[from].to;
   const auto found = std::find(there.begin(), there.end(), to);
   if (found == there.end()) return false;
@@ -182,10 +182,10 @@ bool WalkLattice::goes(NodeId from, NodeId to) {
 }
 
 NodeId WalkLattice::floor_under_gap(NodeId id) const {
-  if (!columns_[id].carried) return no_node;
+  if (!columns_[id].over_gap) return no_node;
   NodeId best = no_node;
   for (NodeId other = table_.find(columns_[id].at); other != no_node; other = columns_[other].next) {
-    if (columns_[other].carried || columns_[other].level >= columns_[id].level || nodes_[other].clearance == 0.0F)
+    if (columns_[other].over_gap || columns_[other].level >= columns_[id].level || nodes_[other].clearance == 0.0F)
       continue;
     if (best == no_node || columns_[other].level > columns_[best].level) best = other;
   }

@@ -82,8 +82,8 @@ bool is_open_drop(const Survey& survey, const Measure& measure, const Vec3& rim,
 
 }  // namespace
 
-std::optional<Foot> floor_below(const Survey& survey, const Measure& measure, double x, double y, double level,
-                                KnownGaps* gaps) {
+std::optional<FloorPlace> floor_below(const Survey& survey, const Measure& measure, double x, double y, double level,
+                                      KnownGaps* gaps) {
   const double start = level + measure.step + 2.0 * touch;
   const double reach = 2.0 * measure.step + 4.0 * touch;
   double radius = foot_radius;
@@ -104,21 +104,21 @@ std::optional<Foot> floor_below(const Survey& survey, const Measure& measure, do
     }
     const double lowest = start - s.time * reach;
     const bool is_gentle = s.feature == Feature::face && s.normal.z >= gentle_cosine;
-    if (beside <= under_axis || is_gentle) return Foot{Vec3(x, y, lowest), lowest, false};
+    if (beside <= under_axis || is_gentle) return FloorPlace{Vec3(x, y, lowest), lowest, false};
     // The ball touches a slope or a rim. A kerb has floor below its rim; into a gap the ball has sunk.
     if (const auto below = floor_under_axis(survey, measure, x, y, s.point.z, lowest))
-      return Foot{Vec3(x, y, lowest), *below, false};
+      return FloorPlace{Vec3(x, y, lowest), *below, false};
     if (is_open_drop(survey, measure, s.point, x, y, gaps)) return std::nullopt;
-    return Foot{Vec3(x, y, s.point.z), s.point.z, true};
+    return FloorPlace{Vec3(x, y, s.point.z), s.point.z, true};
   }
   return std::nullopt;
 }
 
-std::optional<Foot> carried_over(const Survey& survey, const Measure& measure, double x, double y, double level,
-                                 KnownGaps* gaps) {
+std::optional<FloorPlace> place_over_gap(const Survey& survey, const Measure& measure, double x, double y, double level,
+                                         KnownGaps* gaps) {
   const Clearance rim = floor_beside(survey, {x, y, level}, measure.support_max);
   if (!rim.found || is_open_drop(survey, measure, rim.point, x, y, gaps)) return std::nullopt;
-  return Foot{Vec3(x, y, rim.point.z), rim.point.z, true};
+  return FloorPlace{Vec3(x, y, rim.point.z), rim.point.z, true};
 }
 
 double level_at(const Survey& survey, const Measure& measure, const Vec3& place) {

@@ -32,12 +32,12 @@ struct Stand {
                                             double largest, double least);
 
 /// A foot at rest.
-struct Foot {
+struct FloorPlace {
   Vec3 place{0.0};
   /// m. The height of the floor under the axis, or of the rim that carries the foot. The next step counts from it. On a
   /// kerb's rim, `place` lies between the two floors; a step from there would climb too much.
   double level = 0.0;
-  bool carried = false;  ///< over a gap of the floor
+  bool over_gap = false;  ///< over a gap of the floor
 };
 
 /// Known gaps of the floor, for one survey and measure: a lattice meets most of them from several sides. Safe for any
@@ -76,11 +76,11 @@ class KnownGaps {
 
 /// The floor for a foot that stands at height `level` beside (x, y); see foot_at. If the foot hangs on a rim with no
 /// floor below, the gap must be one that carries the largest foot.
-[[nodiscard]] std::optional<Foot> floor_below(const Survey& survey, const Measure& measure, double x, double y,
-                                              double level, KnownGaps* gaps = nullptr);
+[[nodiscard]] std::optional<FloorPlace> floor_below(const Survey& survey, const Measure& measure, double x, double y,
+                                                    double level, KnownGaps* gaps = nullptr);
 /// The same over a gap without any floor below.
-[[nodiscard]] std::optional<Foot> carried_over(const Survey& survey, const Measure& measure, double x, double y,
-                                               double level, KnownGaps* gaps = nullptr);
+[[nodiscard]] std::optional<FloorPlace> place_over_gap(const Survey& survey, const Measure& measure, double x, double y,
+                                                       double level, KnownGaps* gaps = nullptr);
 /// The level of a foot whose place is known.
 [[nodiscard]] double level_at(const Survey& survey, const Measure& measure, const Vec3& place);
 

@@ -10,34 +10,34 @@ Scouts::~Scouts() noexcept {
   group_.wait();
 }
 
-void Scouts::send(NodeId from, const Standing& here, const LatticePoint& at, std::uint8_t asked) {
+void Scouts::send(NodeId from, const Standing& here, const LatticePoint& at, std::uint8_t requested) {
   const auto steps = std::make_shared<ScoutedSteps>();
   steps->here = here;
   steps->at = at;
-  steps->asked = asked;
+  steps->requested = requested;
   out_[from] = steps;
   group_.run([this, steps] {
     try {
-      answer(*steps);
+      compute(*steps);
     } catch (const std::exception&) {
       // expand() repeats these queries itself and sees the error.
     }
   });
 }
 
-void Scouts::answer(ScoutedSteps& steps) const {
+void Scouts::compute(ScoutedSteps& steps) const {
   for (std::size_t direction = directions; direction-- > 0;) {
     const unsigned bit = 1U << direction;
-    if ((steps.asked & bit) == 0) continue;
+    if ((steps.requested & bit) == 0) continue;
     if (ended_ || steps.done) return;
-    const std::optional<Foot>& foot = steps.foot[direction] =
+    const std::optional<FloorPlace>& foot = steps.foot[direction] =
         steps_.foot_from(steps.here, plan_.point(beside(steps.at, direction)));
     if (foot) {
       steps.clearance[direction] = steps_.clearance(foot->place);
       const Standing there = standing_at(*foot, steps.clearance[direction]);
       steps.linked[direction] = there.free > 0.0 && steps_.linked(steps.here, there);
     }
-    steps.answered.fetch_or(static_cast<std::uint8_t>(bit), std::memory_order_release);
+    steps.ready.fetch_or(static_cast<std::uint8_t>(bit), std::memory_order_release);
   }
 }
 

@@ -19,15 +19,15 @@ namespace roam::ways {
 struct ScoutedSteps {
   Standing here;
   LatticePoint at;
-  std::uint8_t asked = 0;                            ///< bit set of the requested directions
-  std::array<std::optional<Foot>, directions> foot;  ///< as WalkSteps::foot_from
-  std::array<float, directions> clearance;           ///< there
-  std::array<bool, directions> linked;               ///< to the standing there
-  std::atomic<std::uint8_t> answered{0};             ///< bit set of the directions whose results may be read
-  std::atomic<bool> done{false};                     ///< no other results are needed
+  std::uint8_t requested = 0;                              ///< bit set of the requested directions
+  std::array<std::optional<FloorPlace>, directions> foot;  ///< as WalkSteps::foot_from
+  std::array<float, directions> clearance;                 ///< there
+  std::array<bool, directions> linked;                     ///< to the standing there
+  std::atomic<std::uint8_t> ready{0};                      ///< bit set of the directions whose results may be read
+  std::atomic<bool> done{false};                           ///< no other results are needed
 
-  [[nodiscard]] bool is_answered(std::size_t direction) const {
-    return (answered.load(std::memory_order_acquire) >> direction & 1U) != 0;
+  [[nodiscard]] bool is_ready(std::size_t direction) const {
+    return (ready.load(std::memory_order_acquire) >> direction & 1U) != 0;
   }
 };
 
@@ -39,8 +39,9 @@ class Scouts {
   Scouts(const Scouts&) = delete;
   Scouts& operator=(const Scouts&) = delete;
 
-  /// Computes the steps of a place in the directions `asked`, the last one first: expand() begins with the first one.
-  void send(NodeId from, const Standing& here, const LatticePoint& at, std::uint8_t asked);
+  /// Computes the steps of a place in the directions `requested`, the last one first: expand() begins with the first
+  /// one.
+  void send(NodeId from, const Standing& here, const LatticePoint& at, std::uint8_t requested);
   /// The request for a place, with its results now or later. Removes it from here. Null if there is none.
   [[nodiscard]] std::shared_ptr<ScoutedSteps> take(NodeId from);
   /// Cancels all requests that are not computed yet.
@@ -49,7 +50,7 @@ class Scouts {
   [[nodiscard]] std::size_t out() const { return out_.size(); }
 
  private:
-  void answer(ScoutedSteps& steps) const;
+  void compute(ScoutedSteps& steps) const;
 
   const WalkSteps& steps_;
   const LatticePlan& plan_;

@@ -14,7 +14,7 @@ constexpr double level_tolerance = 2e-3;
 
 }  // namespace
 
-std::optional<Foot> WalkSteps::foot_from(const Standing& from, const Vec3& to) const {
+std::optional<FloorPlace> WalkSteps::foot_from(const Standing& from, const Vec3& to) const {
   if (const auto foot = floor_below(survey_, measure_, to.x, to.y, from.level, &gaps_)) return foot;
   const Vec3 half = 0.5 * (from.place + to);
   const auto between = floor_below(survey_, measure_, half.x, half.y, from.level, &gaps_);
@@ -24,7 +24,7 @@ std::optional<Foot> WalkSteps::foot_from(const Standing& from, const Vec3& to) c
   }
   const Vec3 level(to.x, to.y, from.place.z);
   if (!goes_straight(survey_, measure_, from.place, level, measure_.narrowest)) return std::nullopt;
-  return carried_over(survey_, measure_, to.x, to.y, from.level, &gaps_);
+  return place_over_gap(survey_, measure_, to.x, to.y, from.level, &gaps_);
 }
 
 float WalkSteps::rounded_down(double radius) {
@@ -57,9 +57,9 @@ bool WalkSteps::linked(const Standing& a, const Standing& b) const {
 bool WalkSteps::walked(const Standing& a, const Standing& b) const {
   constexpr double person = 0.3;  // m
   constexpr double share = 0.97;  // of the free radius
-  if (!a.carried && !b.carried) return true;
+  if (!a.over_gap && !b.over_gap) return true;
   const BodyKind kind{.height = measure_.height, .step = measure_.step, .slope_degrees = survey_.slope_degrees()};
-  const std::array<Vec3, 2> way = a.carried ? std::array{b.place, a.place} : std::array{a.place, b.place};
+  const std::array<Vec3, 2> way = a.over_gap ? std::array{b.place, a.place} : std::array{a.place, b.place};
   const double radius = std::min(share * std::min(a.free, b.free), person);
   return try_way(survey_, kind, radius, measure_.support_max, way).outcome == Outcome::reached;
 }

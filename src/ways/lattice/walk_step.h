@@ -16,14 +16,14 @@ namespace roam::ways {
 /// A foot, and how wide a body may be there.
 struct Standing {
   Vec3 place{0.0};
-  double level = 0.0;  ///< see Foot
+  double level = 0.0;  ///< see FloorPlace
   double free = 0.0;
-  bool carried = false;
+  bool over_gap = false;
   bool operator==(const Standing&) const = default;
 };
 
-[[nodiscard]] inline Standing standing_at(const Foot& foot, float clearance) {
-  return {foot.place, foot.level, clearance, foot.carried};
+[[nodiscard]] inline Standing standing_at(const FloorPlace& foot, float clearance) {
+  return {foot.place, foot.level, clearance, foot.over_gap};
 }
 
 /// Steps to the eight lattice points around a place, counter-clockwise. The opposite of a direction is four further.
@@ -53,7 +53,7 @@ class WalkSteps {
 
   /// The foot at (x, y) of a step from a place: straight, else with one step between. It crosses cracks only where the
   /// knee meets no wall.
-  [[nodiscard]] std::optional<Foot> foot_from(const Standing& from, const Vec3& to) const;
+  [[nodiscard]] std::optional<FloorPlace> foot_from(const Standing& from, const Vec3& to) const;
   /// As clearance_at, rounded down; 0 if no body of `narrowest` can be there.
   [[nodiscard]] float clearance(const Vec3& place) const;
   /// Whether a body of `narrowest` gets from one free place to another.

@@ -10,7 +10,7 @@ namespace roam::ways {
 namespace {
 
 /// Places between two calls of `goes_on`.
-constexpr std::size_t places_between_questions = 256;
+constexpr std::size_t places_between_checks = 256;
 /// The number of next steps that are computed ahead. Steps farther back in the heap are mostly reached from elsewhere.
 constexpr std::size_t looked_ahead = 6;
 /// A step out of the tree that may be taken.
@@ -125,11 +125,11 @@ bool WidestTree::grow(NodeId root, NodeId until, const std::function<bool(std::u
   s.turn_to(root);
   for (std::size_t taken = 0; !s.edges.empty(); ++taken) {
     if (until != no_node && s.root[until] == s.growing) return true;
-    if (goes_on && taken % places_between_questions == 0 && !goes_on(s.graph->size())) return false;
+    if (goes_on && taken % places_between_checks == 0 && !goes_on(s.graph->size())) return false;
     const Edge edge = s.pop_widest();
     if (s.root[edge.to] == s.growing) continue;
     if (s.looks_ahead) s.look_ahead();
-    if (s.graph->goes(edge.from, edge.to)) {
+    if (s.graph->confirm_step(edge.from, edge.to)) {
       s.take(edge.to, edge.from);
     } else {
       s.offer_again(edge.to);
@@ -158,7 +158,7 @@ void WidestTree::join(NodeId root, const std::vector<bool>& among) {
   while (!edges.empty()) {
     const Edge edge = edges.top();
     edges.pop();
-    if (!joined[edge.to] && s.graph->goes(edge.from, edge.to)) take(edge.to, edge.from);
+    if (!joined[edge.to] && s.graph->confirm_step(edge.from, edge.to)) take(edge.to, edge.from);
   }
 }
 
@@ -188,7 +188,7 @@ void WidestTree::close(std::span<const NodeId> places) {
 
 double WidestTree::spacing() const { return state_->spacing; }
 std::size_t WidestTree::size() const { return state_->graph->size(); }
-std::uint64_t WidestTree::answered_ahead() const { return state_->graph->answered_ahead(); }
+std::uint64_t WidestTree::computed_ahead() const { return state_->graph->computed_ahead(); }
 const Node& WidestTree::node(NodeId id) const { return state_->graph->node(id); }
 NodeId WidestTree::root(NodeId id) const { return state_->root[id]; }
 NodeId WidestTree::parent(NodeId id) const { return state_->parent[id]; }
@@ -211,7 +211,7 @@ std::vector<NodeId> WidestTree::way_round(NodeId from, NodeId to, const std::fun
   };
   const auto may_be_taken = [&](const Edge& edge) {
     if (before[edge.to] != no_node) return false;
-    if (graph.goes(edge.from, edge.to)) return true;
+    if (graph.confirm_step(edge.from, edge.to)) return true;
     offered[edge.to] = -1.0F;
     for (const NodeId other : graph.neighbours(edge.to))
       if (before[other] != no_node) offer(other, edge.to);
@@ -229,7 +229,7 @@ std::vector<NodeId> WidestTree::way_round(NodeId from, NodeId to, const std::fun
       edge = edges.top();
       edges.pop();
     } while (!may_be_taken(edge));
-    if (goes_on && taken++ % places_between_questions == 0 && !goes_on(graph.size())) return {};
+    if (goes_on && taken++ % places_between_checks == 0 && !goes_on(graph.size())) return {};
     before[edge.to] = edge.from;
     at = edge.to;
   }

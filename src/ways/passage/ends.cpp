@@ -119,7 +119,8 @@ std::optional<Opening> gap_between(const WidestTree& tree, NodeId one, NodeId ot
   return opening;
 }
 
-bool only_floor_parts(const Survey& survey, const Measure& measure, const WidestTree& tree, NodeId one, NodeId other) {
+bool only_floor_separates(const Survey& survey, const Measure& measure, const WidestTree& tree, NodeId one,
+                          NodeId other) {
   const Hung hung(tree, other);
   for (NodeId id = 0; id < static_cast<NodeId>(tree.size()); ++id) {
     if (tree.root(id) != tree.root(one)) continue;

@@ -17,7 +17,7 @@ namespace roam::ways {
 
 /// Whether two such trees come near each other with only a step or a gap of the floor between them, and no wall. Then
 /// `narrowest` goes straight from a place of the one to the nearest of the other.
-[[nodiscard]] bool only_floor_parts(const Survey& survey, const Measure& measure, const WidestTree& tree, NodeId one,
-                                    NodeId other);
+[[nodiscard]] bool only_floor_separates(const Survey& survey, const Measure& measure, const WidestTree& tree,
+                                        NodeId one, NodeId other);
 
 }  // namespace roam::ways

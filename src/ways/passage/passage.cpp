@@ -107,7 +107,7 @@ class Search {
         others(*a, *b, way, best);
       } else if (!budget_.ended()) {
         best.opening = gap_between(tree_, *a, *b);
-        only_floor_parts_ = best.opening && only_floor_parts(survey_, measure_, tree_, *a, *b);
+        only_floor_separates_ = best.opening && only_floor_separates(survey_, measure_, tree_, *a, *b);
       }
     }
     best.proven = best.found && best.bound - best.radius <= proof;
@@ -117,7 +117,7 @@ class Search {
   }
   /// If the lattice lies badly, a search may find steep stairs, or a gap below a sill, from one end only. If walls
   /// separate the ends everywhere, a search from the other end is useless.
-  [[nodiscard]] bool may_be_found_from_other_end() const { return only_floor_parts_; }
+  [[nodiscard]] bool may_be_found_from_other_end() const { return only_floor_separates_; }
 
  private:
   /// Clearance at the ends, and the height, bound every way. A sphere that may lift has no such bound: a larger one may
@@ -200,7 +200,7 @@ class Search {
   Budget& budget_;
   WidestTree tree_;
   Vec3 from_{0.0}, to_{0.0};
-  bool only_floor_parts_ = false;
+  bool only_floor_separates_ = false;
 };
 
 Passage reversed(Passage passage) {

@@ -99,24 +99,24 @@ double off_scene(const ProbeSearch& search, const Vec3& place) {
   return glm::length(off);
 }
 
-/// The nearest place for a body of `radius`, at any distance. On foot, places no higher than `asked` and in sight come
+/// The nearest place for a body of `radius`, at any distance. On foot, places no higher than `given` and in sight come
 /// first.
-std::optional<Vec3> nearest_from_afar(const ProbeSearch& search, const Vec3& asked, double radius) {
+std::optional<Vec3> nearest_from_afar(const ProbeSearch& search, const Vec3& given, double radius) {
   const Measure measure = search.measure();
   // Seen from far away, a floor is mostly hidden, and searching around each is slow.
   constexpr int most_from_off = 8;
-  const bool is_off = off_scene(search, asked) > 0.0;
+  const bool is_off = off_scene(search, given) > 0.0;
   int tried = 0;
   std::array<std::optional<Vec3>, 4> found;
-  for (const Vec3& floor : nearest_floors(search.survey, asked)) {
+  for (const Vec3& floor : nearest_floors(search.survey, given)) {
     if (is_off && (found.front() || tried++ == most_from_off)) break;
     const double above = measure.mode == Mode::walk ? 0.0 : radius + ring;
     const auto room = room_around(search, floor + Vec3(0.0, 0.0, above), radius, around_floor, false);
     if (!room) continue;
-    const bool hidden = search.survey.world().ray(asked, eye_of(measure, *room) - asked).hit;
-    const bool higher = measure.mode == Mode::walk && room->z > asked.z + measure.step;
+    const bool hidden = search.survey.world().ray(given, eye_of(measure, *room) - given).hit;
+    const bool higher = measure.mode == Mode::walk && room->z > given.z + measure.step;
     std::optional<Vec3>& best = found[(higher ? 2U : 0U) + (hidden ? 1U : 0U)];
-    if (!best || glm::distance(*room, asked) < glm::distance(*best, asked)) best = room;
+    if (!best || glm::distance(*room, given) < glm::distance(*best, given)) best = room;
   }
   for (const auto& place : found) {
     if (place) return place;
@@ -126,8 +126,8 @@ std::optional<Vec3> nearest_from_afar(const ProbeSearch& search, const Vec3& ask
 
 }  // namespace
 
-std::optional<Vec3> stand_for(const ProbeSearch& search, const Vec3& asked) {
-  return free_end(search.survey, search.measure(), asked);
+std::optional<Vec3> stand_for(const ProbeSearch& search, const Vec3& given) {
+  return free_end(search.survey, search.measure(), given);
 }
 
 std::optional<Vec3> nearest_room(const ProbeSearch& search, const Vec3& place, double radius) {
@@ -135,13 +135,13 @@ std::optional<Vec3> nearest_room(const ProbeSearch& search, const Vec3& place, d
   return room ? room : nearest_from_afar(search, place, radius);
 }
 
-std::optional<ProbeLimit> low_end(const ProbeSearch& search, const Vec3& asked, ProbeLimit::Kind end) {
+std::optional<ProbeLimit> low_end(const ProbeSearch& search, const Vec3& given, ProbeLimit::Kind end) {
   Measure measure = search.measure();
   if (measure.mode != Mode::walk || measure.height == 0.0) return std::nullopt;
   const double tall = measure.height;
   double low = measure.step + 2.0 * measure.narrowest, high = tall;
   measure.height = low;
-  const auto place = free_end(search.survey, measure, asked);
+  const auto place = free_end(search.survey, measure, given);
   if (!place) return std::nullopt;
   constexpr double precision = 1e-4;  // m
   while (high - low > precision) {
@@ -159,37 +159,37 @@ std::optional<ProbeLimit> low_end(const ProbeSearch& search, const Vec3& asked, 
   return limit;
 }
 
-void refuse_far_end(const ProbeSearch& search, const Vec3& asked, const char* end) {
+void refuse_far_end(const ProbeSearch& search, const Vec3& given, const char* end) {
   const Box bounds = search.survey.world().bounds();
   if (search.options.mode != Mode::fly || bounds.empty()) return;
-  const double off = off_scene(search, asked), most = std::max(farthest_off, glm::length(bounds.size()));
+  const double off = off_scene(search, given), most = std::max(farthest_off, glm::length(bounds.size()));
   if (off <= most) return;
   throw NoRoomAtEnd(fmt::format("{} {}: it is {:.0f} m outside the scene, which spans {} to {}; choose a place in it, "
                                 "or at most {:.0f} m outside",
-                                end, text_of(asked), off, text_of(bounds.lower), text_of(bounds.upper), most),
+                                end, text_of(given), off, text_of(bounds.lower), text_of(bounds.upper), most),
                     std::nullopt);
 }
 
-void refuse_end(const ProbeSearch& search, const Vec3& asked, const char* end, double radius) {
+void refuse_end(const ProbeSearch& search, const Vec3& given, const char* end, double radius) {
   const Box bounds = search.survey.world().bounds();
   const bool walks = search.options.mode == Mode::walk;
   std::string why;
   if (search.survey.triangles() == 0) {
-    throw NoRoomAtEnd(fmt::format("{} {}: the scene has no triangles", end, text_of(asked)), std::nullopt);
+    throw NoRoomAtEnd(fmt::format("{} {}: the scene has no triangles", end, text_of(given)), std::nullopt);
   }
-  const Vec3 down(0.0, 0.0, bounds.lower.z - 1.0 - std::max(asked.z, bounds.lower.z));
-  if (off_scene(search, asked) > 0.0) {
+  const Vec3 down(0.0, 0.0, bounds.lower.z - 1.0 - std::max(given.z, bounds.lower.z));
+  if (off_scene(search, given) > 0.0) {
     why = fmt::format("it is off the scene, which spans {} to {}", text_of(bounds.lower), text_of(bounds.upper));
-  } else if (walks && !search.survey.floor().ray(asked + Vec3(0.0, 0.0, 0.1), down).hit) {
+  } else if (walks && !search.survey.floor().ray(given + Vec3(0.0, 0.0, 0.1), down).hit) {
     why = fmt::format("there is no floor below it: nothing that is at most {:g} degrees steep",
                       search.survey.slope_degrees());
   } else {
     why = "what is around it leaves no room, as within a wall";
   }
-  const auto place = nearest_from_afar(search, asked, radius);
+  const auto place = nearest_from_afar(search, given, radius);
   throw NoRoomAtEnd(
       fmt::format(
-          "{} {}: no body with a radius of {:g} m or more can be there; {}. {}", end, text_of(asked),
+          "{} {}: no body with a radius of {:g} m or more can be there; {}. {}", end, text_of(given),
           search.options.narrowest, why,
           place
               ? fmt::format("The nearest place found for a radius of {:g} m is {}", radius, text_of(*place))

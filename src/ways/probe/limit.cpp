@@ -211,10 +211,10 @@ Measure ProbeSearch::measure() const {
 }
 
 Passage ProbeSearch::widest() const {
-  PassageOptions asked = options;
+  PassageOptions watched = options;
   bool wanted = true;
-  asked.progress = [&](std::uint64_t places) { return wanted = !question.progress || question.progress(places); };
-  Passage passage = widest_way(survey, question.from, question.to, asked);
+  watched.progress = [&](std::uint64_t places) { return wanted = !question.progress || question.progress(places); };
+  Passage passage = widest_way(survey, question.from, question.to, watched);
   if (!wanted) throw Cancelled();
   return passage;
 }

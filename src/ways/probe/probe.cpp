@@ -197,12 +197,12 @@ std::vector<ProbeAnswer> answers_to(const Survey& survey, const ProbeQuestion& q
   for (auto& [kind, group] : groups) {
     const PassageOptions options = options_for(question, group.largest, group.least);
     group.search.emplace(ProbeSearch{survey, question, options});
-    const auto stand = [&](const Vec3& asked, ProbeLimit::Kind end, const char* name) {
-      refuse_far_end(*group.search, asked, name);
-      const auto place = stand_for(*group.search, asked);
+    const auto stand = [&](const Vec3& given, ProbeLimit::Kind end, const char* name) {
+      refuse_far_end(*group.search, given, name);
+      const auto place = stand_for(*group.search, given);
       if (place) return *place;
-      const auto low = low_end(*group.search, asked, end);
-      if (!low) refuse_end(*group.search, asked, name, group.least);
+      const auto low = low_end(*group.search, given, end);
+      if (!low) refuse_end(*group.search, given, name, group.least);
       if (!group.low) group.low = low;
       return low->feet;
     };

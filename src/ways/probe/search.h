@@ -30,21 +30,21 @@ struct ProbeSearch {
   return kind == ProbeLimit::Kind::start || kind == ProbeLimit::Kind::target;
 }
 
-/// The standing place for `asked`; none if no body of options.narrowest fits there.
-[[nodiscard]] std::optional<Vec3> stand_for(const ProbeSearch& search, const Vec3& asked);
+/// The standing place for `given`; none if no body of options.narrowest fits there.
+[[nodiscard]] std::optional<Vec3> stand_for(const ProbeSearch& search, const Vec3& given);
 
 /// The nearest place found where a body of `radius` has room: in sight and at most 3 m away, else on the nearest
 /// floors.
 [[nodiscard]] std::optional<Vec3> nearest_room(const ProbeSearch& search, const Vec3& place, double radius);
 
-/// The height limit of a body of `narrowest` at `asked`; none if no body can stand there at any height.
-[[nodiscard]] std::optional<ProbeLimit> low_end(const ProbeSearch& search, const Vec3& asked, ProbeLimit::Kind end);
+/// The height limit of a body of `narrowest` at `given`; none if no body can stand there at any height.
+[[nodiscard]] std::optional<ProbeLimit> low_end(const ProbeSearch& search, const Vec3& given, ProbeLimit::Kind end);
 
 /// Throws NoRoomAtEnd if an end lies so far outside the scene that the search would have to cover all the air between.
-void refuse_far_end(const ProbeSearch& search, const Vec3& asked, const char* end);
+void refuse_far_end(const ProbeSearch& search, const Vec3& given, const char* end);
 
 /// Throws an error with the reason why no body fits at an end, and the nearest place where one does.
-[[noreturn]] void refuse_end(const ProbeSearch& search, const Vec3& asked, const char* end, double radius);
+[[noreturn]] void refuse_end(const ProbeSearch& search, const Vec3& given, const char* end, double radius);
 
 /// Standing places for both ends.
 struct ProbeEnds {

@@ -13,7 +13,7 @@ namespace {
 /// s. A walking body checks for ground every half radius by itself, so long time steps lose nothing.
 constexpr double trial_dt = 1.0 / 30.0;
 /// Steps between two calls of `goes_on`.
-constexpr std::uint64_t asked_every = 256;
+constexpr std::uint64_t steps_between_checks = 256;
 /// m. If the walker was put this far from the start, it did not fit there.
 constexpr double put_aside = 0.05;
 /// m. How much lower than the planned way a body may stand on uneven floor.
@@ -95,7 +95,7 @@ Trial try_way(const Survey& survey, const BodyKind& kind, double radius, double 
   bool ended = false;
   while (fits && !route.done() && !ended && static_cast<double>(result.steps) < most_steps) {
     route.advance();
-    ended = goes_on && result.steps % asked_every == 0 && !goes_on();
+    ended = goes_on && result.steps % steps_between_checks == 0 && !goes_on();
   }
   trial.outcome = !fits || ended ? Outcome::held : route.done() ? result.outcome : Outcome::blocked;
   trial.at = result.end;
