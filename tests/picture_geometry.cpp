@@ -277,7 +277,7 @@ TEST(PictureSurvey, FindsFloorAndWalls) {
   way.points = {{{2, 2.5, 0.902}, 1.8, 0, false}, {{18, 2.5, 0.902}, 1.8, 16, false}};
   way.length = 16;
   const roam::WalkerSettings settings;
-  const Survey found = survey(world, way, settings, roam::Mode::walk);
+  const RoomSurvey found = survey(world, way, settings, roam::Mode::walk);
   ASSERT_GT(found.stations.size(), 100u);
   for (const Station& s : found.stations) {
     EXPECT_NEAR(s.floor.value_or(9), 0.0, 0.002);

@@ -2,7 +2,7 @@
 /// \file
 /// Instances: worlds that move in a space, such as doors, lifts, platforms and trains.
 ///
-///     auto door = std::make_shared<roam::World>(roam::World::build(door_mesh));  // its hinge at the origin
+///     auto door = std::make_shared<roam::World>(roam::World::build({&mesh, 1}));  // its hinge at the origin
 ///     roam::Instances scene(house);
 ///     const roam::ObjectId id = scene.add(door, {.position = hinge, .heading = 0.5 * pi}, {.name = "door"});
 ///     scene.set_velocity(id, {.turning = 1.0});
@@ -53,7 +53,8 @@ struct InstanceLabel {
 /// A space and the instances in it. Queries may run at the same time, but not during a change. Changes allocate.
 class Instances final : public LiveSpace {
  public:
-  /// largest_error() is this or, if larger, that of the space. Worlds with more are refused: build them lossless.
+  /// Metres. largest_error() is this or, if larger, that of the space. Worlds with more, such as those wider than some
+  /// 7 m, are refused: build them lossless.
   static constexpr double usual_error = 1e-4;
 
   /// `space` is what does not move, as a World or a Pager. It must outlive this and stay where it is. Its objects and

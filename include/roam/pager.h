@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Pager: a space over a collision store, in fixed memory, for one body. Target roam::store.
+/// Pager: a space over a collision store, in fixed memory, that loads around one body. Target roam::store.
 ///
 ///     roam::Pager pager(roam::Store::open("dam.roam"), {.memory = 64ull << 20});
 ///     // Without this wait the walker is held until ground has loaded.
@@ -12,9 +12,9 @@
 ///       pager.update(walker.body(), walker.position(), walker.velocity());  // between two steps
 ///     }
 ///
-/// A tile is resident or unknown. Unknown tiles are solid in the occupied cells of a grid of 8 x 8 x 8 over their
-/// boxes, grown by Pager::margin; unknown pages of the index are solid in their boxes. Tiles that cannot be read or are
-/// damaged are solid, too; reading is retried with increasing delay.
+/// A tile is resident or unknown. An unknown tile is solid where it may have triangles: the store says in which cells
+/// of 8 x 8 x 8 over its box, grown by Pager::margin; unknown pages of the index are solid in their boxes. Tiles that
+/// cannot be read or are damaged are solid, too; reading is retried with increasing delay.
 ///
 /// Loading threads read what the body can reach first: in a ball around it and a cone ahead. update() alone takes
 /// loaded tiles into use. All memory is allocated by the constructor. If it holds the whole store, results are those of

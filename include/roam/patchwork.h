@@ -9,7 +9,8 @@
 ///     space.deliver(tile, std::move(world_of_the_tile));             // from a loading thread
 ///     space.update(walker.body(), walker.position());                // between two steps: now it is there
 ///
-/// Before the first update() all space is free. Expected and delivered patches take effect at the next update().
+/// Before the first update() all space is free. Expected, delivered and forgotten patches take effect at the next
+/// update().
 /// Patches that refine another replace it together, once the body is free in them. A body that does not fit where it is
 /// anyway (a ghost in a wall, a body in unknown space) delays nothing.
 ///
@@ -54,8 +55,9 @@ class Patchwork final : public LiveSpace {
   /// box that is empty, not finite or beyond coordinate_limit, and for a `refines` that was never expected.
   ///
   /// Patches that refine the same one must cover it together. They replace it together, when each has come or is itself
-  /// refined by patches that have; if one fails, the coarse patch stays. They may come before it. Expect all of them
-  /// before the last is delivered: once `refines` is replaced, a new patch stands alone, its box unknown at first.
+  /// refined by patches that have; if one fails, the coarse patch stays. They may be delivered before that one. Expect
+  /// all of them before the last is delivered: once `refines` is replaced, a new patch stands alone, its box unknown at
+  /// first.
   PatchId expect(const Box& where, PatchId refines = PatchId::none);
 
   /// Delivers an expected patch; an empty world means that nothing is there. Drops it if it has been replaced. Worlds
@@ -68,9 +70,9 @@ class Patchwork final : public LiveSpace {
   void fail(PatchId patch, const std::string& reason);
 
   /// Makes a delivered patch unknown again, which frees its world; it may be delivered again. Waits while the body is
-  /// in the box or within 2 * margin of it, unless update() gets no body. A patch that comes back during the wait takes
-  /// its place at once, and may overlap the body. Does nothing if finer patches replaced it. Throws roam::Error for a
-  /// patch that was not expected or is not delivered.
+  /// in the box or within 2 * margin of it, unless update() gets no body. If the patch is delivered again during the
+  /// wait, the next update() takes the new one, which may overlap the body. Does nothing if finer patches replaced it.
+  /// Throws roam::Error for a patch that was not expected or is not delivered.
   void forget(PatchId patch);
 
   /// Takes what was delivered into use; finer patches must leave `body` free at `place`. Returns whether a triangle or

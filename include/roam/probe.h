@@ -69,7 +69,7 @@ struct ProbeLimit {
     door,    ///< walls on both sides; `size` is the distance between them
     lintel,  ///< surfaces above and below at an angle; `size` is the diameter of the largest body that passes
     gap,     ///< flying: any two surfaces; `size` is the distance between them
-    edge,    ///< a wall on one side, the end of the floor on the other; `size` is from the wall to the axis
+    edge,    ///< a wall on one side, the end of the floor on the other; `size` is from the wall to the body's axis
     start,   ///< `from` is beside a wall, and `size` is from it to the axis; or under a ceiling, see `too_low`
     target,  ///< likewise for `to`
     height,  ///< headroom; `size` is the height that a body of this radius may have

@@ -79,7 +79,7 @@ class Route {
   /// A waypoint counts as reached at a distance of at most the radius from the body's axis. In walk mode that distance
   /// is horizontal, and the waypoint at most the step height above the body's top or below its lowest point, or in
   /// sight at most 2 m above its lowest point. The body still heads for the waypoint itself until something keeps it
-  /// from coming nearer: corners are not cut.
+  /// from coming nearer: it cuts no corners.
   Route(Walker& walker, std::span<const Vec3> waypoints, const RouteOptions& options = {});
   [[nodiscard]] bool done() const { return done_; }
   const StepReport& advance();  ///< makes one step; throws roam::Error when done()

@@ -12,7 +12,7 @@ namespace roam {
 struct SizeRegion {
   Box bounds = {};              ///< finite, not empty
   double radius = 0.0;          ///< of the body, > 0; a capsule keeps its height
-  double support_radius = 0.0;  ///< of the support disc, see WalkerSettings::support_radius; 0: no disc
+  double support_radius = 0.0;  ///< of the support disc, see WalkerSettings::support_radius; 0: no disc in here
   std::string why = {};         ///< for display: "door 0.71 m wide"
 };
 

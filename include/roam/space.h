@@ -77,7 +77,7 @@ struct Query {
 /// space stores triangles to within largest_error(), a hit at time 0 may be up to 2 mm clear. `point` lies on the
 /// triangle as stored. The normal of a ray is that of the face, or of the nearest edge or corner.
 struct Impact : SweepResult {
-  TriangleId triangle = no_triangle;  ///< touched first; meaningless if `unknown`
+  TriangleId triangle = no_triangle;  ///< touched first; if `unknown`, Space::object() names the reason
   ObjectId object = no_object;        ///< of the triangle
   bool unknown = false;               ///< the hit is the border of unknown space, or the body starts inside it
 };
@@ -122,10 +122,10 @@ struct Floor {
 struct SpaceFacts {
   Box bounds = {};             ///< of everything, known or unknown; empty for an empty space
   double largest_error = 0.0;  ///< farthest that a stored vertex lies from where the caller put it; never grows
-  /// Changes whenever something came or went: then a held body tries again, and until then Walker reuses results of
-  /// gap_bound(). None: the space may change without notice.
+  /// Changes whenever something came or went. A held body then tries again. While it stays the same, Walker reuses
+  /// results of gap_bound(). None: the space may change without notice.
   std::optional<std::uint64_t> revision = {};
-  /// m/s: the speed at which space ahead is known in time. Walker slows down to it; a faster body stops at the unknown.
+  /// m/s: up to this speed, space ahead is loaded in time. Walker slows down to it; a faster body stops at the unknown.
   double speed_limit = std::numeric_limits<double>::infinity();
 };
 
@@ -137,7 +137,7 @@ class Space {
 
   /// First impact of the body on its motion.
   [[nodiscard]] Impact sweep(const Query& query) const { return swept(query, nullptr); }
-  /// The same without the contact, which takes a sixth of the time of a hit.
+  /// The same without point and normal; computing these takes a sixth of the time of a sweep that hits.
   [[nodiscard]] FirstImpact first_impact(const Query& query) const;
   /// Completes `first`, from first_impact() for the same query, to the result of sweep(), to the bit. Throws
   /// roam::Error for a hit if the space's revision has changed since; a space without revision must not have changed.
@@ -157,8 +157,8 @@ class Space {
   [[nodiscard]] Clearance floor_clearance(const Body& body, const Vec3& place, double reach, const Floor& floor) const;
 
   /// A certified lower bound of the least gap on the motion, or `reach` if nothing is within it. A value above 0 means
-  /// that the whole motion is free; if below `reach`, the true gap is at most value * 8 / 7 + 2 mm. A value <= 0 means
-  /// touching, overlapping or a gap below 2 mm; it is not a depth.
+  /// that the whole motion is free. Below `reach` the value may be too low: the true gap is at most 8/7 of it plus 2
+  /// mm. A value <= 0 means touching, overlapping or a gap below 2 mm; it is not a depth.
   [[nodiscard]] double gap_bound(const Query& query, double reach) const { return gap_over(query, reach, nullptr); }
 
   /// Batches on all cores; they allocate. results[i] is, to the bit, what the function above returns for queries[i];
@@ -190,7 +190,7 @@ class Space {
 
   /// First triangle on the ray from + t * motion, t in [0, 1]: the sweep of a point. It slips through no shared edge.
   [[nodiscard]] Impact ray(const Vec3& from, const Vec3& motion) const { return sweep({0.0, 0.0}, from, motion); }
-  /// Whether the body has a certified gap of at least 1e-6 m at `place`, so that a sweep from there starts free.
+  /// Whether a sweep from `place` starts free: the certified gap is at least 1e-6 m. A true gap above 2 mm suffices.
   [[nodiscard]] bool fits(const Body& body, const Vec3& place) const {
     constexpr double least_gap = 1e-6;
     return clearance(body, place, least_gap).distance >= least_gap;

@@ -19,9 +19,9 @@ namespace roam {
 /// feet, such as Passage::way and those of train(), into waypoints of a Route.
 [[nodiscard]] std::vector<Vec3> standing(std::span<const Vec3> feet, const WalkerSettings& settings);
 
-/// The centre, for Walker::place(), of a body that stands upright and firmly, within the slope limit, on known space,
-/// at most `within` from `near`: the nearest found, or none. Tries columns about a radius apart, at most 4096, and at
-/// most 64 floors in each, for some microseconds a floor. A wall may lie between `near` and the result. Throws
+/// The centre, for Walker::place(), of a body that stands upright and firmly, within the slope limit, on known space.
+/// The nearest centre found at most `within` from `near`, or none. Tries columns about a radius apart, at most 4096,
+/// and at most 64 floors in each, for some microseconds a floor. A wall may lie between `near` and the result. Throws
 /// roam::Error for settings out of range, a `near` that is not finite and a `within` not in (0, Space::reach_limit].
 [[nodiscard]] std::optional<Vec3> place_to_stand(const Space& space, const WalkerSettings& settings, const Vec3& near,
                                                  double within);

@@ -77,8 +77,8 @@ struct Segment {
   double height = 0.0;  ///< of the body
   double radius = 0.0;  ///< of the body
   double time = 0.0;    ///< at its end, since the step began
-  /// Along all of it, at least radius - 1e-6; 0 if unknown (ghost, or being freed). It is at most a quarter of
-  /// the gap, two skins and 2 mm too low; Space::clearance() measures more closely.
+  /// Along all of it, at least radius - 1e-6; 0 if unknown (ghost, or being freed). It may be too low, by at
+  /// most a quarter of the gap plus two skins plus 2 mm; Space::clearance() measures more closely.
   double axis_clearance = 0.0;
   bool teleport = false;  ///< put here, not moved: nothing is known of the way
 };

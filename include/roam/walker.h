@@ -45,8 +45,8 @@ class Walker {
   /// Puts the standing body at rest with its centre, half its height above its lowest point, at `centre`. Throws
   /// roam::Error if that is not finite. If the body does not fit there, the first of these that works:
   ///   - in walk mode, it crouches with the same lowest point;
-  ///   - it is freed: put to the nearest free position found, at most its height away. A sphere about its centre, as
-  ///     large as the start allows, meets nothing on the straight line there: the centre stays on its side of walls;
+  ///   - it is freed: put to the nearest free position found, at most its height away. Its centre stays on its side of
+  ///     walls: a small sphere about the centre meets nothing on the straight line there;
   ///   - in walk mode, it crouches with the same centre;
   ///   - it is held: it stays, and each step reports `held`, until place() or ghost mode. After a change of its size or
   ///     of the space's revision, the next step puts it there again. In unknown space it also reports `met_unknown`,
@@ -58,12 +58,12 @@ class Walker {
   /// last one of its way if that is nearer, or held. Into walk mode, positions with something below come first.
   const StepReport& set_mode(Mode mode);
 
-  /// Sets (copies) the regions where the body has another size, from the next call on. Throws roam::Error as check().
-  /// A body enters a region when its centre or lowest point is in the bounds, and leaves it when both are 5 cm outside,
-  /// to within half a radius of its way. It shrinks at once, keeping its lowest point and, unless a sphere, its height.
-  /// It grows as soon as the larger body is certified free with the same lowest point, or on a slope a little higher. A
-  /// sphere stays a sphere. The eye keeps its height above the lowest point, or is at the top of a lower body. A
-  /// support disc does not shrink while it carries the body.
+  /// Sets (copies) the regions where the body has another size, from the next call on. Throws roam::Error as check(). A
+  /// body enters a region when its centre or lowest point is in the bounds, and leaves it when both are 5 cm outside.
+  /// In a fast step it may notice that up to half a radius late. It shrinks at once, keeping its lowest point and,
+  /// unless a sphere, its height. It grows as soon as the larger body is certified free with the same lowest point, or
+  /// on a slope a little higher. A sphere stays a sphere. The eye keeps its height above the lowest point, or is at the
+  /// top of a lower body. A support disc does not shrink while it carries the body.
   void set_regions(std::span<const SizeRegion> regions);
   [[nodiscard]] std::span<const SizeRegion> regions() const;
 
@@ -84,13 +84,15 @@ class Walker {
   /// Cannot move: cannot be freed (see place()), or would fall out of the scene again, until the mode or space changes.
   [[nodiscard]] bool held() const;
   [[nodiscard]] double rise_speed() const;  ///< in the air, positive upwards; 0 on the ground and outside walk mode
-  /// For LiveSpace::update(): the average over the last call and the move_instances() before it, without teleports.
+  /// For LiveSpace::update(): the average over the last call and the move_instances() before it, without teleports,
+  /// m/s. It includes the motion of the ground; pace() does not.
   [[nodiscard]] Vec3 velocity() const;
   /// The velocity from which limits of acceleration start: at the end of the last step, along what the body slid on,
   /// relative to moving ground, horizontal in walk mode. 0 if the body was stopped, held or put.
   [[nodiscard]] Vec3 pace() const;
   [[nodiscard]] const StepReport& report() const;  ///< of the last call
-  /// The gap kept from what the body slides along: 2 * largest_error() + 0.1 mm. It passes openings that leave less.
+  /// The gap kept from what the body slides along: 2 * largest_error() + 0.1 mm. The body also passes openings that
+  /// leave it less.
   [[nodiscard]] double skin() const;
   [[nodiscard]] double fall_limit() const;  ///< radius + step: a larger drop below the ground last stood on is a fall
 

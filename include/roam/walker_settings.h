@@ -23,9 +23,9 @@ enum class Mode : std::uint8_t { fly, walk, ghost };
 struct WalkerSettings {
   double radius = 0.3;  ///< > 0. Too large a body is kept out of rooms; too small a body falls into cracks
   /// >= 0: radius of the support disc, in walk mode; 0: none. The disc carries the body, at the height of the floor,
-  /// over each crack that has no room for the disc: half the width of the widest crack plus 2 mm will do. It touches
-  /// nothing. Less than `radius` counts as `radius`. Unknown space carries it as floor does; the report says
-  /// `met_unknown`. docs/walking.md tells cracks from pits.
+  /// over each crack that has no room for the disc. Its radius must exceed half the width of the widest crack by 2 mm.
+  /// Walls do not stop it. Above 0, less than `radius` counts as `radius`. Unknown space carries it as floor does; the
+  /// report says `met_unknown`. docs/walking.md tells cracks from pits.
   double support_radius = 0.0;
   /// >= 2 * radius (equal: a sphere), in every mode: {.radius = 0.3} also flies as a capsule of 1.8 m. A lower body
   /// needs a lower eye and perhaps a lower step: see person() and sphere().
@@ -77,8 +77,8 @@ void check(std::span<const SizeRegion> regions, const WalkerSettings& settings);
 
 /// The wish for one step.
 struct WalkerInput {
-  /// m/s, finite. In walk mode only the horizontal part counts, in the air as on the ground, relative to moving ground
-  /// (roam/move_instances.h) until the body lands elsewhere.
+  /// m/s, finite. In walk mode only the horizontal part counts, also in the air. On moving ground, and in the air after
+  /// leaving it, it is relative to that ground (roam/move_instances.h).
   Vec3 velocity{0.0};
   bool jump = false;    ///< walk mode: jump when on the ground; while true, again at each landing
   bool crouch = false;  ///< walk mode: crouch and stay so; under low ceilings the body crouches by itself

@@ -141,7 +141,7 @@ void BuildProcess::load() {
     state = {};
     state.phase = LoadState::Phase::done;
     state.share = 1.0;
-    built_ = {std::move(pager), told_notes(report, output_)};
+    built_ = {std::move(pager), notes_as_sentences(report, output_)};
   });
 }
 
