@@ -6,7 +6,7 @@
 # damage. About ten minutes. Needs strace.
 #
 # Each bit of a small store, and 10^5 damages at random, are a program's:
-#   ROAM_TEST_DAMAGES=100000 build-check/test_store_damage_bits
+#   ROAM_TEST_DAMAGES=100000 build-check/test_store --gtest_filter='StoreDamageBits*'
 set -uo pipefail
 source "$(dirname "$0")/complaints.sh"
 trap 'rm -rf "$work"' EXIT

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include "../bench/judge.h"
+#include "bench/judge.h"
 
 namespace roam::bench {
 namespace {

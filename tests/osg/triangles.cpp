@@ -1,4 +1,4 @@
-// Which triangles of a scene graph count. tests/import_scene_graph.cpp asks the same walk about files.
+// Which triangles of a scene graph count. tests/import/scene_graph.cpp asks the same walk about files.
 
 #include <gtest/gtest.h>
 

@@ -33,7 +33,8 @@ check() {
       if (("src/" name) in files) return "src/" name
       if (("apps/roam/" name) in files) return "apps/roam/" name
       if (("baseline/" name) in files) return "baseline/" name
-      if (("tests/" name) in files) return "tests/" name
+      if (("tests/made/" name) in files) return "tests/made/" name
+      if (("tests/support/" name) in files) return "tests/support/" name
       return (folder name ".in") in files ? "made" : ""
     }
     function wrong(from, to, what) {

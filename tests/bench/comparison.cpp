@@ -5,7 +5,7 @@
 #include <chrono>
 #include <thread>
 
-#include "../bench/comparison.h"
+#include "bench/comparison.h"
 #include "roam/error.h"
 
 namespace roam::bench {

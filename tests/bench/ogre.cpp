@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "../bench/paper_movers.h"
+#include "bench/paper_movers.h"
 #include "program.h"
 #include "roam/error.h"
 

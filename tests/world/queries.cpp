@@ -2,30 +2,13 @@
 
 #include <gtest/gtest.h>
 
-#include <atomic>
 #include <cmath>
-#include <cstdlib>
-#include <new>
 #include <thread>
 
 #include "clutter.h"
+#include "counted_allocations.h"
 #include "oracle.h"
 #include "roam/world.h"
-
-namespace {
-std::atomic<long> allocations{0};
-}
-
-#ifndef __SANITIZE_ADDRESS__  // which has an operator new of its own
-// Not inlined: g++ takes malloc and free that it sees through them for a mismatch.
-[[gnu::noinline]] void* operator new(std::size_t size) {
-  ++allocations;
-  if (void* p = std::malloc(size)) return p;
-  throw std::bad_alloc();
-}
-[[gnu::noinline]] void operator delete(void* p) noexcept { std::free(p); }
-[[gnu::noinline]] void operator delete(void* p, std::size_t) noexcept { std::free(p); }
-#endif
 
 namespace {
 

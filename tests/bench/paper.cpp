@@ -7,8 +7,8 @@
 #include <random>
 #include <thread>
 
-#include "../bench/judge.h"
-#include "../bench/paper_report.h"
+#include "bench/judge.h"
+#include "bench/paper_report.h"
 
 namespace roam::bench {
 namespace {
