@@ -7,7 +7,7 @@
 
 #include "cli/exit_status.h"
 #include "cli/interrupt.h"
-#include "cli/numbers.h"
+#include "cli/values.h"
 #include "cli/progress.h"
 #include "cli/report.h"
 #include "cli/tell.h"
