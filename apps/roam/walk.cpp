@@ -344,8 +344,7 @@ ExitStatus walk(WalkOptions options) {
 
 constexpr const char* help =
     R"(The report says how the walk ended: reached, blocked (where and by what), fell, left_scene
-or held. It gives the least clearance on the way, certified, and the time of the steps. Exit status 0 when the end is
-reached, 3 when not. After Ctrl-C, report, trace and picture of the way so far are still written (130).
+or held; then the tightest place of the way and the headroom. Exit status 0 when the end is reached, 3 when not. After Ctrl-C, report, trace and picture of the way so far are still written (130).
 
 A path file has one waypoint `x y z` in each line, or the lines `t x y z qx qy qz qw` that osgViewer records. Times and
 rotations are ignored: --speed and --dt set the pace. Positions are of the body's centre. A waypoint counts as reached

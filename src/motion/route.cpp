@@ -217,6 +217,7 @@ void Route::judge(const StepReport& report, double distance_before, double free_
   if (coming_down_) {
     // Without ground the body may also be caught between slopes; then it goes on from there.
     coming_down_ = !walker_->stance().level && walker_->rise_speed() < 0.0;
+    if (coming_down_ && result_.simulated > longest_descent) return finish(Outcome::held);
     start_window();
     return;
   }

@@ -17,7 +17,7 @@ namespace {
 
 constexpr int most_floors = 64;      // that are looked at in a column
 constexpr double lift = 0.05;        // m, a start is looked for so high above a floor, then let down
-constexpr double floor_gap = 0.01;   // m, the next floor of a column is looked for so far below the last
+constexpr double floor_gap = 0.01;   // m, at least: the next floor of a column is looked for so far below the last
 constexpr double wall_reach = 30.0;  // m, farther is the open
 constexpr double hall = 15.0;        // m, who sees farther from within walls is in no closet and no hollow house
 constexpr double inside_worth = 4.0;
@@ -117,14 +117,11 @@ WanderStart start_at(const Space& space, const WalkerSettings& settings, Mode mo
   return start;
 }
 
-/// Metres from a place down to what lies below it, if that is within `depth`. A ray reaches no farther than a motion.
+/// Metres from a place down to the triangle below it, if that is within `depth` and one ray's reach.
 std::optional<double> drop_from(const Space& space, const Vec3& place, double depth) {
-  for (double begin = 0.0; begin < depth; begin += Space::motion_limit) {
-    const double part = std::min(depth - begin, Space::motion_limit);
-    const Impact down = space.ray(place - Vec3(0, 0, begin), {0, 0, -part});
-    if (down.hit) return begin + down.time * part;
-  }
-  return std::nullopt;
+  const double reach = std::min(depth, Space::motion_limit);
+  const Impact down = space.ray(place, {0, 0, -reach});
+  return down.hit ? std::optional(down.time * reach) : std::nullopt;
 }
 
 void demand_positive(const char* what, double value, const char* unit) {
@@ -144,6 +141,8 @@ std::optional<WanderStart> wander_start(const Space& space, const WalkerSettings
   if (box.empty()) return std::nullopt;
   const Vec3 size = box.size();
   WanderStart best{.room = -1.0};
+  // A hit may be some errors above the triangle: it must not be found again.
+  const double below = std::max(floor_gap, 8.0 * space.largest_error());
   const auto consider = [&](const Vec3& floor) {
     if (goes_on && !goes_on()) throw Cancelled();
     const WanderStart start = start_at(space, settings, mode, floor);
@@ -159,7 +158,7 @@ std::optional<WanderStart> wander_start(const Space& space, const WalkerSettings
         if (!drop) break;
         top.z -= *drop;
         consider(top);
-        top.z -= floor_gap;
+        top.z -= below;
       }
     }
   }

@@ -73,7 +73,7 @@ std::string explain_held(const EndedWalk& walk) {
         "by; {} or take a smaller radius",
         exactly_at(result.end), wanders ? "start elsewhere (--from)" : "move the first waypoint");
   }
-  if (!first(result, EventKind::put_back)) return explain_wait(walk);
+  if (!first(result, EventKind::put_back) && first(result, EventKind::met_unknown)) return explain_wait(walk);
   return fmt::format("at {} there is no ground below to stand on; {}, or fly", exactly_at(result.end),
                      wanders ? "start elsewhere (--from)" : "move the waypoint onto the ground");
 }
@@ -120,8 +120,9 @@ std::string stopped(const EndedWalk& walk) {
       return "fell";
     case Outcome::held:
       return held_since_start(result) && !first(result, EventKind::met_unknown) ? "does not fit where it starts"
-             : first(result, EventKind::put_back)                               ? "no ground below"
-                                                                                : "the space ahead is not loaded";
+             : first(result, EventKind::put_back) || !first(result, EventKind::met_unknown)
+                 ? "no ground below"
+                 : "the space ahead is not loaded";
   }
   return {};
 }

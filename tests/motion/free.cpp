@@ -87,7 +87,8 @@ TEST(WalkerFree, WhatComesUponAMovingBodyFreesOrHoldsIt) {
   for (const Mode mode : {Mode::fly, Mode::walk}) {
     for (const double speed : {0.0, 0.5, 50.0}) {
       for (const double ahead : {-0.1, 0.1, 0.25}) {
-        SCOPED_TRACE(testing::Message() << to_string(mode) << " at " << speed << " m/s, a wall " << ahead << " m ahead");
+        SCOPED_TRACE(testing::Message() << to_string(mode) << " at " << speed << " m/s, a wall " << ahead
+                                        << " m ahead");
         ChangingRoom room(hall(), true);
         Walker w(room, {}, mode, {0.0, 0.0, -4.0});
         for (int i = 0; i < 30; ++i) w.step({}, frame);

@@ -101,8 +101,9 @@ TEST(Galleries, AreWalkedByASlimBodyWithAWideFootAndByNoOther) {
     const World world = build(gallery.mesh);
     const double slim = 0.97 * 0.5 * gallery.narrowest_door, half = 0.5 * gallery.widest_split;
     const roam::RouteResult result = walk(gallery, world, slim, half + 0.02);
-    EXPECT_EQ(result.outcome, roam::Outcome::reached) << "seed " << seed << ": " << roam::to_string(result.outcome) << " at "
-                                                      << result.end.x << " " << result.end.y << " " << result.end.z;
+    EXPECT_EQ(result.outcome, roam::Outcome::reached)
+        << "seed " << seed << ": " << roam::to_string(result.outcome) << " at " << result.end.x << " " << result.end.y
+        << " " << result.end.z;
     EXPECT_GE(result.least_gap, -1e-6);
     EXPECT_EQ(walk(gallery, world, 1.02 * 0.5 * gallery.narrowest_door, half + 0.02).outcome, roam::Outcome::blocked)
         << "seed " << seed;

@@ -1,6 +1,8 @@
 // Random walks and flights through a patchwork whose patches come late, in random order, coarse and fine, or not at
 // all. Brute force judges every step against what is in use at that moment.
 
+#include "roam/patchwork.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -9,7 +11,6 @@
 #include <numbers>
 #include <vector>
 
-#include "roam/patchwork.h"
 #include "walker_judged.h"
 
 namespace {

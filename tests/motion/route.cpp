@@ -1,3 +1,5 @@
+#include "roam/route.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -6,7 +8,6 @@
 #include <vector>
 
 #include "roam/error.h"
-#include "roam/route.h"
 #include "roam/standing.h"
 #include "walker_scenes.h"
 
@@ -256,6 +257,12 @@ TEST(Route, IsHeldWhereItNeverFindsGround) {
   EXPECT_EQ(r.outcome, Outcome::held);
   EXPECT_GE(r.least_gap, 0.75);  // nothing came near: three quarters at least of how far clearances are told
   EXPECT_NEAR(r.least_axis_clearance, r.least_gap + 0.3, 1e-12);
+}
+
+TEST(Route, IsHeldWhereTheGroundIsTooFarBelowToComeDownTo) {
+  const RouteResult r = follow(floor_mesh(), {}, Mode::walk, {{0.0, 0.0, 1e6}, {5.0, 0.0, 1e6}});
+  EXPECT_EQ(r.outcome, Outcome::held);
+  EXPECT_NEAR(r.simulated, roam::Route::longest_descent, 1.0);
 }
 
 TEST(Route, TellsTheClearanceOfItsMovesWhereSomethingComesUponTheBody) {

@@ -1,10 +1,11 @@
+#include "roam/standing.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <optional>
 
 #include "roam/error.h"
-#include "roam/standing.h"
 #include "walker_scenes.h"
 
 namespace {

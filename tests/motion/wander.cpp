@@ -1,11 +1,12 @@
 // Wandering by the core alone: where it goes, when it ends, what it refuses.
+#include "roam/wander.h"
+
 #include <gtest/gtest.h>
 
 #include <set>
 #include <string>
 
 #include "messages.h"
-#include "roam/wander.h"
 #include "roam/world.h"
 #include "walker_scenes.h"
 
@@ -91,6 +92,17 @@ TEST(WanderStart, IsOnAFloorWithinWalls) {
   EXPECT_FALSE(wander_start(world, {.radius = 2.0, .height = 8.0}, Mode::fly, {}, 0)) << "no candidate";
   EXPECT_FALSE(wander_start(World(), person, Mode::walk)) << "an empty scene";
   EXPECT_THROW((void)wander_start(world, {.radius = -1.0}, Mode::walk), Error);
+}
+
+TEST(WanderStart, IsLookedForOnceOnEachFloorOfAHugeScene) {
+  roam::Mesh huge;
+  scenes::add_floor(huge, -1e9, -1e9, 1e9, 1e9, 1e9);
+  scenes::add_floor(huge, -1e9, -1e9, 1e9, 1e9, -1e9);
+  const World world = scenes::build(huge);
+  int looked = 0;
+  const auto count = [&] { return ++looked > 0; };
+  (void)wander_start(world, person, Mode::walk, {}, 4, count);
+  EXPECT_LE(looked, 2 * 4 * 4);
 }
 
 TEST(WanderStart, EndsWhenGoesOnSaysNo) {
