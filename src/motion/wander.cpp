@@ -15,11 +15,12 @@
 namespace roam {
 namespace {
 
-constexpr int most_floors = 64;      // that are looked at in a column
-constexpr double lift = 0.05;        // m, a start is looked for so high above a floor, then let down
-constexpr double floor_gap = 0.01;   // m, at least: the next floor of a column is looked for so far below the last
-constexpr double wall_reach = 30.0;  // m, farther is the open
-constexpr double hall = 15.0;        // m, who sees farther from within walls is in no closet and no hollow house
+constexpr int most_floors = 64;       // that are looked at in a column
+constexpr double lift = 0.05;         // m, a start is looked for so high above a floor, then let down
+constexpr double floor_gap = 0.01;    // m, at least: the next floor of a column is looked for so far below the last
+constexpr int most_more_rays = 2048;  // in all, for scenes that are higher than a ray is long
+constexpr double wall_reach = 30.0;   // m, farther is the open
+constexpr double hall = 15.0;         // m, who sees farther from within walls is in no closet and no hollow house
 constexpr double inside_worth = 4.0;
 constexpr int room_strides = 20;    // 10 m: farther is free enough
 constexpr double fly_height = 2.0;  // m above the floor, where there is no ceiling to stay under
@@ -117,11 +118,15 @@ WanderStart start_at(const Space& space, const WalkerSettings& settings, Mode mo
   return start;
 }
 
-/// Metres from a place down to the triangle below it, if that is within `depth` and one ray's reach.
-std::optional<double> drop_from(const Space& space, const Vec3& place, double depth) {
-  const double reach = std::min(depth, Space::motion_limit);
-  const Impact down = space.ray(place, {0, 0, -reach});
-  return down.hit ? std::optional(down.time * reach) : std::nullopt;
+/// Metres from a place down to the triangle below it, if that is within `depth`. A ray reaches no farther than a
+/// motion; `more_rays` is how many more may be cast.
+std::optional<double> drop_from(const Space& space, const Vec3& place, double depth, int& more_rays) {
+  for (double begin = 0.0; begin < depth && (begin == 0.0 || --more_rays >= 0); begin += Space::motion_limit) {
+    const double part = std::min(depth - begin, Space::motion_limit);
+    const Impact down = space.ray(place - Vec3(0, 0, begin), {0, 0, -part});
+    if (down.hit) return begin + down.time * part;
+  }
+  return std::nullopt;
 }
 
 void demand_positive(const char* what, double value, const char* unit) {
@@ -142,6 +147,7 @@ std::optional<WanderStart> wander_start(const Space& space, const WalkerSettings
   const Vec3 size = box.size();
   WanderStart best{.room = -1.0};
   // A hit may be some errors above the triangle: it must not be found again.
+  int more_rays = most_more_rays;
   const double below = std::max(floor_gap, 8.0 * space.largest_error());
   const auto consider = [&](const Vec3& floor) {
     if (goes_on && !goes_on()) throw Cancelled();
@@ -154,7 +160,7 @@ std::optional<WanderStart> wander_start(const Space& space, const WalkerSettings
       Vec3 top{box.lower.x + size.x * (i + 0.5) / columns, box.lower.y + size.y * (j + 0.5) / columns,
                box.upper.z + 1.0};
       for (int level_below = 0; level_below < most_floors; ++level_below) {
-        const std::optional<double> drop = drop_from(space, top, top.z - box.lower.z + 1.0);
+        const std::optional<double> drop = drop_from(space, top, top.z - box.lower.z + 1.0, more_rays);
         if (!drop) break;
         top.z -= *drop;
         consider(top);

@@ -82,11 +82,11 @@ TEST_F(TextFiles, ADashIsStandardOutputAndTheReportGoesToStandardError) {
   const ProgramResult streamed = run(walk(path + " --trace -"));
   EXPECT_EQ(streamed.status, 0) << streamed.err;
   EXPECT_EQ(streamed.out, folder_.read("t.csv"));
-  EXPECT_TRUE(contains(streamed.err, "reached: ")) << streamed.err;
+  EXPECT_TRUE(contains(streamed.err, "REACHED: ")) << streamed.err;
   const ProgramResult viewed =
       run("view " + in_quotes(scene_) + " --headless --size 160x120 --path " + path + " --trace -");
   EXPECT_TRUE(viewed.out.starts_with("step,t,x,y,z,radius,")) << viewed.out.substr(0, 200);
-  EXPECT_FALSE(contains(viewed.out, "reached: ")) << viewed.out;
+  EXPECT_FALSE(contains(viewed.out, "REACHED: ")) << viewed.out;
 
   // The way that one program finds is the way that another goes.
   const ProgramResult found =

@@ -227,7 +227,7 @@ TEST(WalkVerb, WritesAllThatItHasWhenItIsInterrupted) {
 
   const ProgramResult words = run_program(ROAM_PROGRAM, {"walk", scene, "--wander", "1e9"}, {.interrupt_after = 1});
   EXPECT_EQ(words.status, 130);
-  EXPECT_TRUE(words.out.starts_with("interrupted: ")) << words.out;
+  EXPECT_TRUE(words.out.starts_with("INTERRUPTED after ")) << words.out;
   EXPECT_FALSE(contains(words.out, "reached")) << words.out;
 }
 

@@ -35,10 +35,10 @@ class DrivenSession {
     session.emplace(options, roam::app::make_plan(options, settings), settings);
     if (!until([this] { return session->roaming(); })) throw std::runtime_error("nothing was loaded");
   }
-  /// Runs frames until a condition holds; false if it does not within a minute.
+  /// Runs frames until a condition holds; false if it does not within five minutes: builds have a low priority.
   template <class Done>
   bool until(const Done& done) {
-    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+    const auto end = std::chrono::steady_clock::now() + std::chrono::minutes(5);
     while (!done() && std::chrono::steady_clock::now() < end) {
       if (!session->frame()) return false;
     }
