@@ -120,7 +120,8 @@ std::string text_report(const SceneOptions& options, const LoadedScene& scene) {
   lines.add("closed", closed_words(measure::count_edges(scene.meshes)));
   lines.add("left out", left_out_words(scene.report));
   std::error_code none;
-  if (const auto profile = profile_path(options.scenes); std::filesystem::exists(profile, none))
+  if (const auto profile = profile_path(options.scenes);
+      std::filesystem::exists(std::filesystem::symlink_status(profile, none)))
     lines.add("trained", printable_part(profile.string()));
   return lines.text();
 }

@@ -74,7 +74,7 @@ void write_profile(const TrainVerbOptions& o, const std::filesystem::path& file,
   const bool learned = t.complete || !t.paths.empty();
   if (!learned) {
     tell(fmt::format("{} was not written: this training ended before it had learned anything", file.string()));
-  } else if (!t.complete && !o.profile && std::filesystem::exists(file)) {
+  } else if (!t.complete && !o.profile && std::filesystem::exists(std::filesystem::symlink_status(file))) {
     tell(fmt::format("{} is left as it is: this training ended early", file.string()));
   } else {
     save_profile(profile_of(t, identity), file);

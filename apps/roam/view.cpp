@@ -12,6 +12,7 @@
 #include "cli/standard_streams.h"
 #include "cli/tell.h"
 #include "roam/error.h"
+#include "scenes/beside_scene.h"
 #include "verbs.h"
 #include "verify/verify_stored.h"
 #include "view/notices.h"
@@ -55,7 +56,10 @@ std::optional<SceneProfile> profile_for(const ViewOptions& options, const std::o
 verification::Verification verified(const ViewReport& report, const ViewOptions& options,
                                     const std::function<bool(std::uint64_t)>& progress) {
   if (report.store.empty() || !report.meshes.empty()) return verify(report.meshes, report.pieces, progress);
-  return verify(*Store::open(report.store, options.scene.store_memory()), report.pieces, progress);
+  const std::uint64_t memory = options.scene.store_memory();
+  const bool named = !options.store.empty() || options.scene.name_a_store();
+  const auto store = named ? Store::open(report.store, memory) : open_store_beside(report.store, memory);
+  return verify(*store, report.pieces, progress);
 }
 
 ExitStatus view(const ViewOptions& options) {

@@ -59,6 +59,7 @@ struct ImportProgress {
 struct ImportOptions {
   std::optional<UpAxis> up{};       ///< unset: y for glTF, z for everything else
   LengthUnit unit = LengthUnit::m;  ///< coordinates are multiplied by metres_per(unit)
+  bool through_link = true;         ///< whether a path itself may be a symbolic link; the folders above always may
   /// Shell patterns (fnmatch; case counts, * matches / too). Objects are left out if their Mesh::name or an ancestor's
   /// name matches. An object without a name has the file's name without its extension.
   std::vector<std::string> ignore{};

@@ -41,11 +41,13 @@ Descriptor open_folder_of(const fs::path& file) {
   return folder;
 }
 
-/// A regular file, open for reading. The folder of a scene may come from a stranger: a pipe in it would keep the reader
-/// waiting for ever, and a link could lead to a secret that a message then quotes.
-Descriptor open_regular(const fs::path& file) {
+}  // namespace
+
+// The folder of a scene may come from a stranger: a pipe in it would keep the reader waiting for ever, and a link could
+// lead to a secret that a message then quotes.
+Descriptor open_regular(int folder, const std::string& name, const fs::path& file) {
   Descriptor opened(
-      again([&] { return ::open(file.c_str(), O_RDONLY | O_NONBLOCK | O_NOFOLLOW | O_NOCTTY | O_CLOEXEC); }));
+      again([&] { return ::openat(folder, name.c_str(), O_RDONLY | O_NONBLOCK | O_NOFOLLOW | O_NOCTTY | O_CLOEXEC); }));
   if (!opened.is_open()) {
     if (errno != ELOOP) fail("read", file, errno);
     throw Error(fmt::format("cannot read {}: it is a link; put the file itself there", file.string()));
@@ -68,8 +70,6 @@ std::string read_to_end(const Descriptor& opened, const fs::path& file, std::uin
     if (text.size() > limit) fail("read", file, EFBIG);
   }
 }
-
-}  // namespace
 
 WholeFile::WholeFile(const fs::path& file, unsigned rights)
     : WholeFile(open_folder_of(file), folder_of(file), file.filename().string(), rights) {
@@ -209,7 +209,7 @@ fs::path write_whole(const fs::path& file, std::string_view text, Naming naming)
 
 std::string read_whole(const fs::path& file, std::uint64_t limit) {
   demand_name(file);
-  return read_to_end(open_regular(file), file, limit);
+  return read_to_end(open_regular(AT_FDCWD, file.string(), file), file, limit);
 }
 
 std::string read_named(const fs::path& file, std::uint64_t limit) {

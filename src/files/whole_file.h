@@ -81,6 +81,10 @@ std::filesystem::path write_whole(const std::filesystem::path& file, std::string
 [[nodiscard]] std::string read_whole(const std::filesystem::path& file, std::uint64_t limit);
 /// The same of a file that the user named: a link is followed, and a pipe read to its end.
 [[nodiscard]] std::string read_named(const std::filesystem::path& file, std::uint64_t limit);
+/// The file `name` in an open folder, for reading. Throws the errors of read_whole.
+[[nodiscard]] Descriptor open_regular(int folder, const std::string& name, const std::filesystem::path& path);
+/// The rest of an open file. The path is for messages. Throws FileError, also for more than `limit` bytes.
+[[nodiscard]] std::string read_to_end(const Descriptor& opened, const std::filesystem::path& path, std::uint64_t limit);
 
 /// fsync of an open folder, whose path is for messages. Throws FileError.
 void sync_folder(int folder, const std::filesystem::path& path);

@@ -45,7 +45,7 @@ PageReader::Reader& PageReader::reader_of(std::uint32_t source, const Vec3& orig
   made.source = source;
   made.reading.program = reader::find_reader(options_.reader);
   made.reading.path = paths_.at(source);
-  made.reading.scope = reader::scope_of(made.reading.path, options_.allow);
+  made.reading.scope = reader::scope_of(made.reading.path, options_);
   made.reading.options = &options_;
   made.reading.wanted = reader::Reading::Wanted::pages;
   made.reading.origin = origin;

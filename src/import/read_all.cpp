@@ -90,6 +90,7 @@ void check(std::span<const Source> sources, const ImportOptions& options) {
   for (const Source& source : sources) {
     const fs::path& path = source.path;
     if (path.empty()) throw Error("the path of a scene is empty; name its file or folder.");
+    if (!options.through_link) static_cast<void>(scope_of(path, options));
     std::error_code why;
     const fs::file_status status = fs::status(path, why);
     if (!fs::exists(status)) {
@@ -139,7 +140,7 @@ void read_all(std::span<const Source> sources, const ImportOptions& options, Imp
     Reading reading;
     reading.program = program;
     reading.path = sources[i].path;
-    reading.scope = scope_of(reading.path, options.allow);
+    reading.scope = scope_of(reading.path, options);
     reading.tile = sources[i].tile;
     reading.path_bytes = sizes[i];
     reading.options = &options;

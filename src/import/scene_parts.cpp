@@ -151,7 +151,7 @@ std::vector<ScenePart> scene_parts(std::span<const fs::path> paths, const Import
     reader::Reading reading;
     reading.program = program;
     reading.path = path;
-    reading.scope = reader::scope_of(path, options.allow);
+    reading.scope = reader::scope_of(path, options);
     reading.options = &options;
     reading.wanted = reader::Reading::Wanted::list;
     reading.frame = report.georeference;

@@ -6,6 +6,7 @@
 #include <system_error>
 
 #include "roam/error.h"
+#include "roam/import.h"
 
 namespace roam::reader {
 namespace {
@@ -19,17 +20,21 @@ bool is_below(const fs::path& path, const fs::path& folder) {
   return std::mismatch(folder.begin(), folder.end(), path.begin(), path.end()).first == folder.end();
 }
 
-}  // namespace
-
-fs::path without_links_above(const fs::path& path) {
-  const fs::path whole = fs::absolute(path);
+/// The absolute form of a path, with no links in the folders above its last part. A folder at the end of a link is
+/// followed, too, if `through_link`.
+fs::path without_links_above(const fs::path& path, bool through_link) {
+  fs::path whole = fs::absolute(path);
+  // A slash at the end would follow a link.
+  while (!through_link && (!whole.has_filename() || whole.filename() == ".")) whole = whole.parent_path();
   std::error_code none;
-  const bool folder = fs::is_directory(whole, none);
+  const bool folder = (through_link || whole.filename() == "..") && fs::is_directory(whole, none);
   // Follow links before "..", as the system does. By text alone ".." may lead to another file.
   const fs::path real = fs::canonical(folder ? whole : whole.parent_path(), none);
   if (none) return whole.lexically_normal();
   return folder ? real : real / whole.filename();
 }
+
+}  // namespace
 
 bool SceneScope::holds(const fs::path& path) const {
   return std::find(files.begin(), files.end(), path) != files.end() ||
@@ -72,12 +77,17 @@ fs::path SceneScope::find(const fs::path& path) const {
   return file && fs::is_regular_file(fs::symlink_status(*file, none)) ? *file : fs::path();
 }
 
-SceneScope scope_of(const fs::path& named, std::span<const fs::path> allowed) {
-  const fs::path path = without_links_above(named);
+SceneScope scope_of(const fs::path& named, const ImportOptions& options) {
+  const fs::path path = without_links_above(named, options.through_link);
   SceneScope scope;
   scope.scene = path;
   std::error_code none;
-  if (fs::is_directory(path, none)) {
+  const fs::file_status status = options.through_link ? fs::status(path, none) : fs::symlink_status(path, none);
+  if (fs::is_symlink(status)) {
+    throw Error(
+        fmt::format("{}: this is a link, which is followed only where you name it as the scene.", named.string()));
+  }
+  if (fs::is_directory(status)) {
     scope.folders.push_back(path);
     // This file lies beside the folder of the tiles and has their position.
     if (path.filename() == "Data") {
@@ -87,9 +97,10 @@ SceneScope scope_of(const fs::path& named, std::span<const fs::path> allowed) {
   } else {
     scope.folders.push_back(path.parent_path());
     // The user named the file, so its target is allowed wherever a link leads.
-    if (const fs::path real = fs::canonical(path, none); !none) scope.files.push_back(real);
+    const fs::path real = options.through_link ? fs::canonical(path, none) : fs::path();
+    if (!real.empty()) scope.files.push_back(real);
   }
-  for (const fs::path& folder : allowed) {
+  for (const fs::path& folder : options.allow) {
     const fs::path real = fs::canonical(folder, none);
     if (none || !fs::is_directory(real, none)) {
       throw Error(fmt::format("{}: there is no such folder to allow. Check the spelling.", folder.string()));

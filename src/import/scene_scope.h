@@ -4,8 +4,11 @@
 
 #include <filesystem>
 #include <optional>
-#include <span>
 #include <vector>
+
+namespace roam {
+struct ImportOptions;
+}  // namespace roam
 
 namespace roam::reader {
 
@@ -28,10 +31,8 @@ struct SceneScope {
   [[nodiscard]] bool holds(const std::filesystem::path& path) const;
 };
 
-/// The absolute form of a path from the user, with no links in the folders above its last part.
-[[nodiscard]] std::filesystem::path without_links_above(const std::filesystem::path& path);
-
-/// The scope of a scene at `path`. Throws roam::Error for an allowed folder that does not exist.
-[[nodiscard]] SceneScope scope_of(const std::filesystem::path& path, std::span<const std::filesystem::path> allowed);
+/// The scope of a scene at `path`. Throws roam::Error for an allowed folder that does not exist, and for a path that is
+/// a link if ImportOptions::through_link is false.
+[[nodiscard]] SceneScope scope_of(const std::filesystem::path& path, const ImportOptions& options);
 
 }  // namespace roam::reader

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "roam/error.h"
+#include "store/held.h"
 
 namespace roam::app {
 
@@ -21,6 +22,11 @@ void demand_no_link(const std::filesystem::path& store) {
       fmt::format("{} is a link, and a store that lies beside its scene may be none: name the store that is meant, or "
                   "delete the link",
                   store.string()));
+}
+
+std::shared_ptr<const Store> open_store_beside(const std::filesystem::path& store, std::uint64_t memory) {
+  demand_no_link(store);
+  return store::open_store(store::Folder::held(store, false), memory);
 }
 
 std::vector<std::string> notes_as_sentences(const StoreBuildReport& report, const std::filesystem::path& store) {

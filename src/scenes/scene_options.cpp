@@ -62,6 +62,8 @@ void SceneOptions::add_reading_to(CLI::App& verb) {
       ->type_name("DIR")
       ->expected(1)
       ->take_all();
+  // For a child of roam view.
+  verb.add_flag("--no-scene-link{false}", through_link)->group("");
   verb.add_option("--threads", threads, "Threads for indexing and queries (default: one per core)")
       ->check(thread_count())
       ->type_name("N");
@@ -79,6 +81,7 @@ std::vector<std::string> SceneOptions::arguments() const {
   for (const std::string& pattern : ignore) words.push_back("--ignore=" + pattern);
   for (const auto& folder : allow) words.push_back("--allow=" + folder.string());
   if (lossless) words.emplace_back("--lossless");
+  if (!through_link) words.emplace_back("--no-scene-link");
   if (threads > 0) words.push_back(fmt::format("--threads={}", threads));
   if (memory) words.push_back(fmt::format("--memory={}", *memory));
   words.emplace_back("--");
@@ -92,6 +95,7 @@ ImportOptions SceneOptions::import_options() const {
   how.unit = parse_length_unit(unit);
   how.ignore = ignore;
   how.allow = allow;
+  how.through_link = through_link;
   if (memory) how.memory_limit = *memory;
   return how;
 }

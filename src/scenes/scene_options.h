@@ -25,6 +25,7 @@ struct SceneOptions {
   int threads = 0;
   std::optional<std::uint64_t> memory;  ///< `--memory`, bytes
   bool identify = false;                ///< no option of the command line: whether LoadedScene::identity is wanted
+  bool through_link = true;             ///< ImportOptions::through_link; false for a scene that the user did not name
 
   /// Bytes for a store's collision where `memory` is not given.
   static constexpr std::uint64_t usual_store_memory = 64ull << 20;

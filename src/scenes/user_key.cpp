@@ -9,12 +9,14 @@
 #include <algorithm>
 #include <charconv>
 #include <span>
+#include <utility>
 
 #include "cli/user_folder.h"
 #include "files/descriptor.h"
 #include "files/file_error.h"
 #include "files/whole_file.h"
 #include "roam/error.h"
+#include "store/folder.h"
 
 namespace roam::app {
 namespace {
@@ -27,15 +29,70 @@ constexpr unsigned own_folder = 0700, own_file = 0600;  // rights
 /// 64 digits and a line feed.
 constexpr std::size_t key_bytes = 65;
 
-/// Throws if it does not belong to the user, or if others have these rights.
-void demand_own(const fs::path& path, mode_t rights) {
+struct stat status_of(const Descriptor& opened, const fs::path& path) {
   struct stat status {};
-  if (::stat(path.c_str(), &status) != 0) files::fail("read", path, errno);
+  if (::fstat(opened.number(), &status) != 0) files::fail("read", path, errno);
+  return status;
+}
+
+/// Throws if it does not belong to the user, or if others have these rights.
+void demand_own(const struct stat& status, const fs::path& path, mode_t rights) {
   if (status.st_uid != ::geteuid()) throw Error(fmt::format("{} belongs to another user", path.string()));
   if ((status.st_mode & rights) == 0) return;
   const bool reading = rights == others_reading;
   throw Error(fmt::format("others may {} {}; take that right from them: chmod go-{} {}", reading ? "read" : "write to",
                           path.string(), reading ? "rwx" : "w", path.string()));
+}
+
+/// Opens the folder that holds the folder of the key; with `makes`, makes it if there is none. Not open if it does not
+/// exist. Throws if others may give another folder the name of the key's.
+Descriptor open_above(const fs::path& path, bool makes) {
+  const auto open = [&] { return Descriptor(::open(path.c_str(), store::not_to_read | O_DIRECTORY | O_CLOEXEC)); };
+  Descriptor above = open();
+  if (!above.is_open() && errno == ENOENT && makes) {
+    std::error_code error;
+    fs::create_directories(path.parent_path(), error);
+    if (::mkdir(path.c_str(), own_folder) != 0 && errno != EEXIST) files::fail("make the folder", path, errno);
+    above = open();
+  }
+  if (!above.is_open()) {
+    if (errno == ENOENT && !makes) return above;
+    files::fail("read", path, errno);
+  }
+  const mode_t mode = status_of(above, path).st_mode;
+  if ((mode & others_writing) == 0 || (mode & S_ISVTX) != 0) return above;
+  throw Error(
+      fmt::format("others may rename folders in {0}; take that right from them: chmod go-w {0}, or, where they "
+                  "may write, chmod +t {0}",
+                  path.string()));
+}
+
+/// Opens the folder of the key. All checks are of the folder that is open, because its path may lead to another one
+/// later. Not open if it does not exist and is not to be made.
+Descriptor open_folder(const fs::path& path, bool makes) {
+  const Descriptor above = open_above(path.parent_path(), makes);
+  if (!above.is_open()) return Descriptor();
+  const std::string name = path.filename().string();
+  const auto open = [&] {
+    return Descriptor(::openat(above.number(), name.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC));
+  };
+  Descriptor folder = open();
+  if (!folder.is_open() && errno == ENOENT) {
+    if (!makes) return folder;
+    if (::mkdirat(above.number(), name.c_str(), own_folder) != 0 && errno != EEXIST) {
+      files::fail("make the folder", path, errno);
+    }
+    folder = open();
+  }
+  if (!folder.is_open()) {
+    // A link is no folder to the system, either.
+    if (errno != ENOTDIR && errno != ELOOP) files::fail("read", path, errno);
+    std::error_code error;
+    const bool link = fs::is_symlink(fs::symlink_status(path, error));
+    throw Error(fmt::format("{} is {}; put the folder itself there", path.string(), link ? "a link" : "no folder"));
+  }
+  demand_own(status_of(folder, path), path, others_writing);
+  return folder;
 }
 
 StoreKey parse(const std::string& text, const fs::path& file) {
@@ -55,18 +112,28 @@ StoreKey parse(const std::string& text, const fs::path& file) {
                   file.string()));
 }
 
-StoreKey read(const fs::path& file) {
-  demand_own(file.parent_path(), others_writing);
-  const std::string text = files::read_whole(file, 4096);
-  demand_own(file, others_reading);
-  return parse(text, file);
+bool is_there(const Descriptor& folder, const fs::path& file) {
+  struct stat status {};
+  return ::fstatat(folder.number(), file.filename().c_str(), &status, AT_SYMLINK_NOFOLLOW) == 0 || errno != ENOENT;
 }
 
-void make(const fs::path& file) {
+StoreKey read(const Descriptor& folder, const fs::path& file) {
+  const Descriptor key = files::open_regular(folder.number(), file.filename().string(), file);
+  const struct stat status = status_of(key, file);
+  demand_own(status, file, others_reading);
+  if (status.st_nlink > 1) {
+    throw Error(fmt::format("{} has other names, too (hard links); put a copy in its place", file.string()));
+  }
+  return parse(files::read_to_end(key, file, 4096), file);
+}
+
+void make(const Descriptor& folder, const fs::path& file) {
   std::string text;
   for (const std::byte byte : key_of_this_run().bytes) text += fmt::format("{:02x}", static_cast<unsigned>(byte));
-  files::WholeFile out(file, own_file);
   text += '\n';
+  Descriptor own(::fcntl(folder.number(), F_DUPFD_CLOEXEC, 0));
+  if (!own.is_open()) files::fail("write", file, errno);
+  files::WholeFile out(std::move(own), file.parent_path(), file.filename().string(), own_file);
   out.write(std::as_bytes(std::span(text)));
   out.commit();
 }
@@ -75,21 +142,14 @@ UserKey found(bool makes) {
   const fs::path file = key_file();
   if (file.empty()) return {{}, "there is no folder for it: set HOME or XDG_DATA_HOME"};
   try {
-    std::error_code error;
-    const fs::path folder = file.parent_path();
-    if (!fs::exists(fs::symlink_status(file, error))) {
+    const Descriptor folder = open_folder(file.parent_path(), makes);
+    if (!folder.is_open() || !is_there(folder, file)) {
       if (!makes) return {{}, "you have none yet, and the first `roam build` makes it"};
-      if (!fs::exists(folder, error)) {
-        fs::create_directories(folder.parent_path(), error);
-        if (::mkdir(folder.c_str(), own_folder) != 0 && errno != EEXIST) files::fail("make the folder", folder, errno);
-      }
-      demand_own(folder, others_writing);
       // If two processes begin at once, one makes the key for both. Some file systems have no locks.
-      const Descriptor lock(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
-      (void)files::again([&] { return ::flock(lock.number(), LOCK_EX); });
-      if (!fs::exists(fs::symlink_status(file, error))) make(file);
+      (void)files::again([&] { return ::flock(folder.number(), LOCK_EX); });
+      if (!is_there(folder, file)) make(folder, file);
     }
-    return {read(file), ""};
+    return {read(folder, file), ""};
   } catch (const Error& error) {
     return {{}, error.what()};
   }

@@ -93,6 +93,18 @@ TEST(ImportDisplayPages, AreReadWithWhatStandsAboveThem) {
   EXPECT_EQ(fine[0].colours[0], (Colour{255, 0, 0, 255}));
 }
 
+TEST(ImportDisplayPages, AreNotLookedForOutsideOfTheScene) {
+  const TemporaryFolder folder;
+  folder.write("elsewhere/fine.osg", triangle_at("5"));
+  for (const char* name : {"there", "not_there"}) {
+    const std::string page = (folder.path() / (name == std::string("there") ? "elsewhere" : "nowhere")).string();
+    const auto file = folder.write(std::string(name) + "/root.osg", paged(triangle_at("1"), {page + "/fine.osg"}));
+    const Shown shown = show({file});
+    EXPECT_TRUE(shown.pages().empty()) << name;
+    EXPECT_EQ(shown.report.import.outside_references, 1u) << name;
+  }
+}
+
 TEST(ImportDisplayPages, LeaveOutWhatIsIgnored) {
   const TemporaryFolder folder;
   folder.write("fine.osg", group("all", "", triangle_at("5")));

@@ -43,6 +43,25 @@ TEST(ImportScope, SaysWhatLeadsOutWhereNothingIsLeft) {
   EXPECT_TRUE(contains(error, "--allow")) << error;
 }
 
+TEST(ImportScope, RefusesALinkInThePlaceOfASceneThatNobodyNamed) {
+  const TemporaryFolder folder;
+  const fs::path file = folder.write("vault/secret.obj", one), link = folder.path() / "scene.obj";
+  fs::create_symlink(file, link);
+  fs::create_directories(folder.path() / "vault/Data/Tile_0");
+  fs::create_directory_symlink(folder.path() / "vault", folder.path() / "city");
+  ImportOptions options;
+  EXPECT_EQ(import_error(link, options), "") << "a user may name it";
+  options.through_link = false;
+  EXPECT_EQ(import_error(file, options), "");
+  EXPECT_EQ(import_error(folder.path() / "city/secret.obj", options), "") << "the folders above may be links";
+  for (const fs::path& path : {link, folder.path() / "city", folder.path() / "city/", folder.path() / "city/."}) {
+    const std::string error = import_error(path, options);
+    EXPECT_TRUE(contains(error, "this is a link")) << path << ": " << error;
+    EXPECT_FALSE(contains(error, "secret") || contains(error, "vault")) << error;
+    EXPECT_THROW(static_cast<void>(scene_parts(std::vector<fs::path>{path}, options)), Error);
+  }
+}
+
 /// What a reader that was taken over says to a deed; `arguments` come before roam's own.
 std::string deed_of(const TemporaryFolder& folder, const std::string& deed, const std::string& arguments) {
   ImportOptions options;

@@ -2,7 +2,10 @@
 #include <thread>
 
 #include "cli/exit_status.h"
+#include "import/display.h"
+#include "import/page_reader.h"
 #include "roam/error.h"
+#include "scenes/beside_scene.h"
 #include "view/store_triangles.h"
 #include "view_stores.h"
 
@@ -120,6 +123,70 @@ TEST(ViewStore, FindsTheSceneOfAStore) {
   const ViewReport report = d.session->finish();
   EXPECT_EQ(report.scene, scene);
   EXPECT_TRUE(report.notes.empty()) << report.notes.front();
+}
+
+TEST(ViewStore, FollowsNoLinkBesideTheStore) {
+  Driven d;
+  const std::string scene = d.write_scene(), store = d.build();
+  fs::create_directory(d.folder.file("vault"));
+  const std::string elsewhere = d.folder.write("vault/confidential.obj", "v hush 3 4\n");
+  for (const std::string& target : {elsewhere, d.folder.file("vault"), d.folder.file("nowhere")}) {
+    fs::remove(scene);
+    fs::create_symlink(target, scene);
+    const ProgramResult shown =
+        run_program(ROAM_PROGRAM, {"view", store, "--headless", "--json", "--at", "8,0,0.95,0", "--radius", "0.3",
+                                   "--mode", "fly", "--size", "64x64", "--screenshot", d.folder.file("shot.png")});
+    EXPECT_EQ(shown.status, 0) << shown.err;
+    for (const char* word : {"hush", "confidential", "nowhere", "vault"}) {
+      EXPECT_FALSE(contains(shown.out + shown.err, word)) << word << " in " << shown.out << shown.err;
+    }
+    EXPECT_TRUE(contains(shown.err, "is a link")) << shown.err;
+    EXPECT_TRUE(contains(shown.err, "roam view " + scene + " --store " + store)) << shown.err;
+    EXPECT_TRUE(contains(nlohmann::json::parse(shown.out)["notes"].dump(), "is a link")) << shown.out;
+  }
+}
+
+/// Puts a link where the file was.
+void become_link(const std::string& file, const std::string& target) {
+  fs::rename(file, target);
+  fs::create_symlink(target, file);
+}
+
+TEST(ViewStore, FollowsNoLinkThatTakesThePlaceOfTheSceneLater) {
+  Driven d;
+  const std::string scene = d.write_scene();
+  SceneOptions named;
+  named.scenes = {d.build()};
+  const SceneAndStore what = scene_and_store(named, {});
+  ASSERT_EQ(what.scene.scenes, std::vector<fs::path>{scene});
+  ASSERT_TRUE(choose_store(what, [] { return true; }).note.empty());
+  fs::create_directory(d.folder.file("home"));
+  become_link(scene, d.folder.file("home/scene.obj"));
+  const StoreChoice choice = choose_store(what, [] { return true; });
+  EXPECT_TRUE(choice.stale);
+  EXPECT_TRUE(contains(choice.note, "is a link")) << choice.note;
+  const auto fails = [](const auto& work) {
+    try {
+      work();
+    } catch (const Error& error) {
+      return contains(error.what(), "is a link");
+    }
+    return false;
+  };
+  const ImportOptions reading = what.scene.import_options();
+  EXPECT_TRUE(fails([&] { static_cast<void>(import_scene(what.scene.scenes, reading)); }));
+  EXPECT_TRUE(
+      fails([&] { static_cast<void>(read_display(what.scene.scenes, reading, [](DisplayPart&&) { return true; })); }));
+  EXPECT_TRUE(fails([&] { static_cast<void>(PageReader(what.scene.scenes, reading).read(0, Vec3(0.0), "page")); }));
+  fs::create_directory_symlink(named.scenes.front(), d.folder.file("link.roam"));
+  EXPECT_TRUE(fails([&] { static_cast<void>(open_store_beside(d.folder.file("link.roam"))); }));
+  std::vector<std::string> build{"build", "--output=" + d.folder.file("again.roam")};
+  for (const std::string& word : what.scene.arguments()) build.push_back(word);
+  const ProgramResult built = run_program(ROAM_PROGRAM, build);
+  EXPECT_EQ(built.status, 1) << built.err;
+  EXPECT_TRUE(contains(built.err, "is a link")) << built.err;
+  // A user who names the link means what it leads to.
+  EXPECT_EQ(run_program(ROAM_PROGRAM, {"info", scene}).status, 0);
 }
 
 TEST(ViewStore, ReadsTheSceneOfAStoreAsTheStoreWas) {

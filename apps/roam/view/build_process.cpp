@@ -130,7 +130,7 @@ void BuildProcess::load() {
                                     return build();
                                   }).get();
   loading_.tell(LoadState::Phase::looking, 0.0, report.triangles);
-  std::shared_ptr<const Store> store = Store::open(output_);
+  std::shared_ptr<const Store> store = what_.store.empty() ? open_store_beside(output_) : Store::open(output_);
   if (store->info().hash != report.store.hash) {
     throw Error(fmt::format("{} is not what was built just now: another store has taken its place; build again",
                             output_.string()));

@@ -37,7 +37,7 @@ std::filesystem::path file_for(const ViewOptions& options, const ViewPlan& plan)
   if (plan.profile) return plan.profile->file;
   std::filesystem::path file = profile_path(options.scene.scenes);
   // What was trained for another body than this one is not written over.
-  if (options.no_profile || std::filesystem::exists(file)) file.clear();
+  if (options.no_profile || std::filesystem::exists(std::filesystem::symlink_status(file))) file.clear();
   return file;
 }
 

@@ -56,7 +56,9 @@ Session::Session(const ViewOptions& options, const ViewPlan& plan, const ViewSet
              stage_.headless() ? SceneGraph::Arrival::at_once : SceneGraph::Arrival::smooth),
       display_(stage_, scene_, *roamer_, news_, plan_.fov),
       building_(what_, options.program, *roamer_, news_) {
-  if (!plan_.note.empty()) news_.note(plan_.note);
+  for (const std::string& note : {plan_.note, link_beside(what_)}) {
+    if (!note.empty()) news_.note(note);
+  }
   roamer_->setCommandCallback([this](const std::string& name) { run(parse_command(name)); });
   stage_.viewer().addEventHandler(new SessionHandler(*this));
   // The handler does it: the viewer would end on Escape before anybody could take it for something else.

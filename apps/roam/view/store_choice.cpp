@@ -19,14 +19,25 @@ namespace {
 constexpr std::uint64_t many_bytes = 1'000'000'000;
 constexpr std::uint64_t many_triangles = 20'000'000;
 
-/// "Data.roam/" -> "Data", where that is there; else empty.
-std::filesystem::path scene_beside(const std::filesystem::path& store) {
+/// "Data.roam/" -> "Data"; empty for another extension.
+std::filesystem::path place_beside(const std::filesystem::path& store) {
   std::filesystem::path path = store.lexically_normal();
   if (!path.has_filename()) path = path.parent_path();
-  if (path.extension() != ".roam") return {};
-  path.replace_extension();
+  return path.extension() == ".roam" ? path.replace_extension() : std::filesystem::path();
+}
+
+/// The type of what is there. A link is not followed, because the store may come from a stranger.
+std::filesystem::file_status status_of(const std::filesystem::path& path) {
   std::error_code none;
-  return std::filesystem::exists(path, none) ? path : std::filesystem::path();
+  return std::filesystem::symlink_status(path, none);
+}
+
+/// The file or folder at that place; empty if there is none.
+std::filesystem::path scene_beside(const std::filesystem::path& store) {
+  const std::filesystem::path path = place_beside(store);
+  const std::filesystem::file_status status = status_of(path);
+  const bool usable = std::filesystem::is_regular_file(status) || std::filesystem::is_directory(status);
+  return usable ? path : std::filesystem::path();
 }
 
 /// In what the store differs from the scene; empty when in nothing.
@@ -76,8 +87,18 @@ SceneAndStore scene_and_store(const SceneOptions& scene, const std::filesystem::
   what.store_only = shown.empty();
   if (what.store_only) return what;
   what.scene.scenes = {shown};
+  what.scene.through_link = false;
   read_as(what.scene, *Store::open(what.store));
   return what;
+}
+
+std::string link_beside(const SceneAndStore& what) {
+  const std::filesystem::path path = what.store_only ? place_beside(what.store) : std::filesystem::path();
+  if (!std::filesystem::is_symlink(status_of(path))) return "";
+  return fmt::format(
+      "{0} is a link, and a link beside a store is not followed; to see what it leads to, name it: "
+      "roam view {0} --store {1}",
+      path.string(), path.string() + ".roam");
 }
 
 std::filesystem::path store_place(const SceneAndStore& what) {
@@ -107,7 +128,7 @@ StoreChoice choose_store(const SceneAndStore& what, const std::function<bool()>&
   if (!Store::is_store(place)) return choice;
   std::string problem, remedy = "`roam build` brings it up to date";
   try {
-    std::shared_ptr<const Store> store = Store::open(place);
+    std::shared_ptr<const Store> store = open_store_beside(place);
     problem = not_yours(*store, user);
     if (!problem.empty()) {
       remedy =

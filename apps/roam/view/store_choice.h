@@ -26,6 +26,9 @@ struct SceneAndStore {
 /// cannot be meant.
 [[nodiscard]] SceneAndStore scene_and_store(const SceneOptions& scene, const std::filesystem::path& store);
 
+/// A sentence for the user if a link lies where the scene of the store would be; else empty. It is not followed.
+[[nodiscard]] std::string link_beside(const SceneAndStore& what);
+
 /// Where the store of a scene is, or would be built.
 [[nodiscard]] std::filesystem::path store_place(const SceneAndStore& what);
 

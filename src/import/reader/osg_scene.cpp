@@ -21,7 +21,7 @@ void read_osg(const std::filesystem::path& path, SceneFiles& files, MeshSink& si
                     "name says.",
                     path.string(), complaint.empty() ? "" : " (" + complaint + ")"));
   }
-  if (sink.parts() != nullptr && refers_to_pages(*root, path)) {
+  if (sink.parts() != nullptr && refers_to_pages(*root, path, files)) {
     Pages pages(sink);
     if (pages.add(*root, path)) return pages.send();
   }

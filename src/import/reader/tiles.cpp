@@ -155,7 +155,7 @@ void read_tiles(const fs::path& path, SceneFiles& files, MeshSink& sink, const R
     osg::ref_ptr<osg::Node> node = read_osg_file(root, false);
     if (node == nullptr) continue;
     if (sink.parts() != nullptr) {
-      if (refers_to_pages(*node, root) && pages.add(*node, root)) continue;
+      if (refers_to_pages(*node, root, files) && pages.add(*node, root)) continue;
       node = read_again_with_images(root);
       if (node == nullptr) continue;
     }

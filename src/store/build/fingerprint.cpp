@@ -260,7 +260,7 @@ Sources::Seen Sources::status(const fs::path& real, Number* number) {
       static_cast<std::uint64_t>(status.st_size), ns(status.st_ctim), {}, ns(now) - ns(status.st_ctim) > clock_steps};
 }
 
-void Sources::look(const std::vector<ScenePart>& parts, std::span<const fs::path> allow,
+void Sources::look(const std::vector<ScenePart>& parts, const ImportOptions& import,
                    const std::function<void()>& tick) {
   struct File {
     std::string name;
@@ -273,7 +273,7 @@ void Sources::look(const std::vector<ScenePart>& parts, std::span<const fs::path
   std::vector<File> files;
   std::map<fs::path, reader::SceneScope> scopes;
   for (const ScenePart& part : parts) {
-    if (!scopes.contains(part.path)) scopes.emplace(part.path, reader::scope_of(part.path, allow));
+    if (!scopes.contains(part.path)) scopes.emplace(part.path, reader::scope_of(part.path, import));
     const reader::SceneScope* const scope = &scopes.at(part.path);
     for (const fs::path& file : part.files) {
       files.push_back({fs::absolute(file).lexically_normal().string(), scope, {}, {}, {}});

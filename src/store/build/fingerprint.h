@@ -36,10 +36,9 @@ class Sources {
 
   /// Examines all files of the parts, on all threads of the calling arena. Calls `tick`, which may throw, for each MB
   /// hashed. A file with several names is hashed once; holes are not read. Opens only regular files of the parts'
-  /// scenes and of the folders in `allow`, even if other files take their places meanwhile. Throws roam::Error for any
+  /// scenes and of ImportOptions::allow, even if other files take their places meanwhile. Throws roam::Error for any
   /// other file, and for a file that is hardly more than a hole.
-  void look(const std::vector<ScenePart>& parts, std::span<const std::filesystem::path> allow,
-            const std::function<void()>& tick);
+  void look(const std::vector<ScenePart>& parts, const ImportOptions& import, const std::function<void()>& tick);
   /// The fingerprint of a part that look() has examined.
   [[nodiscard]] std::string fingerprint(const ScenePart& part, const std::string& options) const;
   /// Throws roam::Error if a file of the part has changed since look().

@@ -50,7 +50,7 @@ class Planner {
     }
     parts_ = scene_parts(work_.options.scene, work_.options.import);
     plan_.lossless = work_.options.lossless;
-    work_.arena.execute([&] { sources_.look(parts_, work_.options.import.allow, [&] { work_.tick(); }); });
+    work_.arena.execute([&] { sources_.look(parts_, work_.options.import, [&] { work_.tick(); }); });
     take_records();
     report_.parts = parts_.size();
     if (unchanged()) {

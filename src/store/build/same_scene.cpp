@@ -21,7 +21,7 @@ std::string difference(const Store& store, std::span<const std::filesystem::path
   if (parts.size() > manifest.parts.size()) return parts[manifest.parts.size()].name + " is new";
   if (parts.size() < manifest.parts.size()) return manifest.parts[parts.size()].name + " is gone";
   Sources sources(store.name(), key);
-  sources.look(parts, import.allow, tick);
+  sources.look(parts, import, tick);
   for (std::size_t i = 0; i < parts.size(); ++i) {
     if (sources.fingerprint(parts[i], options) != manifest.parts[i].fingerprint) {
       return parts[i].name + " has changed since";

@@ -8,7 +8,6 @@
 #include <osg/MatrixTransform>
 #include <osg/NodeVisitor>
 #include <osg/PagedLOD>
-#include <system_error>
 #include <utility>
 
 #include "roam/mesh.h"
@@ -23,13 +22,13 @@ constexpr auto sending_interval = std::chrono::milliseconds(200);
 
 class FindPages : public osg::NodeVisitor {
  public:
-  explicit FindPages(fs::path folder) : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN), folder_(std::move(folder)) {}
+  FindPages(fs::path folder, const SceneFiles& files)
+      : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN), folder_(std::move(folder)), files_(files) {}
 
   void apply(osg::PagedLOD& lod) override {
     const fs::path named_from = lod.getDatabasePath().empty() ? folder_ : fs::path(lod.getDatabasePath());
     for (unsigned i = 0; i < lod.getNumFileNames() && !found_; ++i) {
-      std::error_code none;
-      found_ = !lod.getFileName(i).empty() && fs::is_regular_file(named_from / lod.getFileName(i), none);
+      found_ = !lod.getFileName(i).empty() && !files_.find(named_from / lod.getFileName(i)).empty();
     }
     if (!found_) traverse(lod);
   }
@@ -37,6 +36,7 @@ class FindPages : public osg::NodeVisitor {
 
  private:
   fs::path folder_;
+  const SceneFiles& files_;
   bool found_ = false;
 };
 
@@ -70,8 +70,8 @@ bool is_length(double length) { return length >= 0.0 && length <= 2.0 * coordina
 
 }  // namespace
 
-bool refers_to_pages(osg::Node& root, const fs::path& file) {
-  FindPages find(file.parent_path());
+bool refers_to_pages(osg::Node& root, const fs::path& file, const SceneFiles& files) {
+  FindPages find(file.parent_path(), files);
   root.accept(find);
   return find.found();
 }

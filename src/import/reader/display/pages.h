@@ -13,13 +13,14 @@
 #include "import/reader/display/page_token.h"
 #include "import/reader/display/part_graph.h"
 #include "import/reader/mesh_sink.h"
+#include "import/reader/scene_files.h"
 #include "import/reader/scene_graph.h"
 
 namespace roam::reader {
 
-/// Whether `root`, which was read from `file`, names a page that exists. If all pages are missing, there is only the
-/// coarse geometry, which is better read whole.
-[[nodiscard]] bool refers_to_pages(osg::Node& root, const std::filesystem::path& file);
+/// Whether `root`, which was read from `file`, names a page that is a file of the scene. If all pages are missing,
+/// there is only the coarse geometry, which is better read whole.
+[[nodiscard]] bool refers_to_pages(osg::Node& root, const std::filesystem::path& file, const SceneFiles& files);
 
 /// Gathers paged files and sends them in parts.
 class Pages {
