@@ -1,6 +1,8 @@
 // A store that says what cannot be: it is refused, or read, in little memory.
 #include <gtest/gtest.h>
+#include <malloc.h>
 
+#include <algorithm>
 #include <cstring>
 
 #include "memory_cost.h"
@@ -95,6 +97,28 @@ TEST_F(HostileStore, ALongNameIsCutAndNotKept) {
   std::string object;
   EXPECT_LT(cost_of([&] { object = object_of_one(); }).mebibytes, 16U);
   EXPECT_EQ(object, std::string(store::longest_name, 'a'));
+}
+
+TEST(Recent, CountsMoreThanTheNumbersOfATile) {
+  Mesh mesh;
+  constexpr std::uint32_t count = 10'000;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const double x = 2.0 * (i % 200), y = 2.0 * (i / 200);
+    mesh.vertices.insert(mesh.vertices.end(), {{x, y, 0.0}, {x + 1.0, y, 0.0}, {x, y + 1.0, 0.0}});
+    mesh.triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
+  }
+  const made::Folder folder("recent");
+  const auto opened = made::store(folder.path(), {&mesh, 1}, {.page_tiles = 1000, .tile_triangles = 1});
+  ASSERT_EQ(opened->info().tiles, count);
+  std::vector<TriangleId> all;
+  opened->for_each_triangle(opened->info().bounds, [&](auto, auto ids) { all.push_back(ids[0]); });
+  const std::size_t before = ::mallinfo2().uordblks;
+  std::size_t most = 0;
+  for (const TriangleId id : all) {
+    static_cast<void>(opened->scene_triangle(id));
+    most = std::max(most, ::mallinfo2().uordblks);
+  }
+  EXPECT_LT(most, before + (std::size_t{9} << 17)) << "1 MiB, and what reads one tile";
 }
 
 TEST_F(HostileStore, AManifestIsRefusedBeforeItTakesMemory) {
