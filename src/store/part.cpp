@@ -49,16 +49,31 @@ class Writer {
 /// Bytes. More than the names of a hundred million objects need.
 constexpr std::uint64_t most_content = 1ull << 32;
 
-/// Log2 of the window of a zstd frame in bytes, which the reader must keep; encode_part uses the same.
-constexpr int window_log = 21;
+/// Greatest number of content bytes for each byte of a part file. A frame of the small window keeps to it by itself: it
+/// has a block of at least 4 bytes for each KiB.
+constexpr std::uint64_t most_unpacked = 256;
+
+/// Log2 of the window of a zstd frame in bytes, which the reader must keep. Large contents have the small window.
+constexpr int small_window = 10, window_of_small_content = 21;
+constexpr std::uint64_t small_content = 1U << 21;
+constexpr int greatest_window(std::uint64_t content) {
+  return content > small_content ? small_window : window_of_small_content;
+}
+
+/// Throws std::bad_alloc for null.
+template <class Context>
+Context* demanded(Context* context) {
+  if (!context) throw std::bad_alloc();
+  return context;
+}
 
 /// The numbers and texts of a part's content, decompressed piece by piece from a zstd frame.
 class Content {
  public:
-  Content(const std::function<std::size_t(std::span<std::byte>)>& more, std::uint64_t size)
-      : more_(more), zstd_(ZSTD_createDCtx(), ZSTD_freeDCtx), left_(size) {
-    if (!zstd_) throw std::bad_alloc();
-    ZSTD_DCtx_setParameter(zstd_.get(), ZSTD_d_windowLogMax, window_log);
+  Content(const std::function<std::size_t(std::span<std::byte>)>& more, std::uint64_t size,
+          const std::function<bool()>& enough)
+      : more_(more), enough_(enough), zstd_(demanded(ZSTD_createDCtx()), ZSTD_freeDCtx), left_(size) {
+    ZSTD_DCtx_setParameter(zstd_.get(), ZSTD_d_windowLogMax, greatest_window(size));
     packed_.resize(ZSTD_DStreamInSize());
     content_.resize(ZSTD_DStreamOutSize());
   }
@@ -95,12 +110,15 @@ class Content {
     }
   }
   [[nodiscard]] bool ok() const { return ok_; }
+  [[nodiscard]] bool stopped() const { return stopped_; }
   /// Whether all content was read, in one frame, with nothing after it.
   [[nodiscard]] bool complete() { return ok_ && at_ == end_ && !unpack() && !broken_ && ended_ && left_ == 0; }
 
  private:
   /// Decompresses more content. False at the end, and if that fails.
   bool unpack() {
+    if (enough_ && left_ > 0) stopped_ = stopped_ || enough_();
+    if (stopped_) return false;
     while (!broken_) {
       if (in_.pos == in_.size) {
         in_ = {packed_.data(), more_(packed_), 0};
@@ -127,15 +145,29 @@ class Content {
   }
 
   const std::function<std::size_t(std::span<std::byte>)>& more_;
+  const std::function<bool()>& enough_;
   const std::unique_ptr<ZSTD_DCtx, std::size_t (*)(ZSTD_DCtx*)> zstd_;
   std::uint64_t left_;  ///< content bytes not yet decompressed
   std::vector<std::byte> packed_, content_;
   ZSTD_inBuffer in_{nullptr, 0, 0};
   std::size_t at_ = 0, end_ = 0;  ///< range in content_
-  bool ok_ = true, ended_ = false, broken_ = false, starved_ = false;
+  bool ok_ = true, ended_ = false, broken_ = false, starved_ = false, stopped_ = false;
 };
 
+/// A frame of the content at `place`. Returns its bytes. `window`: log2 of its window; 0: any.
+std::size_t pack(std::span<const std::byte> content, std::span<std::byte> place, int window) {
+  const std::unique_ptr<ZSTD_CCtx, std::size_t (*)(ZSTD_CCtx*)> zstd(demanded(ZSTD_createCCtx()), ZSTD_freeCCtx);
+  ZSTD_CCtx_setParameter(zstd.get(), ZSTD_c_compressionLevel, compression_level);
+  ZSTD_CCtx_setParameter(zstd.get(), ZSTD_c_windowLog, window);
+  const std::size_t packed = ZSTD_compress2(zstd.get(), place.data(), place.size(), content.data(), content.size());
+  if (ZSTD_isError(packed) != 0) throw Error(fmt::format("cannot compress a part file: {}", ZSTD_getErrorName(packed)));
+  return packed;
+}
+
 }  // namespace
+
+PartDamage::PartDamage(const std::string& file, const char* why)
+    : Error(fmt::format("{} is damaged: {}; verify the store, and repair it from its scene", file, why)) {}
 
 const std::string& PartFile::object(std::uint64_t triangle) const {
   static const std::string none;
@@ -166,18 +198,17 @@ std::vector<std::byte> encode_part(const PartFile& part) {
   header.content_bytes = content.bytes.size();
   std::vector<std::byte> bytes(sizeof header + ZSTD_compressBound(content.bytes.size()));
   std::memcpy(bytes.data(), &header, sizeof header);
-  const std::size_t packed = ZSTD_compress(bytes.data() + sizeof header, bytes.size() - sizeof header,
-                                           content.bytes.data(), content.bytes.size(), compression_level);
-  if (ZSTD_isError(packed) != 0) throw Error(fmt::format("cannot compress a part file: {}", ZSTD_getErrorName(packed)));
-  bytes.resize(sizeof header + packed);
+  const std::span place = std::span(bytes).subspan(sizeof header);
+  std::size_t size = 0;
+  if (content.bytes.size() <= small_content) size = sizeof header + pack(content.bytes, place, 0);
+  if (content.bytes.size() > most_unpacked * size) size = sizeof header + pack(content.bytes, place, small_window);
+  bytes.resize(size);
   return bytes;
 }
 
-void visit_part(const std::function<std::size_t(std::span<std::byte>)>& more, const std::string& file,
-                const PartVisitor& visitor) {
-  const auto refuse = [&](const char* why) {
-    throw Error(fmt::format("{} is damaged: {}; verify the store, and repair it from its scene", file, why));
-  };
+void visit_part(const std::function<std::size_t(std::span<std::byte>)>& more, std::uint64_t bytes,
+                const std::string& file, const PartVisitor& visitor) {
+  const auto refuse = [&](const char* why) { throw PartDamage(file, why); };
   Header header{};
   for (auto rest = std::as_writable_bytes(std::span(&header, 1)); !rest.empty();) {
     const std::size_t got = more(rest);
@@ -188,20 +219,25 @@ void visit_part(const std::function<std::size_t(std::span<std::byte>)>& more, co
   if (header.cell_bits > 127 || header.zero != 0 || header.content_bytes > most_content) {
     refuse("its header is not what it should be");
   }
-  // Each object and each cell takes at least two bytes.
-  if (header.objects > header.content_bytes / 2 || header.cells > std::min(header.content_bytes / 2, most_cells)) {
-    refuse("its counts are out of range");
+  if (header.content_bytes / most_unpacked > bytes) refuse("it would unpack to far more than its size justifies");
+  // Each object and each cell takes at least two bytes, and each object has a triangle.
+  if (header.objects > std::min(header.content_bytes / 2, header.triangles) ||
+      header.cells > std::min(header.content_bytes / 2, most_cells)) {
+    refuse("its numbers of objects and cells are out of range");
   }
   if (visitor.counts) {
     visitor.counts({header.triangles, header.objects, header.cells, static_cast<int>(header.cell_bits)});
   }
-  Content content(more, header.content_bytes);
+  Content content(more, header.content_bytes, visitor.enough);
   std::uint64_t first = 0;
   std::string name;
-  for (std::uint64_t i = 0; i < header.objects && content.ok(); ++i) {
-    first += content.count();
+  for (std::uint64_t i = 0; i < header.objects; ++i) {
+    const std::uint64_t step = content.count();
     content.text(name);
-    if (visitor.object && content.ok()) visitor.object(first, name);
+    if (!content.ok()) break;
+    if (step >= header.triangles - first || (step == 0 && i > 0)) refuse("its objects are in no order");
+    first += step;
+    if (visitor.object) visitor.object(first, name);
   }
   CurveKey key = 0, sum = 0;
   for (std::uint64_t i = 0; i < header.cells && content.ok(); ++i) {
@@ -210,11 +246,13 @@ void visit_part(const std::function<std::size_t(std::span<std::byte>)>& more, co
     sum += triangles;
     if (visitor.cell && content.ok()) visitor.cell({key, triangles});
   }
+  if (content.stopped()) return;
   if (!content.complete() || sum != header.triangles) refuse("its content is not what its header says");
 }
 
 PartFile decode_part(std::span<const std::byte> bytes, const std::string& file) {
   PartFile part;
+  const std::uint64_t all = bytes.size();
   PartVisitor visitor;
   visitor.counts = [&](const PartCounts& counts) {
     part.triangles = counts.triangles;
@@ -230,7 +268,7 @@ PartFile decode_part(std::span<const std::byte> bytes, const std::string& file) 
     bytes = bytes.subspan(size);
     return size;
   };
-  visit_part(more, file, visitor);
+  visit_part(more, all, file, visitor);
   return part;
 }
 

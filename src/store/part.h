@@ -10,6 +10,8 @@
 #include <string_view>
 #include <vector>
 
+#include "roam/error.h"
+
 namespace roam::store {
 
 /// A position on the Morton curve, independent of the scene. The top 4 bits hold the size class of a triangle. Below
@@ -54,14 +56,23 @@ struct PartVisitor {
   /// Called with the number of the first triangle and the first `longest_name` bytes of the name.
   std::function<void(std::uint64_t, std::string_view)> object{};
   std::function<void(const Cell&)> cell{};
+  /// Called before each piece of content is unpacked, some 128 KiB. True ends the visit; an exception leaves it.
+  std::function<bool()> enough{};
 };
 inline constexpr std::size_t longest_name = 1U << 16;
 
-/// Reads a part file piece by piece, in some 500 KiB plus the window of its zstd frame, whatever the file claims to
-/// hold. `more` fills its argument with the next bytes and returns their number; 0 at the end. Throws roam::Error
-/// naming `file` for anything that encode_part does not write; the visits until then are void.
-void visit_part(const std::function<std::size_t(std::span<std::byte>)>& more, const std::string& file,
-                const PartVisitor& visitor);
+/// Thrown for a part file that no builder writes.
+class PartDamage : public Error {
+ public:
+  PartDamage(const std::string& file, const char* why);
+};
+
+/// Reads a part file of `bytes` bytes piece by piece, in some 500 KiB plus the window of its zstd frame, and in time in
+/// proportion to its bytes, whatever the file claims to hold. `more` fills its argument with the next bytes and returns
+/// their number; 0 at the end. Throws PartDamage naming `file` for anything that encode_part does not write; the visits
+/// until then are void.
+void visit_part(const std::function<std::size_t(std::span<std::byte>)>& more, std::uint64_t bytes,
+                const std::string& file, const PartVisitor& visitor);
 
 /// Decodes all of it at once, for bytes known to be small.
 [[nodiscard]] PartFile decode_part(std::span<const std::byte> bytes, const std::string& file);

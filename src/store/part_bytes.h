@@ -32,6 +32,15 @@ class PartBytes {
     at_ += out.size();
     return out.size();
   }
+  /// Visits the content. Throws PartDamage, also if the counts are not those of the manifest.
+  void visit(PartVisitor visitor) {
+    visitor.counts = [&](const PartCounts& counts) {
+      if (counts.triangles != part_.triangles || counts.objects != part_.objects) {
+        throw PartDamage(name(), "its counts are not those of the manifest");
+      }
+    };
+    visit_part([&](std::span<std::byte> out) { return (*this)(out); }, part_.bytes, name(), visitor);
+  }
   /// Whether the bytes returned are the whole file as it was written.
   [[nodiscard]] bool is_whole() { return at_ == part_.bytes && hash_.digits() == part_.file; }
   [[nodiscard]] std::string name() const { return store_.name + "/" + file_; }

@@ -62,12 +62,12 @@ struct Store::State::Recent {
     auto in = pages.find(page);
     if (in == pages.end()) {
       store::LoadedPage loaded = reader.page(page);
-      make_room(store.pages[page].ref.bytes);
+      make_room(entry_cost + store.pages[page].ref.bytes);
       in = pages.emplace(page, std::move(loaded)).first;
     }
     if (tile >= in->second.view.tiles.size()) throw no_such();
     store::TileNumbers read(reader.numbers(page, in->second.view.tiles[tile], tile));
-    make_room(read.bytes());
+    make_room(entry_cost + read.bytes());
     const auto& kept = numbers.emplace(id, std::move(read)).first->second;
     try {
       oldest.push_back(id);
@@ -88,11 +88,16 @@ struct Store::State::Recent {
     std::string name;
   };
 
+  /// Bytes of an entry besides its contents, whatever its kind: a node of a map with its links, a place in `oldest`,
+  /// and what the allocator adds to each block.
+  static constexpr std::size_t entry_cost =
+      sizeof(std::pair<const TriangleId, store::TileNumbers>) + sizeof(TriangleId) + 10 * sizeof(void*);
+
   /// Frees the numbers of tiles first: there are many of them, and none helps with another.
   void make_room(std::size_t size) {
     for (; used + size > most && !oldest.empty(); oldest.pop_front()) {
       const auto gone = numbers.find(oldest.front());
-      used -= gone->second.bytes();
+      used -= entry_cost + gone->second.bytes();
       numbers.erase(gone);
     }
     if (used + size > most) {

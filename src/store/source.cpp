@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 #include "store/files.h"
 #include "store/part_bytes.h"
@@ -67,7 +68,7 @@ std::string Store::State::Recent::object(std::uint32_t part, std::uint64_t trian
     }
   };
   store::PartBytes file(store, store.manifest.parts[part]);
-  store::visit_part([&](std::span<std::byte> out) { return file(out); }, file.name(), visitor);
+  file.visit(std::move(visitor));
   if (!file.is_whole()) {
     throw Error(fmt::format("{} is damaged: it is not what it was when it was written", file.name()));
   }

@@ -1,10 +1,12 @@
 // A store that says what cannot be: it is refused, or read, in little memory.
 #include <gtest/gtest.h>
-#include <zstd.h>
+#include <malloc.h>
 
+#include <algorithm>
 #include <cstring>
 
 #include "memory_cost.h"
+#include "packed_part.h"
 #include "store/build/fingerprint.h"
 #include "store/made.h"
 
@@ -14,6 +16,8 @@ using namespace roam;
 
 using memory_cost::Cost;
 using memory_cost::cost_of;
+using packed_parts::number;
+using packed_parts::packed_part;
 
 class HostileStore : public testing::Test {
  protected:
@@ -31,14 +35,10 @@ class HostileStore : public testing::Test {
     file.write(std::as_bytes(std::span(text)));
     store::write_file(folder_.path(), store::current_file, "roam store 1\n" + file.commit_by_hash() + "\n");
   }
-  /// Puts a part file of these many objects and this content in force.
-  void publish_part(std::uint64_t objects, const std::string& content) const {
+  /// Puts a part file of these many objects and this content in force. `window`: log2 of the bytes of its window.
+  void publish_part(std::uint64_t objects, const std::string& content, int window = 21) const {
     store::Manifest m = manifest();
-    std::vector<std::byte> bytes(48 + ZSTD_compressBound(content.size()));
-    const std::uint64_t header[6] = {0, m.parts[0].triangles, objects, 1, 0, content.size()};
-    std::memcpy(bytes.data(), header, sizeof header);
-    std::memcpy(bytes.data(), "ROAMPART", 8);
-    bytes.resize(48 + ZSTD_compress(bytes.data() + 48, bytes.size() - 48, content.data(), content.size(), 3));
+    const auto bytes = packed_part(m.parts[0].triangles, objects, 1, content, window);
     store::NewFile file(folder_.path(), store::part_file("new"));
     file.write(bytes);
     m.parts[0].file = file.commit_by_hash();
@@ -46,14 +46,15 @@ class HostileStore : public testing::Test {
     m.parts[0].objects = objects;
     store::publish(folder_.path(), m);
   }
-  /// One cell of all triangles, as a part's content ends.
-  [[nodiscard]] std::string cell() const {
-    std::string text(1, '\0');
-    std::uint64_t n = mesh_.triangles.size();
-    for (; n >= 128; n >>= 7) text.push_back(static_cast<char>(n | 128U));
-    text.push_back(static_cast<char>(n));
-    return text;
+  /// What `source` says of a triangle of the store.
+  [[nodiscard]] std::string object_of_one() const {
+    const auto opened = Store::open(folder_.path());
+    TriangleId some = 0;
+    opened->for_each_triangle(opened->info().bounds, [&](auto, auto ids) { some = ids[0]; });
+    return opened->source(some).object;
   }
+  /// One cell of all triangles, as a part's content ends.
+  [[nodiscard]] std::string cell() const { return std::string(1, '\0') + number(mesh_.triangles.size()); }
   [[nodiscard]] static std::string damage(const StoreVerification& found) {
     std::string text;
     for (const StoreDamage& d : found.damage) text += d.what + ": " + d.why + "\n";
@@ -64,32 +65,60 @@ class HostileStore : public testing::Test {
   Mesh mesh_;
 };
 
-TEST_F(HostileStore, APartOfVeryManyObjectsIsReadInLittleMemory) {
-  constexpr std::uint64_t objects = 100'000'000;  // of which an honest part may have that many: in 10 kB
-  publish_part(objects, std::string(2 * objects, '\0') + cell());
-  EXPECT_LT(std::filesystem::file_size(folder_.path() / store::part_file(manifest().parts[0].file)), 50'000U);
-  std::string found;
-  EXPECT_LT(cost_of([&] { found = damage(verify_store(folder_.path())); }).mebibytes, 32U);
-  EXPECT_EQ(found, "");
-  const auto opened = Store::open(folder_.path());
-  TriangleId some = 0;
-  opened->for_each_triangle(opened->info().bounds, [&](auto, auto ids) { some = ids[0]; });
-  const Cost cost = cost_of([&] { EXPECT_EQ(opened->source(some).object, ""); });
-  EXPECT_LT(cost.mebibytes, 16U) << cost.said;
+TEST_F(HostileStore, APartOfMoreObjectsThanTrianglesIsDamaged) {
+  constexpr std::uint64_t objects = 1'000'000;
+  publish_part(objects, std::string(2 * objects, '\0') + cell(), 10);
+  EXPECT_NE(damage(verify_store(folder_.path())).find("objects"), std::string::npos);
+  EXPECT_NE(cost_of([&] { static_cast<void>(object_of_one()); }).said.find("objects"), std::string::npos);
+}
+
+TEST_F(HostileStore, APartOfOtherCountsThanTheManifestNamesNoObject) {
+  publish_part(1, std::string(2, '\0') + cell());
+  EXPECT_EQ(object_of_one(), "");
+  store::Manifest m = manifest();
+  m.parts[0].objects = 2;
+  store::publish(folder_.path(), m);
+  EXPECT_NE(cost_of([&] { static_cast<void>(object_of_one()); }).said.find("counts"), std::string::npos);
+}
+
+TEST_F(HostileStore, APartThatUnpacksToFarMoreThanItsSizeIsDamaged) {
+  const std::string name(100'000, 'a');
+  const std::string content = std::string(1, '\0') + number(name.size()) + name + cell();
+  publish_part(1, content);
+  EXPECT_NE(damage(verify_store(folder_.path())).find("unpack"), std::string::npos);
+  EXPECT_NE(cost_of([&] { static_cast<void>(object_of_one()); }).said.find("unpack"), std::string::npos);
+  publish_part(1, content, 10);
+  EXPECT_EQ(damage(verify_store(folder_.path())), "");
 }
 
 TEST_F(HostileStore, ALongNameIsCutAndNotKept) {
   const std::string name(200'000'000, 'a');
-  std::string content = {'\0'};
-  for (std::uint64_t n = name.size(); n > 0; n >>= 7)
-    content.push_back(static_cast<char>((n & 127U) | (n >= 128 ? 128U : 0U)));
-  publish_part(1, content + name + cell());
-  const auto opened = Store::open(folder_.path());
-  TriangleId some = 0;
-  opened->for_each_triangle(opened->info().bounds, [&](auto, auto ids) { some = ids[0]; });
+  publish_part(1, std::string(1, '\0') + number(name.size()) + name + cell(), 10);
   std::string object;
-  EXPECT_LT(cost_of([&] { object = opened->source(some).object; }).mebibytes, 16U);
+  EXPECT_LT(cost_of([&] { object = object_of_one(); }).mebibytes, 16U);
   EXPECT_EQ(object, std::string(store::longest_name, 'a'));
+}
+
+TEST(Recent, CountsMoreThanTheNumbersOfATile) {
+  Mesh mesh;
+  constexpr std::uint32_t count = 10'000;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const double x = 2.0 * (i % 200), y = 2.0 * (i / 200);
+    mesh.vertices.insert(mesh.vertices.end(), {{x, y, 0.0}, {x + 1.0, y, 0.0}, {x, y + 1.0, 0.0}});
+    mesh.triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
+  }
+  const made::Folder folder("recent");
+  const auto opened = made::store(folder.path(), {&mesh, 1}, {.page_tiles = 1000, .tile_triangles = 1});
+  ASSERT_EQ(opened->info().tiles, count);
+  std::vector<TriangleId> all;
+  opened->for_each_triangle(opened->info().bounds, [&](auto, auto ids) { all.push_back(ids[0]); });
+  const std::size_t before = ::mallinfo2().uordblks;
+  std::size_t most = 0;
+  for (const TriangleId id : all) {
+    static_cast<void>(opened->scene_triangle(id));
+    most = std::max(most, ::mallinfo2().uordblks);
+  }
+  EXPECT_LT(most, before + (std::size_t{9} << 17)) << "1 MiB, and what reads one tile";
 }
 
 TEST_F(HostileStore, AManifestIsRefusedBeforeItTakesMemory) {

@@ -203,7 +203,7 @@ class Planner {
             if (got < 0) fail("read", work_.store, file, errno);
             return static_cast<std::size_t>(got);
           },
-          file, visitor);
+          size_of(work_.store, file).value_or(0), file, visitor);
       work_.tick();
     }
     if (cells.empty()) {
