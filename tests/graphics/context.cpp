@@ -3,6 +3,8 @@
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <signal.h>
+#include <sys/socket.h>
+#include <sys/un.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -108,11 +110,19 @@ TEST(GraphicsContext, TheEnvironmentChoosesTheWay) {
   unsetenv("ROAM_HEADLESS");
 }
 
-/// The server of a display; 0: none. Another test may take the number of one that has ended.
+/// The process that serves a display; 0: none. Another test may take the number of one that has ended.
 pid_t server_of(const std::string& display) {
-  pid_t server = 0;
-  std::ifstream("/tmp/.X" + display + "-lock") >> server;
-  return std::filesystem::exists("/tmp/.X11-unix/X" + display) ? server : 0;
+  sockaddr_un address{.sun_family = AF_UNIX, .sun_path = {}};
+  ("/tmp/.X11-unix/X" + display).copy(address.sun_path, sizeof address.sun_path - 1);
+  const int connection = socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0);
+  ucred peer{};
+  socklen_t size = sizeof peer;
+  if (connect(connection, reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0 ||
+      getsockopt(connection, SOL_SOCKET, SO_PEERCRED, &peer, &size) != 0) {
+    peer.pid = 0;
+  }
+  close(connection);
+  return peer.pid;
 }
 
 TEST(GraphicsContext, XvfbEndsWithTheWindowAndLeavesNothing) {
