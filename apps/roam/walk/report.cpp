@@ -34,7 +34,7 @@ std::string body_line(const WalkReport& report) {
   if (report.mode == Mode::walk && s.support_radius > s.radius) {
     text += fmt::format(", with a support disc {:.2f} m wide", 2.0 * s.support_radius);
   }
-  return report.profile.empty() ? text : text + "; of " + printable_part(report.profile);
+  return report.profile.empty() ? text : text + " (trained: " + printable_part(report.profile) + ")";
 }
 
 Json wall(const Vec3& point, const std::string& object) { return {{"point", to_json(point)}, {"object", object}}; }
