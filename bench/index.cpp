@@ -5,10 +5,10 @@
 #include <CLI/CLI.hpp>
 #include <chrono>
 #include <cstdio>
-#include <exception>
 
 #include "judge.h"
 #include "memory.h"
+#include "program.h"
 #include "query_sets.h"
 #include "roam/error.h"
 #include "roam/world.h"
@@ -119,11 +119,5 @@ int main(int argc, char** argv) {
   app.add_flag("!--no-check", options.check, "leave out the comparison with the reference: faster to start");
   app.add_option("--instructions", options.instructions,
                  "the best instruction set to use, by Highway's name: AVX3, AVX2, SSE4, ...");
-  CLI11_PARSE(app, argc, argv);
-  try {
-    return run(options);
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "%s\n", error.what());
-    return 2;
-  }
+  return run_program(app, argc, argv, [&] { return run(options); });
 }

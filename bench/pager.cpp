@@ -8,10 +8,10 @@
 #include <array>
 #include <chrono>
 #include <cstdio>
-#include <exception>
 #include <glm/geometric.hpp>
 #include <thread>
 
+#include "program.h"
 #include "query_sets.h"
 #include "roam/walker.h"
 #include "roam/world.h"
@@ -165,11 +165,5 @@ int main(int argc, char** argv) {
   app.add_option("--speed", options.speed, "of the flight, metres per second")->capture_default_str();
   app.add_option("--seconds", options.seconds, "of the flight")->capture_default_str();
   app.add_option("--loaders", options.loaders, "loading threads")->capture_default_str();
-  CLI11_PARSE(app, argc, argv);
-  try {
-    return run(options);
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "%s\n", error.what());
-    return 2;
-  }
+  return run_program(app, argc, argv, [&] { return run(options); });
 }

@@ -7,12 +7,12 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <exception>
 #include <string>
 #include <vector>
 
 #include "cli/values.h"
 #include "counted_space.h"
+#include "program.h"
 #include "roam/generate.h"
 #include "roam/pager.h"
 #include "roam/route.h"
@@ -154,11 +154,5 @@ int main(int argc, char** argv) {
       ->capture_default_str()
       ->check(roam::app::at_least_one());
   app.add_option("--picture", options.picture, "an SVG file to write");
-  CLI11_PARSE(app, argc, argv);
-  try {
-    return run(options);
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "%s\n", error.what());
-    return 2;
-  }
+  return run_program(app, argc, argv, [&] { return run(options); });
 }

@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <exception>
 
 #include "cli/values.h"
+#include "program.h"
 #include "roam/error.h"
 #include "scene.h"
 #include "store/codec/made_tiles.h"
@@ -147,11 +147,5 @@ int main(int argc, char** argv) {
       ->check(roam::app::at_least_one());
   app.add_flag("--lossless", options.lossless, "tiles that keep the source's floats");
   app.add_flag("--streams", options.streams, "print the entropy of each stream, bytes a triangle");
-  CLI11_PARSE(app, argc, argv);
-  try {
-    return run(options);
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "%s\n", error.what());
-    return 2;
-  }
+  return roam::bench::run_program(app, argc, argv, [&] { return run(options); });
 }

@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <exception>
 #include <random>
 #include <string>
 #include <vector>
 
+#include "program.h"
 #include "roam/import.h"
 #include "roam/walker.h"
 #include "roam/world.h"
@@ -78,11 +78,5 @@ int main(int argc, char** argv) {
   app.add_option("--radius", options.radius, "of the body, metres")->capture_default_str();
   app.add_option("--height", options.height, "of the body, metres")->capture_default_str();
   app.add_option("--persons", options.persons)->capture_default_str();
-  CLI11_PARSE(app, argc, argv);
-  try {
-    return run(options);
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "%s\n", error.what());
-    return 2;
-  }
+  return run_program(app, argc, argv, [&] { return run(options); });
 }

@@ -77,7 +77,7 @@ class Recorder {
   [[nodiscard]] StepTimes times() const {
     return {nanoseconds_.quantile(0.5), nanoseconds_.quantile(0.99), nanoseconds_.largest()};
   }
-  /// What was measured along the way.
+  /// Adds the measurements along the way.
   void describe(words::EndedWalk& report, const OpenScene& scene) const {
     report.narrowest = along_->narrowest();
     report.lowest = along_->lowest();
@@ -191,8 +191,8 @@ constexpr std::uint64_t bytes_a_segment = 2048;
 
 draw::Measured measured(OpenScene& scene, const WalkReport& report, const draw::Record& record) {
   Surroundings around(scene);
-  // Of a store, what lies along the way has left the pager's memory again: a picture would call it unknown. After
-  // Ctrl-C there is no time to wait for it.
+  // The pager has dropped the tiles along the way, and a picture would show them as unknown. After Ctrl-C there is no
+  // time to load them again.
   const auto arrive = [&](const Vec3& place, double reach) { around.wait(place, reach); };
   return draw::measure(scene.space(), report, record,
                        scene.store() && !interrupted() ? draw::Arrive(arrive) : draw::Arrive());
@@ -232,12 +232,7 @@ void check_moves(const WalkOptions& options, const OpenScene& scene, const verif
 }
 
 void print_report(const WalkOptions& options, const WalkReport& report) {
-  if (options.json) {
-    Json json = json_report(report);
-    json["interrupted"] = report.interrupted;
-    if (report.interrupted) json["outcome"] = words::outcome(report);
-    return print(json);
-  }
+  if (options.json) return print(json_report(report));
   print_beside(options.trace, options.stats ? text_report(report) + stats_report(report) : text_report(report));
 }
 
@@ -344,7 +339,8 @@ ExitStatus walk(WalkOptions options) {
 
 constexpr const char* help =
     R"(The report says how the walk ended: reached, blocked (where and by what), fell, left_scene
-or held; then the tightest place of the way and the headroom. Exit status 0 when the end is reached, 3 when not. After Ctrl-C, report, trace and picture of the way so far are still written (130).
+or held; then the tightest place of the way and the headroom. Exit status 0 when the end is reached, 3 when not. After
+Ctrl-C, report, trace and picture of the way so far are still written (130).
 
 A path file has one waypoint `x y z` in each line, or the lines `t x y z qx qy qz qw` that osgViewer records. Times and
 rotations are ignored: --speed and --dt set the pace. Positions are of the body's centre. A waypoint counts as reached

@@ -12,11 +12,8 @@ namespace {
 
 constexpr double title_size = 40.0;
 constexpr double heading_size = 28.0;
-constexpr double text_size = 23.0;
-constexpr double small_size = 20.0;
 constexpr std::ptrdiff_t most_named_falls = 3;
 constexpr double axes_width = 150.0;  ///< in the upper right corner
-constexpr Colour pale_ink{0.36, 0.39, 0.45};
 
 std::string heights_cut(const Contents& c) {
   const auto& cuts = c.levels.cuts;

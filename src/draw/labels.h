@@ -11,6 +11,11 @@ namespace roam::draw {
 
 inline constexpr Colour paper{1.0, 1.0, 1.0, 1.0};
 inline constexpr Colour ink{0.11, 0.13, 0.17, 1.0};
+inline constexpr Colour pale_ink{0.36, 0.39, 0.45};
+// Heights of letters, pixels.
+inline constexpr double text_size = 23.0;
+inline constexpr double label_size = 22.0;
+inline constexpr double small_size = 20.0;
 
 /// The text with every byte that is not printable UTF-8 replaced by "?": file and object names may contain any bytes.
 [[nodiscard]] std::string with_question_marks(const std::string& text);

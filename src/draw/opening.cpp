@@ -20,8 +20,6 @@ namespace {
 // Pixels.
 constexpr double title_size = 40.0;
 constexpr double heading_size = 30.0;
-constexpr double text_size = 23.0;
-constexpr double small_size = 20.0;
 constexpr double panel_gap = 40.0;
 constexpr double panel_width = 0.5 * (content_width - panel_gap);
 constexpr double caption_height = 92.0;  ///< space for the compass
@@ -29,9 +27,7 @@ constexpr double crack_measure = 34.0;   ///< below the rim
 constexpr double tick = 12.0;
 constexpr double letter_beside = 16.0;
 constexpr double scale_bar_length = 220.0;
-constexpr double label_size = 22.0;
 
-constexpr Colour pale_ink{0.36, 0.39, 0.45};
 constexpr Colour floor_fill{0.93, 0.92, 0.86};
 constexpr Colour face_fill{0.85, 0.87, 0.90};
 constexpr Colour measure_ink{0.55, 0.10, 0.50};

@@ -21,9 +21,6 @@ namespace {
 // Pixels.
 constexpr double most_height = 760.0;
 constexpr double least_height = 240.0;
-constexpr double caption_size = 23.0;
-constexpr double small_size = 20.0;
-constexpr double label_size = 22.0;
 constexpr double dot = 8.0;  ///< least radius of an end
 constexpr double scale_bar_length = 220.0;
 constexpr double least_cell = 5.0;  ///< of the reached places
@@ -37,7 +34,6 @@ constexpr Colour target_ink{0.75, 0.38, 0.05};
 constexpr Colour start_fill{0.10, 0.55, 0.30, 0.22};
 constexpr Colour target_fill{0.90, 0.50, 0.05, 0.28};
 constexpr Colour bad_ink{0.78, 0.06, 0.10};
-constexpr Colour pale_ink{0.36, 0.39, 0.45};
 constexpr std::size_t most_segments = 60'000;
 
 /// The heights of the body's centre for the plan's levels.
@@ -125,7 +121,7 @@ class OverviewPainter {
   void lines(Lines what) { sheet_.items.emplace_back(std::move(what)); }
 
   void caption(const Levels& levels) {
-    const Rect box = labels_.write("caption", "Plan", {sheet_margin, y_}, caption_size, true, ink);
+    const Rect box = labels_.write("caption", "Plan", {sheet_margin, y_}, text_size, true, ink);
     const std::string how = levels.cuts.size() == 1 ? fmt::format("cut at z = {:.2f} m", levels.cuts[0])
                                                     : fmt::format(
                                                           "cut at {} heights, as the floor rises from z = "

@@ -11,9 +11,8 @@ namespace roam::draw {
 namespace {
 
 constexpr double way_width = 4.0;
-constexpr double least_outline = 4.0;   ///< pixels; bodies of a smaller radius are drawn as a dot
-constexpr double touch_distance = 8.0;  ///< pixels between two drawn touches, roughly
-constexpr double label_size = 22.0;
+constexpr double least_outline = 4.0;          ///< pixels; bodies of a smaller radius are drawn as a dot
+constexpr double touch_distance = 8.0;         ///< pixels between two drawn touches, roughly
 constexpr double largest_wall_normal_z = 0.7;  ///< of a normal's z: surfaces with a larger one are floor or ceiling
 
 /// A capsule from the side, with corners fine enough for any scale; metres, around its centre.

@@ -13,7 +13,7 @@
 namespace roam::app {
 namespace {
 
-/// A bound: clearances may be told a quarter of the gap, two skins and 2 mm less than they are, and are capped.
+/// The least clearance as a lower bound: reported clearances may be too low, and are capped.
 std::string clearance_line(const WalkReport& report) {
   const RouteResult& result = report.result;
   if (!words::knows_clearance(report)) return "not known: the body fitted nowhere";
@@ -62,7 +62,7 @@ Json json_report(const WalkReport& report) {
                {"radius", report.settings.radius},
                {"height", report.settings.height},
                {"support_radius", report.settings.support_radius},
-               {"outcome", to_string(result.outcome)},
+               {"outcome", words::outcome(report)},
                {"why", words::explain(report)},
                {"length_m", result.length},
                {"steps", result.steps},
@@ -110,6 +110,7 @@ Json json_report(const WalkReport& report) {
                         {"unread", v.unread},     {"seconds", report.verify_seconds}};
     if (v.least_gap) json["verified"]["least_gap_m"] = *v.least_gap;
   }
+  json["interrupted"] = report.interrupted;
   return json;
 }
 
