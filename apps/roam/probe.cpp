@@ -101,7 +101,7 @@ std::vector<ProbedSize> sizes_of(const ProbeOptions& o) {
   return sizes;
 }
 
-/// What a search keeps of a place.
+/// Memory that a search takes for each place.
 constexpr std::uint64_t bytes_a_place = 128;
 
 /// The question as the options ask it.

@@ -118,7 +118,7 @@ class Manipulator : public osgGA::CameraManipulator {
   [[nodiscard]] const roam::Walker* walker() const;
   /// Takes over a new position of walker(), and calls the step callback.
   void placed();
-  /// Of the last step or placement.
+  /// The report of the last step or placement.
   [[nodiscard]] const roam::StepReport& report() const;
   /// Whether the body cannot move: no space, Walker::held(), or a problem().
   [[nodiscard]] bool held() const;

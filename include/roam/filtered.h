@@ -28,7 +28,7 @@ class Filtered final : public LiveSpace {
   /// patch. A body inside an object that is back is freed or held by its next step, see Walker::place().
   void ignore(ObjectId object);
   void stop_ignoring(ObjectId object);
-  void ignore_only(std::span<const ObjectId> objects);  ///< these and no others
+  void ignore_only(std::span<const ObjectId> objects);  ///< replaces the set of ignored objects
   [[nodiscard]] bool ignores(ObjectId object) const;
   [[nodiscard]] const Space& space() const { return *space_; }
   /// Updates the LiveSpace that this was made from; false if it was made from a plain Space.

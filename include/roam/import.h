@@ -97,7 +97,7 @@ struct Confinement {
   bool empty_folder = false;       ///< its current folder is empty
 };
 
-/// What was read and what was left out. Lists have at most name_limit entries; counts are complete.
+/// Result of an import: counts, and everything left out. Lists have at most name_limit entries; counts are complete.
 struct ImportReport {
   static constexpr std::size_t name_limit = 100;
 

@@ -29,7 +29,7 @@ namespace roam {
 
 enum class PatchId : std::uint64_t { none = 0 };  ///< counted from 1 in the order of expect(); never reused
 
-/// What a patchwork held after the last update(). Replaced patches are not counted.
+/// Counts of a patchwork after its last update(). Replaced patches are not counted.
 struct PatchworkStats {
   std::uint64_t patches = 0;    ///< known and in use
   std::uint64_t unknown = 0;    ///< solid boxes of patches that have not come, failed ones included

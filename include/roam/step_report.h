@@ -83,7 +83,7 @@ struct Segment {
   bool teleport = false;  ///< put here, not moved: nothing is known of the way
 };
 
-/// What one step did. Belongs to the Walker; valid until its next call.
+/// Result of one step. Belongs to the Walker; valid until its next call.
 struct StepReport {
   InlineList<Segment, 64> segments;  ///< in order; empty if the body did not move. Pieces in one direction are merged
   /// Each feature of a triangle once, the last touched last; of more than 8, the first 7 and the last. `distance` is

@@ -60,9 +60,9 @@ struct TrainOptions {
   double spacing = 0.2;      ///< see PassageOptions
   double speed = 1.4;        ///< of the trials, m/s
   int threads = 0;       ///< >= 0; 0: one per core
-  /// Called now and then, from one thread at a time, with the stage and the fraction of all of training that is done: in
-  /// [0, 1], never falling, 1 only at the end. Returning false ends training; the result so far has Training::complete
-  /// false.
+  /// Called now and then, from one thread at a time, with the stage and the fraction of all of training that is done:
+  /// in [0, 1], never falling, 1 only at the end. Returning false ends training; the result so far has
+  /// Training::complete false.
   std::function<bool(TrainStage stage, double done)> progress = {};
 };
 

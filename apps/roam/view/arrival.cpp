@@ -100,7 +100,7 @@ void Arrival::enter() {
   placed_ = true;
 }
 
-/// A person who asked for a place is told when the body does not fit there and begins elsewhere.
+/// Says that the body begins elsewhere because it does not fit at the place that --at names.
 void Arrival::tell_where_put() {
   if (!plan_.at || is_ghost_only() || roamer_.walker() == nullptr || roamer_.held()) return;
   const Vec3& at = plan_.at->position;

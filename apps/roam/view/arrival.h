@@ -47,9 +47,9 @@ class Arrival {
   [[nodiscard]] bool is_placed() const { return placed_; }
   /// Whether it is a ghost in an empty space.
   [[nodiscard]] bool is_ghost_only() const { return !collision_keys_.empty(); }
-  /// Of the scene or the store; null for a ghost.
+  /// The identity of the scene or store; null for a ghost.
   [[nodiscard]] const SceneIdentity* identity() const { return loaded_ ? &loaded_->identity : nullptr; }
-  /// What the body collides with if it is a store, else null.
+  /// The pager of the store that the body collides with; null if it collides with a scene.
   [[nodiscard]] const Pager* pager() const { return pager_.get(); }
 
   /// From now on the body collides with a store. It stays where it is. The memory of the collision before is freed by

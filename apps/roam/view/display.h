@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What a session shows beside the scene: the head-up display, the marks, the picture before there is a body.
+/// Everything that a session shows except the scene: head-up display, marks, and the view before there is a body.
 
 #include "osgRoam/Manipulator.h"
 #include "view/news.h"
@@ -29,11 +29,11 @@ class Display {
   [[nodiscard]] bool is_due(double now) const;
   /// Shows the next frame's status at once.
   void hurry() { shown_at_ = -1.0; }
-  /// What this object knows. `has_body`: a walker is in the scene.
+  /// The part of the status that this object knows. `has_body`: a walker is in the scene.
   [[nodiscard]] Status status(bool has_body);
   /// Shows `status` until it is due again.
   void show(Status status, double now);
-  /// What was shown last.
+  /// The status shown last.
   [[nodiscard]] const Status& shown() const { return shown_; }
 
   /// In each frame: draws the marks, and fits the near plane to `room`, the eye's distance from every wall (m).

@@ -36,7 +36,7 @@ Profile known_of(const ViewPlan& plan, const SceneIdentity& scene, const WalkerS
 std::filesystem::path file_for(const ViewOptions& options, const ViewPlan& plan) {
   if (plan.profile) return plan.profile->file;
   std::filesystem::path file = profile_path(options.scene.scenes);
-  // What was trained for another body than this one is not written over.
+  // An existing profile belongs to another body and is not overwritten.
   if (options.no_profile || std::filesystem::exists(std::filesystem::symlink_status(file))) file.clear();
   return file;
 }

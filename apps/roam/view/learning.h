@@ -18,7 +18,7 @@ namespace roam::app {
 /// window. All members belong to one thread.
 class Learning {
  public:
-  /// What is learned goes on from the plan's profile. Without one it is kept for `scene` and the manipulator's body,
+  /// Learning continues the plan's profile. Without one, it starts a profile for `scene` and the manipulator's body,
   /// unless the options forbid it, or the scene has a profile of another body.
   Learning(const ViewOptions& options, const ViewPlan& plan, const SceneIdentity& scene, osgRoam::Manipulator& roamer,
            News& news);

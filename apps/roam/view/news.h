@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What a session says to the person, and what of it the report keeps.
+/// Messages of a session to the person; notes and written files are kept for the report.
 
 #include <filesystem>
 #include <string>

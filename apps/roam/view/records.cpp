@@ -12,7 +12,7 @@ namespace roam::app {
 
 namespace {
 
-/// "; B keeps one", with the key that does so; empty if none does.
+/// "; B keeps one", naming the key for bookmarks; empty if no key is bound to them.
 std::string remedy(const osgRoam::Manipulator& roamer) {
   const std::string key = key_of(roamer.controls(), "bookmark");
   return key.empty() ? key : fmt::format("; {} keeps one", key);

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What a person keeps of a session: the recorded path and bookmarks.
+/// The recorded path and the bookmarks of a session.
 
 #include <filesystem>
 #include <optional>

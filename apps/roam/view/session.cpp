@@ -90,7 +90,7 @@ bool Session::frame() {
 
   arrival_.fly_without_ground();
   stage_.see_events(now_);
-  // Whoever walks faster than a person waits for what that person would have had.
+  // Headless frames run faster than real time: they wait for tiles that would have loaded meanwhile.
   if (headless && roaming()) arrival_.wait_for_tiles(passed);
   arrival_.fly_without_ground();
   if (learning_) learning_->update();

@@ -49,7 +49,7 @@ class Stage {
   void cycle_hud();
   void toggle_fullscreen();
 
-  /// Of the options; none: nothing is filmed.
+  /// The film that --record asks for; none: nothing is filmed.
   [[nodiscard]] const std::optional<Film>& film() const { return film_; }
   /// Takes a picture of the next frame, to a numbered file; `poll_pictures` tells when it is written.
   void take_picture(const std::filesystem::path& path);

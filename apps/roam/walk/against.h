@@ -10,7 +10,7 @@
 
 namespace roam::app {
 
-/// What verify_against needs, looked for before a walk that may take hours. Throws UsageError for a store, and
+/// Checks the input of verify_against() before a walk that may take hours. Throws UsageError for a store, and
 /// roam::Error for a scene that is not there.
 void check_against(const SceneOptions& scene);
 
