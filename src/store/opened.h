@@ -3,6 +3,7 @@
 /// Store::State: an open store, for rooms that read tiles and pages themselves.
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -40,4 +41,11 @@ struct Store::State {
   ~State();
 };
 
+namespace store {
+
+/// Store::source. `check` may be empty; it is called now and then while a part is unpacked, and may throw to end that.
+[[nodiscard]] SourceTriangle find_source(const Store::State& s, TriangleId triangle,
+                                         const std::function<void()>& check);
+
+}  // namespace store
 }  // namespace roam

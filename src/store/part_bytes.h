@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "roam/error.h"
 #include "store/files.h"
@@ -41,8 +42,13 @@ class PartBytes {
     };
     visit_part([&](std::span<std::byte> out) { return (*this)(out); }, part_.bytes, name(), visitor);
   }
-  /// Whether the bytes returned are the whole file as it was written.
-  [[nodiscard]] bool is_whole() { return at_ == part_.bytes && hash_.digits() == part_.file; }
+  /// Whether the file is as it was written. Reads the rest of it.
+  [[nodiscard]] bool is_whole() {
+    std::vector<std::byte> rest(std::min<std::uint64_t>(part_.bytes - at_, 1U << 17));
+    while ((*this)(rest) > 0) {
+    }
+    return hash_.digits() == part_.file;
+  }
   [[nodiscard]] std::string name() const { return store_.name + "/" + file_; }
 
  private:

@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cstdint>
 #include <deque>
+#include <limits>
 #include <map>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -77,17 +79,23 @@ struct Store::State::Recent {
     }
     return kept;
   }
-  /// The name of the object of a part's triangle. Throws roam::Error if the part file is damaged.
-  [[nodiscard]] std::string object(std::uint32_t part, std::uint64_t triangle);
+
+  /// Objects of a part one after the other: all of them, or as many as are kept.
+  struct Objects {
+    std::uint32_t part = 0;
+    std::uint64_t first = 0, end = std::numeric_limits<std::uint64_t>::max();  ///< range of their triangles
+    store::PartFile names;
+    std::size_t bytes = 0;
+    std::string damage;  ///< why the part is damaged; then there are no names
+  };
+  /// The name of the object of a part's triangle, if it is kept. Throws roam::Error if the part is known to be damaged.
+  [[nodiscard]] std::optional<std::string> object(std::uint32_t part, std::uint64_t triangle) const;
+  void keep(Objects&& read) {
+    make_room(entry_cost + read.bytes);
+    objects.push_back(std::move(read));
+  }
 
  private:
-  /// One object of a part that has too many of them to keep.
-  struct Object {
-    std::uint32_t part;
-    std::uint64_t first, end;  ///< range of its triangles
-    std::string name;
-  };
-
   /// Bytes of an entry besides its contents, whatever its kind: a node of a map with its links, a place in `oldest`,
   /// and what the allocator adds to each block.
   static constexpr std::size_t entry_cost =
@@ -102,7 +110,6 @@ struct Store::State::Recent {
     }
     if (used + size > most) {
       pages.clear();
-      parts.clear();
       objects.clear();
       used = 0;
     }
@@ -115,8 +122,7 @@ struct Store::State::Recent {
   std::map<std::uint64_t, store::LoadedPage> pages;
   std::map<TriangleId, store::TileNumbers> numbers;  ///< for each tile, by the id of its first triangle
   std::deque<TriangleId> oldest;                     ///< their keys, oldest first
-  std::map<std::uint32_t, store::PartFile> parts;
-  std::vector<Object> objects;
+  std::vector<Objects> objects;
 };
 
 }  // namespace roam

@@ -1,8 +1,9 @@
 // The source of a store's triangle: part, object and number in the scene.
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <limits>
+#include <functional>
+#include <mutex>
+#include <optional>
 #include <utility>
 
 #include "store/files.h"
@@ -12,7 +13,7 @@
 namespace roam {
 namespace {
 
-/// Greatest size in bytes of a part's objects that are kept.
+/// Greatest size in bytes of the objects that are kept of a part at once.
 constexpr std::size_t most_of_a_part = 256U << 10;
 
 struct Source {
@@ -42,52 +43,74 @@ Source source_of(const Store::State& s, TriangleId triangle) {
   return {part->second, from.number};
 }
 
-}  // namespace
-
-std::string Store::State::Recent::object(std::uint32_t part, std::uint64_t triangle) {
-  if (const auto known = parts.find(part); known != parts.end()) return known->second.object(triangle);
-  for (const Object& o : objects) {
-    if (o.part == part && triangle >= o.first && triangle < o.end) return o.name;
-  }
-  store::PartFile all;
-  Object found{part, 0, std::numeric_limits<std::uint64_t>::max(), {}};
-  std::size_t taken = 0;
+/// Reads the objects about a triangle of a part. Needs no lock.
+Store::State::Recent::Objects read_objects(const Store::State& s, std::uint32_t part, std::uint64_t triangle,
+                                           const std::function<void()>& check) {
+  Store::State::Recent::Objects read;
+  read.part = part;
+  bool full = false;
   store::PartVisitor visitor;
   visitor.object = [&](std::uint64_t begin, std::string_view called) {
-    if (begin <= triangle) {
-      found.first = begin;
-      found.name = called;
-    } else {
-      found.end = std::min(found.end, begin);
+    if (full) return;
+    const std::size_t bytes = sizeof(store::PartFile::Object) + called.size();
+    if (read.bytes + bytes > most_of_a_part && begin > triangle) {
+      read.end = begin;
+      full = true;
+      return;
     }
-    taken += sizeof(store::PartFile::Object) + called.size();
-    if (taken <= most_of_a_part) {
-      all.objects.push_back({begin, std::string(called)});
-    } else {
-      all.objects = {};
+    if (read.bytes + bytes > most_of_a_part) {
+      read.first = begin;
+      read.bytes = 0;
+      read.names.objects.clear();
     }
+    read.bytes += bytes;
+    read.names.objects.push_back({begin, std::string(called)});
   };
-  store::PartBytes file(store, store.manifest.parts[part]);
-  file.visit(std::move(visitor));
-  if (!file.is_whole()) {
-    throw Error(fmt::format("{} is damaged: it is not what it was when it was written", file.name()));
+  visitor.enough = [&] {
+    if (check) check();
+    return full;
+  };
+  store::PartBytes file(s, s.manifest.parts[part]);
+  try {
+    file.visit(std::move(visitor));
+    if (!file.is_whole()) throw store::PartDamage(file.name(), "it is not what it was when it was written");
+  } catch (const store::PartDamage& damage) {
+    read = {};
+    read.part = part;
+    read.damage = damage.what();
+    read.bytes = read.damage.size();
   }
-  if (taken <= most_of_a_part) {
-    make_room(2 * taken);
-    parts.emplace(part, std::move(all));
-  } else {
-    make_room(sizeof found + found.name.size());
-    objects.push_back(found);
-  }
-  return found.name;
+  read.bytes *= 2;  // a vector that grows takes up to twice its elements
+  return read;
 }
 
-SourceTriangle Store::source(TriangleId triangle) const {
-  const State& s = *state_;
-  const std::lock_guard lock(s.mutex);
-  const auto [part, number] = source_of(s, triangle);
-  return {s.manifest.parts[part].name, number, s.first[part] + number, s.recent->object(part, number)};
+}  // namespace
+
+std::optional<std::string> Store::State::Recent::object(std::uint32_t part, std::uint64_t triangle) const {
+  for (const Objects& o : objects) {
+    if (o.part != part || triangle < o.first || triangle >= o.end) continue;
+    if (!o.damage.empty()) throw Error(o.damage);
+    return o.names.object(triangle);
+  }
+  return {};
 }
+
+SourceTriangle store::find_source(const Store::State& s, TriangleId triangle, const std::function<void()>& check) {
+  std::unique_lock lock(s.mutex);
+  const auto [part, number] = source_of(s, triangle);
+  std::optional<std::string> object = s.recent->object(part, number);
+  if (!object) {
+    lock.unlock();
+    Store::State::Recent::Objects read = read_objects(s, part, number, check);
+    if (read.damage.empty()) object = read.names.object(number);
+    lock.lock();
+    s.recent->keep(std::move(read));
+    if (!object) object = s.recent->object(part, number);  // throws
+  }
+  return {s.manifest.parts[part].name, number, s.first[part] + number, *object};
+}
+
+SourceTriangle Store::source(TriangleId triangle) const { return store::find_source(*state_, triangle, {}); }
 
 TriangleId Store::scene_triangle(TriangleId triangle) const {
   const State& s = *state_;

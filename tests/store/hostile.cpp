@@ -3,12 +3,15 @@
 #include <malloc.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cstring>
+#include <future>
 
 #include "memory_cost.h"
 #include "packed_part.h"
 #include "store/build/fingerprint.h"
 #include "store/made.h"
+#include "store/opened.h"
 
 namespace {
 
@@ -97,6 +100,49 @@ TEST_F(HostileStore, ALongNameIsCutAndNotKept) {
   std::string object;
   EXPECT_LT(cost_of([&] { object = object_of_one(); }).mebibytes, 16U);
   EXPECT_EQ(object, std::string(store::longest_name, 'a'));
+}
+
+/// Reads of part files wait until they are let go.
+class SlowParts : public StoreBytes {
+ public:
+  explicit SlowParts(const std::filesystem::path& folder) : files_(store::files_of(folder)) {}
+  std::promise<void> begun, go;
+  std::vector<std::byte> whole(const std::string& file, std::uint64_t limit) override {
+    return files_->whole(file, limit);
+  }
+  const char* read(const std::string& file, std::uint64_t offset, std::span<std::byte> out) override {
+    if (file.starts_with("parts/") && offset == 0) {
+      begun.set_value();
+      go.get_future().wait();
+    }
+    return files_->read(file, offset, out);
+  }
+
+ private:
+  std::shared_ptr<StoreBytes> files_;
+};
+
+TEST_F(HostileStore, APartThatTakesLongHoldsNothingElseUp) {
+  const auto bytes = std::make_shared<SlowParts>(folder_.path());
+  const auto opened = Store::open(bytes, "slow");
+  TriangleId some = 0;
+  opened->for_each_triangle(opened->info().bounds, [&](auto, auto ids) { some = ids[0]; });
+  auto name = std::async(std::launch::async, [&] { return opened->source(some).object; });
+  bytes->begun.get_future().wait();
+  auto other = std::async(std::launch::async, [&] { return opened->scene_triangle(some); });
+  EXPECT_EQ(other.wait_for(std::chrono::seconds(20)), std::future_status::ready);
+  bytes->go.set_value();
+  EXPECT_EQ(name.get(), "square");
+}
+
+TEST_F(HostileStore, UnpackingAPartCanBeEnded) {
+  const auto opened = Store::open(folder_.path());
+  TriangleId some = 0;
+  opened->for_each_triangle(opened->info().bounds, [&](auto, auto ids) { some = ids[0]; });
+  EXPECT_THROW(static_cast<void>(store::find_source(opened->state(), some, [] { throw Cancelled(); })), Cancelled);
+  EXPECT_EQ(store::find_source(opened->state(), some, [] {}).object, "square");
+  // Now it is known.
+  EXPECT_EQ(store::find_source(opened->state(), some, [] { throw Cancelled(); }).object, "square");
 }
 
 TEST(Recent, CountsMoreThanTheNumbersOfATile) {

@@ -41,14 +41,14 @@ Loaders::Loaders(std::shared_ptr<const Store> store, std::byte* arena, Planner& 
                  Names& names, int count)
     : store_(std::move(store)), arena_(arena), handover_(handover), names_(names), planner_(planner) {
   for (int i = 0; i < count; ++i) tools_.push_back(std::make_unique<Tools>());
-  threads_.reserve(static_cast<std::size_t>(count));
-  for (int i = 0; i < count; ++i) {
+  threads_.reserve(static_cast<std::size_t>(count) + 1);
+  for (int i = 0; i <= count; ++i) {
     try {
-      threads_.emplace_back([this, i] { run(i); });
+      threads_.emplace_back([this, i, count] { i < count ? run(i) : run_names(); });
     } catch (const std::system_error& error) {
       end();
       throw Error(fmt::format("cannot start loading thread {} of {}: {}; give the pager fewer, or end other programs",
-                              i + 1, count, error.what()));
+                              i + 1, count + 1, error.what()));
     } catch (...) {
       end();
       throw;
@@ -74,7 +74,6 @@ void Loaders::mark(int number, Clock::time_point since) {
 
 void Loaders::run(int number) {
   for (;;) {
-    names_.serve([this](TriangleId triangle) { return name(triangle); });
     Work work;
     bool found = false;
     {
@@ -90,6 +89,14 @@ void Loaders::run(int number) {
     }
     std::unique_lock lock(sleeping_);
     if (stop_ || (!found && wake_.wait_for(lock, nap, [this] { return stop_; }))) return;
+  }
+}
+
+void Loaders::run_names() {
+  for (;;) {
+    const bool served = names_.serve([this](TriangleId triangle) { return name(triangle); });
+    std::unique_lock lock(sleeping_);
+    if (stop_ || (!served && wake_.wait_for(lock, nap, [this] { return stop_; }))) return;
   }
 }
 
@@ -178,7 +185,11 @@ const char* Loaders::load_page(const Work& work, Outcome& outcome) const {
 /// The name, or nothing if it is not available now. Never throws.
 std::optional<std::string> Loaders::name(TriangleId triangle) {
   try {
-    if ((triangle & unknown_bit) == 0) return store_->source(triangle).object;
+    const auto go_on = [this] {
+      const std::lock_guard lock(sleeping_);
+      if (stop_) throw Cancelled();
+    };
+    if ((triangle & unknown_bit) == 0) return store::find_source(store_->state(), triangle, go_on).object;
     const std::lock_guard lock(planning_);
     return planner_.reason(unknown_thing(triangle));
   } catch (...) {

@@ -42,6 +42,8 @@ class Loaders {
   };
 
   void run(int number);
+  /// Finds names, on a thread of its own: a large part takes long, and tiles must not wait for it.
+  void run_names();
   void end();
   /// Turns every exception into a failure, like a failed read of the disk.
   [[nodiscard]] Outcome load(const Work& work, Tools& tools) noexcept;
@@ -62,7 +64,7 @@ class Loaders {
   std::condition_variable wake_;
   bool stop_ = false;  ///< under `sleeping_`
   std::vector<std::unique_ptr<Tools>> tools_;
-  std::vector<std::thread> threads_;
+  std::vector<std::thread> threads_;  ///< the last one finds names
 };
 
 }  // namespace roam::paging

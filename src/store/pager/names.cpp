@@ -37,21 +37,22 @@ std::string Names::ask(TriangleId triangle) {
   return entry->name;
 }
 
-void Names::serve(const std::function<std::optional<std::string>(TriangleId)>& find) {
+bool Names::serve(const std::function<std::optional<std::string>(TriangleId)>& find) {
   TriangleId triangle = 0;
   {
     const std::lock_guard lock(mutex_);
     const auto at = std::find_if(entries_.begin(), entries_.end(), [](const Entry& e) { return e.wanted; });
-    if (at == entries_.end()) return;
+    if (at == entries_.end()) return false;
     at->wanted = false;
     triangle = at->triangle;
   }
   std::optional<std::string> name = find(triangle);
   const std::lock_guard lock(mutex_);
   Entry* const entry = entry_of(triangle);
-  if (!entry) return;
+  if (!entry) return true;
   entry->again = name ? Clock::time_point{} : Clock::now() + retry_after;
   if (name) entry->name = std::move(*name);
+  return true;
 }
 
 }  // namespace roam::paging

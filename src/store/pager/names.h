@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// A cache of object names. A loading thread finds missing ones, for later calls.
+/// A cache of object names. Another thread finds missing ones, for later calls.
 
 #include <array>
 #include <chrono>
@@ -16,11 +16,11 @@ namespace roam::paging {
 
 class Names {
  public:
-  /// The name, or "" if it is not known yet; then a loading thread finds it. Never waits.
+  /// The name, or "" if it is not known yet; then another thread finds it. Never waits.
   [[nodiscard]] std::string ask(TriangleId triangle);
-  /// Finds one name that is wanted, by `find`. If `find` returns nothing, a later ask() tries again, but not at once.
-  /// For loading threads.
-  void serve(const std::function<std::optional<std::string>(TriangleId)>& find);
+  /// Finds one name that is wanted, by `find`; returns false if none is. If `find` returns nothing, a later ask() tries
+  /// again, but not at once.
+  bool serve(const std::function<std::optional<std::string>(TriangleId)>& find);
 
  private:
   struct Entry {

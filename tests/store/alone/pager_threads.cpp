@@ -41,13 +41,13 @@ TEST(PagerThreads, ThatCannotBeStartedAreAnErrorAndThoseThatRunEnd) {
   const Mesh mesh = floor_of_tiles();
   made::store(folder.path(), {&mesh, 1}, {});
   const auto store = Store::open(folder.path());
-  for (const int n : {1, 2, 3}) {
+  for (const int n : {1, 2, 3, 4}) {
     failing_thread = n;
     try {
       const Pager pager(store, {.memory = 16u << 20, .loaders = 3});
-      ADD_FAILURE() << "there are three threads, though one could not be started";
+      ADD_FAILURE() << "there are all threads, though one could not be started";
     } catch (const Error& error) {
-      EXPECT_NE(std::string(error.what()).find("loading thread " + std::to_string(n) + " of 3"), std::string::npos)
+      EXPECT_NE(std::string(error.what()).find("loading thread " + std::to_string(n) + " of 4"), std::string::npos)
           << error.what();
     }
   }
@@ -60,11 +60,12 @@ TEST(PagerThreads, ThatCannotBeStartedAreAnErrorAndThoseThatRunEnd) {
 class NoParts : public StoreBytes {
  public:
   explicit NoParts(const std::filesystem::path& folder) : files_(store::files_of(folder)) {}
-  std::atomic<bool> broken{true};
+  std::atomic<bool> broken{true}, slow{false};
   std::vector<std::byte> whole(const std::string& file, std::uint64_t limit) override {
     return files_->whole(file, limit);
   }
   const char* read(const std::string& file, std::uint64_t offset, std::span<std::byte> out) override {
+    while (slow && file.starts_with("parts/")) std::this_thread::sleep_for(std::chrono::milliseconds(1));
     if (broken && file.starts_with("parts/")) return "not now";
     return files_->read(file, offset, out);
   }
@@ -92,6 +93,23 @@ TEST(PagerNames, ThatCouldNotBeReadAreReadAgainWhenSomebodyAsks) {
   EXPECT_FALSE(named_within(20));
   bytes->broken = false;
   EXPECT_TRUE(named_within(3000));
+}
+
+TEST(PagerNames, ThatTakeLongKeepNoTileWaiting) {
+  const made::Folder folder("pager_slow");
+  const Mesh mesh = floor_of_tiles();
+  made::store(folder.path(), {&mesh, 1}, {.page_tiles = 4, .tile_triangles = 50});
+  const auto bytes = std::make_shared<NoParts>(folder.path());
+  bytes->broken = false;
+  bytes->slow = true;
+  const auto store = Store::open(bytes, "yard");
+  TriangleId some = no_triangle;
+  store->for_each_triangle(store->info().bounds, [&](auto, auto ids) { some = ids[0]; });
+  Pager pager(store, {.memory = 16u << 20, .loaders = 1});
+  EXPECT_EQ(pager.object_name(some), "");
+  std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  EXPECT_TRUE(made::update_until(pager, {0.3, 0.0}, {10.0, 10.0, 1.0}, [&] { return pager.stats().tiles > 0; }));
+  bytes->slow = false;
 }
 
 }  // namespace
