@@ -11,7 +11,6 @@
 #   install.sh osg_intersector SOURCE PREFIX WORK CXX   builds that example outside the tree and runs it
 #   install.sh package SOURCE PREFIX WORK CXX   asks find_package for versions and components that are there and that are not
 #   install.sh readme  SOURCE PREFIX WORK CXX   does the same with the C++ program that README.md shows
-#   install.sh program SOURCE PREFIX WORK CXX   runs, with the installed roam, every command line that README.md shows
 set -euo pipefail
 what=$1 source=$2 prefix=$3 work=$4 compiler=$5
 rm -rf "$work"
@@ -198,17 +197,5 @@ END
     expected=$(sed -n 's/^It prints `\(.*\)`\.$/\1/p' "$source/README.md")
     [[ $expected ]] || { echo "README.md does not say what its example prints"; exit 1; }
     expect "$expected" "$work/build/sweep_a_sphere"
-    ;;
-  program)
-    cd "$work"
-    mkdir build
-    ln -s "$prefix/bin/roam" build/roam
-    ln -s "$source/docs" docs
-    mapfile -t commands < <(sed -n '/^```sh$/,/^```$/p' "$source/README.md" | grep 'build/roam ')
-    ((${#commands[@]} > 0)) || { echo "README.md shows no command line"; exit 1; }
-    for command in "${commands[@]}"; do
-      echo "\$ $command"
-      bash -c "set -o pipefail; $command" || { echo "failed with status $?"; exit 1; }
-    done
     ;;
 esac
