@@ -62,10 +62,23 @@ class StoreMemory : public testing::Test {
     return rows;
   }
 
+  static void check_verbs();
+  static void check_all_that_a_walk_does_besides();
+  static void check_long_walks();
+  static void check_hostile_stores();
+
   static inline TestFolder* folder_ = nullptr;
 };
 
+// One test, because ctest runs each in a process of its own, which would make the stores again.
 TEST_F(StoreMemory, IsWhatMemorySaysAndLittleMore) {
+  check_verbs();
+  check_all_that_a_walk_does_besides();
+  check_long_walks();
+  check_hostile_stores();
+}
+
+void StoreMemory::check_verbs() {
   const struct {
     const char* name;
     Vec3 lower, upper;
@@ -91,7 +104,7 @@ TEST_F(StoreMemory, IsWhatMemorySaysAndLittleMore) {
   }
 }
 
-TEST_F(StoreMemory, IsKeptByAllThatAWalkDoesBesides) {
+void StoreMemory::check_all_that_a_walk_does_besides() {
   const std::string scene = folder_->file("gallery.ply"), drawing = folder_->file("way.svg");
   const std::vector<std::vector<std::string>> extras{{"--picture", drawing},
                                                      {"--picture", folder_->file("way.png")},
@@ -123,7 +136,7 @@ TEST_F(StoreMemory, IsKeptByAllThatAWalkDoesBesides) {
   EXPECT_LE(against.peak, (64 + own) << 10) << "--against";
 }
 
-TEST_F(StoreMemory, IsThatOfAShortWalkHoweverLongTheWalkIs) {
+void StoreMemory::check_long_walks() {
   const std::string folder = folder_->file("parts");
   for (const char* extra : {"--verify", "--picture"}) {
     std::vector<std::string> call{"walk", folder, "--wander", "300", "--dt", "0.001", "--memory", "8M", extra};
@@ -134,7 +147,7 @@ TEST_F(StoreMemory, IsThatOfAShortWalkHoweverLongTheWalkIs) {
   }
 }
 
-TEST_F(StoreMemory, IsKeptWhateverTheStoreSays) {
+void StoreMemory::check_hostile_stores() {
   const TestFolder hostile;
   const std::string store = hostile.file("s");
   fs::copy(folder_->file("parts"), store, fs::copy_options::recursive);
