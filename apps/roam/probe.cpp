@@ -182,8 +182,9 @@ Json report_of(const ProbeOptions& o, const Surveyed& scene, std::span<const Pro
                {"spacing", o.question.spacing}};
   if (one) {
     json.update(json_report(answers.front(), true));
-    add_details(json, details_of(o, scene, answers.front()));
-    json["answer"] = words::explain(o.question, answers.front());
+    const words::ProbeDetails details = details_of(o, scene, answers.front());
+    add_details(json, details);
+    json["answer"] = words::report(o.question, answers.front(), details).sentences();
     return json;
   }
   Json sizes = Json::array();
@@ -230,8 +231,8 @@ ExitStatus probe(ProbeOptions o) {
   if (o.json) {
     print(report_of(o, scene, answers));
   } else {
-    print_beside(o.path.value_or(""),
-                 o.matrix ? table(o.question, answers) : words::report(o.question, first, details_of(o, scene, first)));
+    print_beside(o.path.value_or(""), o.matrix ? table(o.question, answers)
+                                               : words::report(o.question, first, details_of(o, scene, first)).text());
   }
   unwritten.raise();
   const bool all = std::all_of(answers.begin(), answers.end(), [](const ProbeAnswer& a) { return a.passable; });

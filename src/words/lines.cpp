@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 
 namespace roam::words {
 namespace {
@@ -15,12 +16,20 @@ std::size_t width_of(std::string_view text) {
       std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xc0U) != 0x80U; }));
 }
 
+/// With a full stop, and a capital at the beginning.
+std::string sentence(std::string_view text) {
+  std::string s(text);
+  s[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(s[0])));
+  return s.ends_with('.') ? s : s + '.';
+}
+
 }  // namespace
 
-Lines::Lines(std::string_view first) { wrap(first, 0); }
+Lines::Lines(std::string_view first) : sentences_(sentence(first)) { wrap(first, 0); }
 
 void Lines::add(std::string_view label, std::string_view text) {
   if (text.empty()) return;
+  sentences_ += ' ' + (label.empty() ? sentence(text) : sentence(fmt::format("{}: {}", label, text)));
   text_ += fmt::format("  {:<{}}", label, label_columns - 2);
   if (label.size() + 2 >= label_columns) text_ += ' ';
   wrap(text, label_columns);

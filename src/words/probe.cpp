@@ -44,7 +44,7 @@ std::string text_of(const ProbeLimit& limit) {
     case Kind::gap:
       return fmt::format("{} {} {}", to_string(limit.kind), metres(limit.size), extent(limit));
     case Kind::lintel:
-      return fmt::format("lintel for a radius of {}", metres(0.5 * limit.size));
+      return fmt::format("lintel, {} wide", metres(limit.size));
     case Kind::start:
     case Kind::target:
       return fmt::format("{} {} {}", end_name(limit.kind), metres(limit.size),
@@ -67,124 +67,44 @@ namespace {
 constexpr double moved_aside = 0.05;
 constexpr double tall = 2.0;  ///< m: eyes are at most this far above the feet
 
-std::string body_text(const ProbedSize& size) {
-  if (size.height <= 2.0 * size.radius) return fmt::format("a sphere of radius {:.3g} m", size.radius);
-  return fmt::format("a body of radius {:.3g} m and height {:.3g} m", size.radius, size.height);
-}
-
-/// "the narrowest place is ...", for a way that is wide enough.
-std::string narrowest(const ProbeAnswer& answer) {
-  const Passage& p = answer.passage;
-  if (!answer.limit) return fmt::format("nothing on it leaves less than {}", metres(2.0 * p.radius));
-  const ProbeLimit& limit = *answer.limit;
-  const std::string where = fmt::format("at {}, {:.1f} m on the way", at(limit.point), limit.along);
-  if (is_end(limit.kind)) {
-    return fmt::format("nothing on it is narrower than the {} itself, which stands {} from a wall",
-                       end_name(limit.kind), metres(limit.size));
-  }
-  if (limit.kind == Kind::edge)
-    return fmt::format(
-        "the narrowest place has a wall on one side, {} from the way, and the floor's end on the other, {}",
-        metres(limit.size), where);
-  if (limit.kind == Kind::lintel && answer.size.height > 2.0 * answer.size.radius)
-    return fmt::format("the narrowest place lets a radius of {} under a lintel {}", metres(0.5 * limit.size), where);
-  return fmt::format("the narrowest place is {} {} ({}) {}", metres(limit.size), extent(limit), to_string(limit.kind),
-                     where);
-}
-
-/// No way was found for any size.
+/// No way was found for any size. For Kind::apart, `limit` is where the two sides come nearest.
 std::string no_way(const ProbeAnswer& answer) {
   const ProbedSize& size = answer.size;
-  return fmt::format(
-      "{}, not even for a radius of {}{}: what is reached from the start and what is reached from the target do not "
-      "meet",
-      is_shut(answer) ? "There is no way at all" : "No way was found", metres(answer.narrowest),
-      size.height > 2.0 * size.radius ? fmt::format(" and a height of {:.3g} m", size.height) : "");
-}
-
-/// The obstacle that stops the body.
-std::string stopped_by(const ProbeAnswer& answer) {
-  const Passage& p = answer.passage;
-  if (!answer.limit) {
-    if (p.found) return fmt::format("No way leaves more than {}.", metres(2.0 * p.radius));
-    std::string text = no_way(answer) + ", nor come near each other.";
-    const double rise = answer.target.z - answer.start.z;
-    if (std::abs(rise) > tall) {
-      text += fmt::format(" The target lies {:.1f} m {}; no stairs or ramp join the two.", std::abs(rise),
-                          rise > 0.0 ? "higher" : "lower");
-    }
-    return text;
-  }
-  const ProbeLimit& limit = *answer.limit;
-  const std::string missing =
-      answer.missing < 1e-3 ? "less than 1 mm is missing" : metres(answer.missing) + " are missing";
-  switch (limit.kind) {
-    case Kind::start:
-    case Kind::target: {
-      std::string text = limit.too_low
-                             ? fmt::format("The {} is too low: at {} there are {} from the floor to what is above; {}.",
-                                           end_name(limit.kind), at(limit.feet), metres(limit.size), missing)
-                             : fmt::format("The {} stands {} from a wall, at {}; {}.", end_name(limit.kind),
-                                           metres(limit.size), at(limit.feet), missing);
-      if (answer.room) text += fmt::format(" The nearest place with room for it is {}.", at(*answer.room));
-      return text;
-    }
-    case Kind::edge:
-      return fmt::format(
-          "At {} there is a wall on one side and the floor's end on the other: a way leads {} from the wall; {}.",
-          at(limit.point), metres(limit.size), missing);
-    case Kind::height: {
-      std::string text =
-          fmt::format("The body is too high: near {} one of that radius passes up to a height of {}; {}.",
-                      at(limit.feet), metres(limit.size), missing);
-      if (p.found) text += fmt::format(" At its whole height only a radius of {} passes.", metres(p.radius));
-      return text;
-    }
-    case Kind::step:
-      return fmt::format("A step stops it: at {} the floor {} by {} at once, and the body steps {}.", at(limit.point),
-                         limit.feet.z < limit.point.z ? "rises" : "falls", metres(limit.size), metres(limit.needed));
-    case Kind::apart:
-      return no_way(answer) + fmt::format("; it breaks off at {}.", at(limit.point));
-    case Kind::lintel:
-      if (answer.size.height > 2.0 * answer.size.radius) {
-        return fmt::format("The lintel at {} lets a radius of {} through at that height; {}.", at(limit.point),
-                           metres(0.5 * limit.size), metres(0.5 * answer.missing) + " are missing");
-      }
-      break;
-    case Kind::door:
-    case Kind::gap:
-      break;
-  }
-  return fmt::format("The {} at {} is {} {}; {}.", to_string(limit.kind), at(limit.point), metres(limit.size),
-                     extent(limit), missing);
+  std::string text = fmt::format("{} for a body {}: the places reached from A and those reached from B do not meet",
+                                 is_shut(answer) ? "there is no way, even" : "no way was found, even",
+                                 size_of(answer.narrowest, std::max(size.height, 2.0 * answer.narrowest)));
+  if (answer.limit) return text + fmt::format("; they are nearest at {}", at(answer.limit->point));
+  const double rise = answer.target.z - answer.start.z;
+  if (std::abs(rise) <= tall) return text;
+  return text + fmt::format(". B lies {:.1f} m {}; no stairs or ramp join the two", std::abs(rise),
+                            rise > 0.0 ? "higher" : "lower");
 }
 
 /// The search reached its limit of places.
 std::string ended(const Passage& p) {
-  return fmt::format(
-      " the search ended after {} places, the most that are looked at. A wider spacing (--spacing) looks at fewer.",
-      p.places);
+  return fmt::format("the search ended at its limit of {} places. A wider spacing (--spacing) needs fewer",
+                     grouped(p.places));
 }
 
-/// The certified upper bound on the radius of ways, rounded up to millimetres.
+/// The certified upper bound on the width of ways, rounded up to millimetres.
 std::string certified(const Passage& p) {
-  return fmt::format("That none for a radius over {:.3f} m exists is certified", std::ceil(1e3 * p.bound - 1e-6) / 1e3);
+  return fmt::format("it is proven that nothing wider than {:.3f} m passes", 2e-3 * std::ceil(1e3 * p.bound - 1e-6));
 }
 
 /// How certain a "no" is.
-std::string sureness(const ProbeQuestion& question, const ProbeAnswer& answer) {
+std::string certainty(const ProbeQuestion& question, const ProbeAnswer& answer) {
   const Passage& p = answer.passage;
-  if (answer.limit && (is_end(answer.limit->kind) || answer.limit->too_low)) return "";
-  if (!p.complete && !answer.proven) return " A wider way may exist:" + ended(p);
-  if (!p.complete) return fmt::format(" {}; of narrower ones not all were looked for:", certified(p)) + ended(p);
-  if (is_shut(answer)) return " That is certified.";
+  if (answer.passable) return "a walker of that size has gone the way from A to B";
+  if (answer.wide_enough || is_unknown(answer)) return {};
+  if (answer.limit && (is_end(answer.limit->kind) || answer.limit->too_low)) return {};
+  if (!p.complete && !answer.proven) return "no proof: " + ended(p);
+  if (!p.complete) return fmt::format("{}; for narrower bodies {}", certified(p), ended(p));
+  if (is_shut(answer)) return "it is proven that there is no way";
   // The proof leaves an interval open, and the body's radius may lie in it.
-  if (p.found && (answer.proven || p.proven)) return fmt::format(" {}.", certified(p));
-  const double overlooked = 0.7 * question.spacing;
-  if (answer.proven)
-    return fmt::format(" {}; for smaller ones, openings under {:.2g} m may be overlooked.", certified(p), overlooked);
-  return fmt::format(" None{} was found among places {:g} m apart; openings under {:.2g} m may be overlooked.",
-                     p.found ? " wider" : "", question.spacing, overlooked);
+  if (p.found && (answer.proven || p.proven)) return certified(p);
+  const std::string missed = fmt::format("openings under {:.2g} m may have been missed", 0.7 * question.spacing);
+  if (answer.proven) return fmt::format("{}; for narrower bodies {}", certified(p), missed);
+  return fmt::format("no proof: the search looked at places {:g} m apart; {}", question.spacing, missed);
 }
 
 /// The walker's last position, reported like all positions: of the feet when walking, of the centre when flying.
@@ -192,59 +112,6 @@ std::string walked_to(const ProbeQuestion& question, const ProbeAnswer& answer) 
   Vec3 place = answer.walk->at;
   if (question.mode == Mode::walk) place.z -= 0.5 * answer.size.height;
   return at(place);
-}
-
-/// Says that an end had to be moved.
-std::string moved(const char* end, const Vec3& asked, const Vec3& stands, Mode mode) {
-  const double aside = std::hypot(stands.x - asked.x, stands.y - asked.y), down = asked.z - stands.z;
-  if (mode == Mode::fly ? glm::distance(asked, stands) > moved_aside : aside > moved_aside) {
-    return fmt::format(" The {} has no room where it was asked for: {} was taken.", end, at(stands));
-  }
-  if (mode == Mode::walk && down > tall)
-    return fmt::format(" The {} is {:.2f} m above the floor: {} was taken.", end, down, at(stands));
-  if (mode == Mode::walk && std::abs(down) > moved_aside) return fmt::format(" The {}'s floor is {}.", end, at(stands));
-  return "";
-}
-
-}  // namespace
-
-std::string explain(const ProbeQuestion& question, const ProbeAnswer& answer) {
-  const DefaultFloatingPoint guard;
-  const Passage& p = answer.passage;
-  const std::string ways = fmt::format("from {} to {}", at(question.from), at(question.to));
-  const std::string body = body_text(answer.size);
-  std::string text;
-  if (answer.passable) {
-    text = fmt::format("Yes: {} gets {} on a way of {:.1f} m; {}.", body, ways, p.length, narrowest(answer));
-  } else if (answer.walk && falls(*answer.walk, question.mode)) {
-    text = fmt::format(
-        "No: {} falls at {}, where the floor ends or has a gap: it needs a wider foot (a support radius, "
-        "--support-radius), or a bridge. Else it would get {} on a way of {:.1f} m; {}.",
-        body, walked_to(question, answer), ways, p.length, narrowest(answer));
-  } else if (answer.walk) {
-    const char* how = answer.walk->outcome == Outcome::left_scene ? "left the scene"
-                      : answer.walk->outcome == Outcome::held     ? "was held"
-                                                                  : "was blocked";
-    text = fmt::format(
-        "Not shown: the walker that was sent along the way {} at {}. By its measures {} gets {} on a way of {:.1f} m; "
-        "{}.",
-        how, walked_to(question, answer), body, ways, p.length, narrowest(answer));
-  } else if (is_unknown(answer)) {
-    text = fmt::format("Not known: no way was found on which {} gets {}, but", body, ways) + ended(p);
-  } else if (!p.complete && !p.found && !answer.limit) {
-    text = fmt::format("No: {} does not get {}.", body, ways) + sureness(question, answer);
-  } else {
-    text = fmt::format("No: {} does not get {}. {}", body, ways, stopped_by(answer)) + sureness(question, answer);
-  }
-  return text + moved("start", question.from, answer.start, question.mode) +
-         moved("target", question.to, answer.target, question.mode);
-}
-
-namespace {
-
-std::string trimmed(const std::string& text) {
-  const std::size_t begin = text.find_first_not_of(' ');
-  return begin == std::string::npos ? "" : text.substr(begin);
 }
 
 const char* shortfall(const ProbeLimit& limit) {
@@ -274,17 +141,23 @@ std::string stop_line(const ProbeQuestion& question, const ProbeAnswer& answer, 
         walked_to(question, answer));
   }
   if (answer.walk) {
-    return fmt::format("the walker that was sent along the way ended at {}: {}. By its measures the body passes",
-                       walked_to(question, answer), to_string(answer.walk->outcome));
+    const Outcome outcome = answer.walk->outcome;
+    return fmt::format("a walker sent along the way {} at {}, although the measured way is wide enough",
+                       outcome == Outcome::left_scene ? "left the scene"
+                       : outcome == Outcome::held     ? "was held"
+                                                      : "was blocked",
+                       walked_to(question, answer));
   }
-  if (is_unknown(answer)) return trimmed(ended(answer.passage));
-  if (!answer.limit || answer.limit->kind == Kind::apart) return stopped_by(answer);
-  const double missing = answer.limit->kind == Kind::lintel ? 0.5 * answer.missing : answer.missing;
+  if (is_unknown(answer)) return ended(answer.passage);
+  if (!answer.limit && !answer.passage.found && !answer.passage.complete) return {};  // certainty() says it
+  if (!answer.limit && answer.passage.found)
+    return fmt::format("no way leaves more than {}", metres(2.0 * answer.passage.radius));
+  if (!answer.limit || answer.limit->kind == Kind::apart) return no_way(answer);
   std::string text = obstacle(*answer.limit, details);
   if (answer.limit->kind == Kind::step) {
     text += fmt::format("; the body steps {}", metres(answer.limit->needed));
   } else {
-    text += missing < 1e-3 ? ": less than 1 mm " : fmt::format(": {} ", metres(missing));
+    text += answer.missing < 1e-3 ? ": less than 1 mm " : fmt::format(": {} ", metres(answer.missing));
     text += shortfall(*answer.limit);
   }
   return answer.room ? text + fmt::format("; the nearest place with room is {}", at(*answer.room)) : text;
@@ -330,16 +203,9 @@ std::string end_line(const Vec3& asked, const Vec3& stands, Mode mode) {
   return "on the floor at " + place;
 }
 
-std::string certainty(const ProbeQuestion& question, const ProbeAnswer& answer) {
-  if (answer.passable) return "a walker of that size has gone the way from A to B";
-  if (answer.wide_enough) return {};
-  const std::string text = trimmed(sureness(question, answer));
-  return answer.passage.complete && !answer.proven && !text.empty() ? text + " This is no proof." : text;
-}
-
 }  // namespace
 
-std::string report(const ProbeQuestion& question, const ProbeAnswer& answer, const ProbeDetails& details) {
+Lines report(const ProbeQuestion& question, const ProbeAnswer& answer, const ProbeDetails& details) {
   const DefaultFloatingPoint guard;
   const bool contradicts = answer.walk && !answer.passable && !falls(*answer.walk, question.mode);
   const char* const word = answer.passable      ? "YES"
@@ -352,7 +218,8 @@ std::string report(const ProbeQuestion& question, const ProbeAnswer& answer, con
   Lines lines(
       fmt::format("{}: a body {} {} from A to B.", word, size_of(answer.size.radius, answer.size.height), gets));
   if (!answer.passable) {
-    const bool is_named = answer.limit && answer.limit->kind != Kind::apart && !answer.walk && !is_unknown(answer);
+    const bool is_named = answer.limit && answer.limit->kind != Kind::apart && !is_end(answer.limit->kind) &&
+                          !answer.walk && !is_unknown(answer);
     lines.add(is_named ? "stopped by" : "why", stop_line(question, answer, details));
     lines.add("would pass", would_pass(answer));
   }
@@ -377,7 +244,7 @@ std::string report(const ProbeQuestion& question, const ProbeAnswer& answer, con
   lines.add("A", end_line(question.from, answer.start, question.mode));
   lines.add("B", end_line(question.to, answer.target, question.mode));
   lines.add("certainty", certainty(question, answer));
-  return lines.text();
+  return lines;
 }
 
 }  // namespace roam::words

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Sentences about the result of a probe, and words that its table and pictures share.
+/// The report of a probe, and words that its table and pictures share.
 
 #include <optional>
 #include <string>
@@ -9,12 +9,9 @@
 #include "measure/along.h"
 #include "measure/slope.h"
 #include "roam/probe.h"
+#include "words/lines.h"
 
 namespace roam::words {
-
-/// The result in one to four sentences: yes or no, along which way, or what stops the body, where, and how certain that
-/// is.
-[[nodiscard]] std::string explain(const ProbeQuestion& question, const ProbeAnswer& answer);
 
 /// What a report says besides the answer. Names are empty if unknown.
 struct ProbeDetails {
@@ -29,8 +26,8 @@ struct ProbeDetails {
   std::vector<Narrow> narrow;
 };
 
-/// The report: the answer in one line, and labelled lines.
-[[nodiscard]] std::string report(const ProbeQuestion& question, const ProbeAnswer& answer, const ProbeDetails& details);
+/// The report: yes or no; then along which way, or what stops the body, where, and how certain that is.
+[[nodiscard]] Lines report(const ProbeQuestion& question, const ProbeAnswer& answer, const ProbeDetails& details = {});
 
 /// The decisive obstacle and its size in a few words: "door 0.520 m wide".
 [[nodiscard]] std::string text_of(const ProbeLimit& limit);

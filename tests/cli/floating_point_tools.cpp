@@ -76,7 +76,7 @@ TEST(FloatingPoint, WaysAndTraining) {
       bits(static_cast<std::uint64_t>(answer.passable));
       bits(answer.missing);
       add(bits, answer.passage);
-      for (const char c : roam::words::explain(question, answer)) bits(static_cast<std::uint64_t>(c));
+      for (const char c : roam::words::report(question, answer).sentences()) bits(static_cast<std::uint64_t>(c));
     }
   });
 }

@@ -143,7 +143,7 @@ TEST(Locale, Answers) {
     ProbeQuestion question;
     question.from = {0.5, 0.25, 1.0};
     question.to = {3.5, 0.75, 1.0};
-    return words::explain(question, probe(survey, question, {0.35, 1.75}));
+    return words::report(question, probe(survey, question, {0.35, 1.75})).sentences();
   });
 }
 

@@ -1,12 +1,11 @@
 // What roam probe says of answers that no scene gives as asked: walkers that contradict a way, searches that ended.
-#include "probe/text.h"
-
 #include <gtest/gtest.h>
 
 #include <span>
 #include <string>
 #include <vector>
 
+#include "probe/text.h"
 #include "words/probe.h"
 
 namespace {
@@ -42,8 +41,8 @@ TEST(ProbeText, SaysNotShownWhereTheWalkerContradictsTheWay) {
                                                               {Outcome::held, "was held at (9.00, 0.25, 0.00)"}};
   for (const auto& [outcome, how] : outcomes) {
     const ProbeAnswer answer = wide_enough(outcome);
-    const std::string text = words::explain(question, answer);
-    EXPECT_TRUE(text.starts_with("Not shown: ")) << text;
+    const std::string text = words::report(question, answer).sentences();
+    EXPECT_TRUE(text.starts_with("NOT SHOWN: ")) << text;
     EXPECT_TRUE(contains(text, how)) << text;
     const app::Json json = app::json_report(answer, false);
     EXPECT_EQ(json["passable"], false);
@@ -59,10 +58,10 @@ TEST(ProbeText, SaysOfFlyingThatTheWalkerLeftTheScene) {
   flying.mode = Mode::fly;
   ProbeAnswer answer = wide_enough(Outcome::left_scene);
   answer.size.height = 0.6;
-  const std::string text = words::explain(flying, answer);
-  EXPECT_TRUE(text.starts_with("Not shown: ") && contains(text, "left the scene at (9.00, 0.25, 0.90)")) << text;
+  const std::string text = words::report(flying, answer).sentences();
+  EXPECT_TRUE(text.starts_with("NOT SHOWN: ") && contains(text, "left the scene at (9.00, 0.25, 0.90)")) << text;
   // On foot it fell over the side of the scene.
-  EXPECT_TRUE(words::explain(question, wide_enough(Outcome::left_scene)).starts_with("No: "));
+  EXPECT_TRUE(words::report(question, wide_enough(Outcome::left_scene)).sentences().starts_with("NO: "));
 }
 
 TEST(ProbeText, SaysNotKnownOfASearchThatCameToItsMostPlaces) {
@@ -70,10 +69,10 @@ TEST(ProbeText, SaysNotKnownOfASearchThatCameToItsMostPlaces) {
   answer.size = {0.3, 1.8};
   answer.passage.complete = false;
   answer.passage.places = 4'000'000;
-  const std::string text = words::explain(question, answer);
-  EXPECT_TRUE(text.starts_with("Not known: ")) << text;
-  EXPECT_TRUE(contains(text, "ended after 4000000 places")) << text;
-  EXPECT_FALSE(contains(text, "There is no way")) << text;
+  const std::string text = words::report(question, answer).sentences();
+  EXPECT_TRUE(text.starts_with("NOT KNOWN: ")) << text;
+  EXPECT_TRUE(contains(text, "ended at its limit of 4,000,000 places")) << text;
+  EXPECT_FALSE(contains(text, "there is no way")) << text;
   EXPECT_EQ(app::json_report(answer, false)["complete"], false);
   // A way that is too narrow was found, and a wider one may be there.
   answer.passage.found = answer.passage.limited = true;
@@ -82,11 +81,12 @@ TEST(ProbeText, SaysNotKnownOfASearchThatCameToItsMostPlaces) {
   answer.limit->size = 0.4;
   answer.limit->needed = 0.6;
   answer.missing = 0.2;
-  const std::string narrow = words::explain(question, answer);
-  EXPECT_TRUE(narrow.starts_with("No: ") && contains(narrow, "A wider way may exist")) << narrow;
+  const std::string narrow = words::report(question, answer).sentences();
+  EXPECT_TRUE(narrow.starts_with("NO: ") && contains(narrow, "no proof: the search ended")) << narrow;
   // Nothing wider leads off an end that has no room.
   answer.limit->kind = Kind::start;
-  EXPECT_FALSE(contains(words::explain(question, answer), "may exist")) << words::explain(question, answer);
+  EXPECT_FALSE(contains(words::report(question, answer).sentences(), "no proof"))
+      << words::report(question, answer).sentences();
 }
 
 /// Of a body that no way was found for, where none for a radius over 0.1252 m exists.
@@ -106,15 +106,15 @@ TEST(ProbeText, SaysThatNobodyPassesOnlyWhereThatIsCertified) {
   for (const bool apart : {true, false}) {
     if (!apart) answer.limit.reset();
     answer.passage.bound = 0.1252;
-    const std::string text = words::explain(question, answer);
-    EXPECT_TRUE(contains(text, "No way was found, not even for a radius of 0.050 m")) << text;
-    EXPECT_TRUE(contains(text, "That none for a radius over 0.126 m exists is certified;")) << text;
-    EXPECT_TRUE(contains(text, "openings under 0.14 m may be overlooked")) << text;
-    EXPECT_FALSE(contains(text, "no way at all") || contains(text, "That is certified")) << text;
+    const std::string text = words::report(question, answer).sentences();
+    EXPECT_TRUE(contains(text, "no way was found, even for a body 0.10 m wide")) << text;
+    EXPECT_TRUE(contains(text, "it is proven that nothing wider than 0.252 m passes; for narrower bodies")) << text;
+    EXPECT_TRUE(contains(text, "openings under 0.14 m may have been missed")) << text;
+    EXPECT_FALSE(contains(text, "there is no way")) << text;
     EXPECT_FALSE(contains(app::table(question, std::span(&answer, 1)), "no way at all"));
     answer.passage.bound = 0.05;
-    const std::string shut = words::explain(question, answer);
-    EXPECT_TRUE(contains(shut, "There is no way at all") && contains(shut, "That is certified.")) << shut;
+    const std::string shut = words::report(question, answer).sentences();
+    EXPECT_TRUE(contains(shut, "there is no way, even") && contains(shut, "it is proven that there is no way")) << shut;
   }
   EXPECT_TRUE(contains(app::table(question, std::span(&answer, 1)), "no way at all"));
 }
@@ -123,11 +123,11 @@ TEST(ProbeText, TellsWhatIsCertifiedOfASearchThatEnded) {
   ProbeAnswer answer = none_found();
   answer.passage.complete = false;
   answer.passage.places = 84'571;
-  const std::string text = words::explain(question, answer);
-  EXPECT_TRUE(text.starts_with("No: ")) << text;
-  EXPECT_TRUE(contains(text, "That none for a radius over 0.126 m exists is certified; of narrower ones")) << text;
-  EXPECT_TRUE(contains(text, "ended after 84571 places")) << text;
-  EXPECT_FALSE(contains(text, "no way at all") || contains(text, "do not meet")) << text;
+  const std::string text = words::report(question, answer).sentences();
+  EXPECT_TRUE(text.starts_with("NO: ")) << text;
+  EXPECT_TRUE(contains(text, "it is proven that nothing wider than 0.252 m passes; for narrower bodies")) << text;
+  EXPECT_TRUE(contains(text, "ended at its limit of 84,571 places")) << text;
+  EXPECT_FALSE(contains(text, "there is no way") || contains(text, "do not meet")) << text;
   const std::string row = app::table(question, std::span(&answer, 1));
   EXPECT_TRUE(contains(row, " no ") && contains(row, "none that wide: certified")) << row;
   // A narrow way was found before.
@@ -137,8 +137,8 @@ TEST(ProbeText, TellsWhatIsCertifiedOfASearchThatEnded) {
   answer.limit->size = 0.2;
   answer.limit->needed = 0.6;
   answer.missing = 0.4;
-  const std::string narrow = words::explain(question, answer);
-  EXPECT_TRUE(contains(narrow, "That none for a radius over 0.126 m exists is certified; of narrower ones")) << narrow;
+  const std::string narrow = words::report(question, answer).sentences();
+  EXPECT_TRUE(contains(narrow, "it is proven that nothing wider than 0.252 m passes; for narrower bodies")) << narrow;
 }
 
 TEST(ProbeText, CallsInATableUnknownWhatIsNotKnown) {
@@ -157,8 +157,8 @@ TEST(ProbeText, TellsTheBoundOfABodyThatMayStillGetThrough) {
   answer.size = {0.402, 0.804};
   answer.passage.proven = true;
   answer.passage.bound = 0.404;
-  const std::string text = words::explain(question, answer);
-  EXPECT_TRUE(contains(text, "That none for a radius over 0.404 m exists is certified.")) << text;
+  const std::string text = words::report(question, answer).sentences();
+  EXPECT_TRUE(contains(text, "it is proven that nothing wider than 0.808 m passes.")) << text;
 }
 
 TEST(ProbeText, NamesWhatIsMeasuredByItsKind) {

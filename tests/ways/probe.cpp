@@ -1,4 +1,6 @@
 // Whether a body gets from one place to another, as a program asks it.
+#include "roam/probe.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -7,7 +9,6 @@
 #include <vector>
 
 #include "messages.h"
-#include "roam/probe.h"
 #include "walker_scenes.h"
 #include "words/probe.h"
 
@@ -248,9 +249,9 @@ TEST(Probe, SaysANoInWordsWhereNothingIsNearEnoughToBeNamed) {
   const ProbeAnswer answer = probe(survey_of(m), question, {.radius = 0.3, .height = 1.8});
   EXPECT_FALSE(answer.passable || answer.passage.found);
   EXPECT_FALSE(answer.limit);
-  const std::string said = words::explain(question, answer);
-  EXPECT_TRUE(said.starts_with("No: ") && contains(said, "No way was found")) << said;
-  EXPECT_TRUE(contains(said, "nor come near each other")) << said;
+  const std::string said = words::report(question, answer).sentences();
+  EXPECT_TRUE(said.starts_with("NO: ") && contains(said, "Why: no way was found")) << said;
+  EXPECT_TRUE(contains(said, "do not meet")) << said;
 }
 
 TEST(Probe, LetsASphereClimbItsRadiusAndACapsuleWhatIsBelowItsHead) {

@@ -165,7 +165,7 @@ draw::Sheet sheet_of(const std::string& title, const Survey& survey, const Probe
     if (auto gap = gap_view(survey, question, answer)) views.push_back(std::move(*gap));
   }
   if (answer.limit) views.push_back(view_of(survey, question, answer));
-  return draw::opening_sheet(title, views, survey.meshes(), words::explain(question, answer),
+  return draw::opening_sheet(title, views, survey.meshes(), words::report(question, answer).sentences(),
                              overview_of(survey, question, answer));
 }
 

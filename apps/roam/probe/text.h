@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What `roam probe` reads and says: sizes, a table, JSON. Its sentences are explain() of words/probe.h.
+/// What `roam probe` reads and says: sizes, a table, JSON. Its report is in words/probe.h.
 
 #include <span>
 #include <string>
