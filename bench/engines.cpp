@@ -7,9 +7,9 @@
 #include "bars.h"
 #include "bench_verbs.h"
 #include "cli/interrupt.h"
-#include "cli/values.h"
 #include "cli/output_file.h"
 #include "cli/report.h"
+#include "cli/values.h"
 #include "comparison.h"
 #include "roam/error.h"
 #include "run_options.h"
@@ -45,7 +45,7 @@ struct Findings {
 void note(const std::string& text) { fmt::print(stderr, "{}\n", text); }
 
 /// The requested engines. Throws if none of them is installed.
-std::vector<EngineOffer> asked_engines(const Options& options) {
+std::vector<EngineOffer> chosen_engines(const Options& options) {
   std::vector<EngineOffer> offers = engine_offers(options.places);
   const auto& wanted = options.engines;
   std::erase_if(offers, [&](const EngineOffer& offer) {
@@ -54,13 +54,13 @@ std::vector<EngineOffer> asked_engines(const Options& options) {
   if (std::any_of(offers.begin(), offers.end(), [](const EngineOffer& offer) { return offer.make != nullptr; })) {
     return offers;
   }
-  std::string why = "none of the engines that were asked for is here";
+  std::string why = "none of the chosen engines is installed";
   for (const EngineOffer& offer : offers) why += "; " + offer.name + ": " + offer.missing;
   throw Error(why);
 }
 
 Findings find(const Options& options) {
-  const std::vector<EngineOffer> offers = asked_engines(options);
+  const std::vector<EngineOffer> offers = chosen_engines(options);
   Findings findings;
   const Scene scene = make_scene(options.scene, [] { return !app::interrupted(); });
   findings.scene = scene.name;
@@ -221,8 +221,8 @@ app::ExitStatus run(const Options& options) {
 }
 
 constexpr const char* help =
-    "Engines that are not here are named, with what to install. PhysX and Jolt come from npm as WebAssembly and run\n"
-    "under node, slower than native builds of them:\n"
+    "Missing engines are named, with what to install. PhysX and Jolt come from npm as WebAssembly and run under node,\n"
+    "slower than their native builds:\n"
     "  npm install --prefix DIR physx-js-webidl jolt-physics\n\n"
     "Exit status 3: roam itself missed something or stopped late; 1: also when roam itself failed.\n\n"
     "Examples:\n"
@@ -237,13 +237,13 @@ void add_engines(CLI::App& program, app::Run& run) {
   verb->footer(help);
   const auto options = std::make_shared<Options>();
   options->add_to(*verb);
-  verb->add_option("--engines", options->engines, "Which engines, separated by commas (default: all)")
+  verb->add_option("--engines", options->engines, "Engines, separated by commas (default: all)")
       ->delimiter(',')
       ->check(app::one_of(engine_names()));
-  verb->add_option("--wasm-engines", options->places.wasm, "The folder whose node_modules hold PhysX and Jolt")
+  verb->add_option("--wasm-engines", options->places.wasm, "Folder with PhysX and Jolt in node_modules")
       ->type_name("DIR");
   verb->add_option("--patience", options->comparison.patience,
-                   "Seconds: an engine that needs longer for a set gets the first part of it")
+                   "Seconds for a set of queries; a slower engine answers its first part only")
       ->capture_default_str()
       ->check(app::positive());
   verb->add_option("--picture", options->picture, "Draw the times as bars, to an SVG file")->type_name("FILE");

@@ -116,8 +116,8 @@ int main(int argc, char** argv) {
   CLI::App app{"Times roam's sweeps in one scene; exit code 1 when an answer is wrong"};
   options.add_to(app);
   app.add_flag("--lossless", options.lossless, "build with BuildOptions::lossless");
-  app.add_flag("!--no-check", options.check, "leave out the comparison with the reference: faster to start");
+  app.add_flag("!--no-check", options.check, "do not compare with the reference: starts faster");
   app.add_option("--instructions", options.instructions,
-                 "the best instruction set to use, by Highway's name: AVX3, AVX2, SSE4, ...");
+                 "best instruction set to use, named as in Highway: AVX3, AVX2, SSE4, ...");
   return run_program(app, argc, argv, [&] { return run(options); });
 }

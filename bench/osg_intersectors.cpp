@@ -126,8 +126,8 @@ int main(int argc, char** argv) {
   std::uint64_t triangles = 1'970'000;
   std::size_t every = 20;
   CLI::App app{"Times osgRoam::BoxIntersector and osgUtil::PolytopeIntersector on path 1 of the gallery"};
-  roam::app::add_triangles(app, "--triangles", triangles, "of the gallery");
-  app.add_option("--every", every, "ask only each Nth step where nothing is indexed and there is one geode")
+  roam::app::add_triangles(app, "--triangles", triangles, "triangles of the gallery");
+  app.add_option("--every", every, "with one geode and no index, query at every Nth step only")
       ->capture_default_str()
       ->check(roam::app::at_least_one());
   CLI11_PARSE(app, argc, argv);

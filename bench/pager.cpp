@@ -161,9 +161,10 @@ int main(int argc, char** argv) {
   options.add_to(app);
   app.add_option("--store", options.store, "fly through this store only");
   app.add_option("--memory", options.memory_mib, "MiB, for the flight")->capture_default_str();
-  app.add_option("--tile-triangles", options.tile_triangles, "at most, in a store that is made; 0: as a world's");
-  app.add_option("--speed", options.speed, "of the flight, metres per second")->capture_default_str();
-  app.add_option("--seconds", options.seconds, "of the flight")->capture_default_str();
+  app.add_option("--tile-triangles", options.tile_triangles,
+                 "triangles of a tile at most, in a made store; 0: as in a world");
+  app.add_option("--speed", options.speed, "speed of the flight, in metres per second")->capture_default_str();
+  app.add_option("--seconds", options.seconds, "length of the flight, in seconds")->capture_default_str();
   app.add_option("--loaders", options.loaders, "loading threads")->capture_default_str();
   return run_program(app, argc, argv, [&] { return run(options); });
 }

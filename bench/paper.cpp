@@ -7,9 +7,9 @@
 
 #include "bench_verbs.h"
 #include "cli/interrupt.h"
-#include "cli/values.h"
 #include "cli/output_file.h"
 #include "cli/report.h"
+#include "cli/values.h"
 #include "paper_report.h"
 #include "paper_scene.h"
 #include "roam/error.h"
@@ -49,14 +49,14 @@ void judge(PaperFindings& findings, const PaperScene& scene) {
 }
 
 /// The requested rows. Throws if none of them can run.
-std::vector<PaperRow> asked_rows(const Options& options) {
+std::vector<PaperRow> chosen_rows(const Options& options) {
   std::vector<PaperRow> rows = paper_rows(options.paper.wasm);
   const auto& wanted = options.rows;
   std::erase_if(rows, [&](const PaperRow& row) {
     return !wanted.empty() && std::find(wanted.begin(), wanted.end(), row.name) == wanted.end();
   });
   if (std::any_of(rows.begin(), rows.end(), [](const PaperRow& row) { return row.load != nullptr; })) return rows;
-  std::string why = "none of the rows that were asked for can be run here";
+  std::string why = "none of the chosen rows can run here";
   for (const PaperRow& row : rows) why += fmt::format("; {}: {}", row.name, row.missing);
   throw Error(why);
 }
@@ -91,7 +91,7 @@ PaperFindings find(const Options& options, const std::vector<PaperRow>& rows) {
 }
 
 app::ExitStatus run(const Options& options) {
-  const std::vector<PaperRow> rows = asked_rows(options);
+  const std::vector<PaperRow> rows = chosen_rows(options);
   const std::filesystem::path scene = options.paper.scene;
   if (!options.picture.empty()) app::check_output({&scene, 1}, "--picture", options.picture);
   const PaperFindings findings = find(options, rows);
@@ -105,12 +105,12 @@ app::ExitStatus run(const Options& options) {
 }
 
 constexpr const char* help =
-    "The scene is laid out in a scratch folder, in the files that the rows asked for read: a PLY and a store for\n"
-    "roam, osgb for OpenSceneGraph, Bullet and PhysX, .mesh for OGRE. Each row then runs in a process of its own.\n"
-    "Rows that cannot be run are named, and so are rows that take more than they may. When all have ended, the\n"
-    "scene is read once more, and their ways are judged by it.\n"
-    "docs/paper.md explains the cells, and sets them beside the printed ones.\n\n"
-    "Exit status 3: roam itself was in a wall; 1: also when a row of roam's own failed.\n\n"
+    "The scene is written into a scratch folder, in the file formats of the chosen rows: PLY and a store for roam, "
+    "osgb\n"
+    "for OpenSceneGraph, Bullet and PhysX, .mesh for OGRE. Each row is a process of its own. Rows that cannot run\n"
+    "here, and rows that exceed a limit, are named. At the end all ways are checked against the scene.\n"
+    "docs/paper.md explains the cells and compares them with the printed tables.\n\n"
+    "Exit status 3: roam itself was in a wall; 1: also when one of roam's own rows failed.\n\n"
     "Examples:\n"
     "  roam bench paper\n"
     "  roam bench paper --triangles 100M --scratch /big/disk     the paper's 3 GB\n"
@@ -127,30 +127,33 @@ void add_paper(CLI::App& program, app::Run& run) {
                                         "A gallery at the coordinates of Table 1 (default: made, see --triangles)")
                            ->type_name("FILE");
   constexpr std::uint64_t least = 50'000;  // smaller galleries have no grotto for the last two ways
-  app::add_triangles(*verb, "--triangles", paper.triangles, "Of the made gallery; 2M are its 50 MB, 100M its 3 GB",
-                     least)
+  app::add_triangles(*verb, "--triangles", paper.triangles,
+                     "Triangles of the made gallery: 2M are the paper's 50 MB, 100M its 3 GB", least)
       ->excludes(scene);
-  verb->add_option("--rows", options->rows, "Which rows, separated by commas (default: all)")
+  verb->add_option("--rows", options->rows, "Rows, separated by commas (default: all)")
       ->delimiter(',')
       ->check(app::one_of(row_names()));
   const CLI::Validator free_at_the_start = app::from_to(0.01, 0.9);  // m: the floor is 0.95 m below the paths
-  verb->add_option("--radius", paper.radius, "Of the sphere, metres")->capture_default_str()->check(free_at_the_start);
-  verb->add_option("--split-radius", paper.split_radius, "Of the sphere that is to cross the split, metres")
+  verb->add_option("--radius", paper.radius, "Radius of the sphere, in metres")
       ->capture_default_str()
       ->check(free_at_the_start);
-  verb->add_option("--patience", paper.patience, "Seconds: a way that takes longer is ended")
+  verb->add_option("--split-radius", paper.split_radius, "Radius of the sphere that crosses the split, in metres")
+      ->capture_default_str()
+      ->check(free_at_the_start);
+  verb->add_option("--patience", paper.patience, "Seconds after which a way is ended")
       ->capture_default_str()
       ->check(app::positive());
-  verb->add_option("--loading", paper.loading, "Seconds: a row that takes longer until it can move is ended")
+  verb->add_option("--loading", paper.loading, "Seconds after which a row that still loads is ended")
       ->capture_default_str()
       ->check(app::positive());
-  verb->add_option("--memory", paper.memory, "A row that takes more is ended (default: three quarters of what is free)")
+  verb->add_option("--memory", paper.memory,
+                   "Memory of a row; one that takes more is ended (default: three quarters of the free memory)")
       ->transform(app::bytes())
       ->check(app::from_to<std::uint64_t>(1u << 20, 1ull << 50))
       ->type_name("BYTES");
-  verb->add_option("--wasm-engines", paper.wasm, "The folder whose node_modules hold PhysX: physx-js-webidl, from npm")
+  verb->add_option("--wasm-engines", paper.wasm, "Folder with PhysX (npm package physx-js-webidl) in node_modules")
       ->type_name("DIR");
-  verb->add_option("--scratch", paper.scratch, "Where the scene is laid out (default: the system's temporary folder)")
+  verb->add_option("--scratch", paper.scratch, "Folder for the scene's files (default: the system's temporary folder)")
       ->type_name("DIR");
   verb->add_option("--picture", options->picture, "Draw the steps' times as bars, to an SVG file")->type_name("FILE");
   verb->add_flag("--json", options->json, "Print one JSON object");

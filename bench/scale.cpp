@@ -226,9 +226,9 @@ app::ExitStatus run(const Options& options) {
 }
 
 constexpr const char* help =
-    "The sizes are powers of ten from --least, and --triangles. A size that --memory holds while it is built is a\n"
-    "world in memory; a larger one becomes a store in the scratch folder, and is paged.\n"
-    "A sphere of 0.3 m flies along the gallery's first path; once for each of sweep, clearance and step, in turns.\n\n"
+    "Sizes are powers of ten from --least, and --triangles. Scenes that can be built in --memory are worlds in\n"
+    "memory; larger ones become stores in the scratch folder.\n"
+    "A sphere of 0.3 m flies along the gallery's first path, in turns for sweeps, clearances and steps.\n\n"
     "Examples:\n"
     "  roam bench scale --triangles 10M\n"
     "  roam bench scale --triangles 100M --memory 8 --scratch /big/disk --picture scale.svg\n";
@@ -239,21 +239,21 @@ void add_scale(CLI::App& program, app::Run& run) {
   CLI::App* verb = program.add_subcommand("scale", "The time of a sweep and of a step by the size of the scene");
   verb->footer(help);
   const auto options = std::make_shared<Options>();
-  app::add_triangles(*verb, "--triangles", options->triangles, "Of the largest scene");
-  app::add_triangles(*verb, "--least", options->least, "Of the smallest");
-  verb->add_option("--memory", options->memory_gib, "GiB that building a world in memory may take")
+  app::add_triangles(*verb, "--triangles", options->triangles, "Triangles of the largest scene");
+  app::add_triangles(*verb, "--least", options->least, "Triangles of the smallest");
+  verb->add_option("--memory", options->memory_gib, "GiB for building a world in memory")
       ->capture_default_str()
       ->check(app::positive());
   verb->add_option("--pager", options->pager_mib, "MiB of each pager")
       ->capture_default_str()
       ->check(app::from_to<std::uint64_t>(Pager::least_memory >> 20, 1u << 20));
-  verb->add_option("--speed", options->speed, "Metres per second")
+  verb->add_option("--speed", options->speed, "Speed of the flight, in metres per second")
       ->capture_default_str()
       ->check(app::from_to(0.1, 1e4));
-  verb->add_option("--rounds", options->rounds, "Flights of each kind through each scene; medians over them")
+  verb->add_option("--rounds", options->rounds, "Flights of each kind through each scene; medians are shown")
       ->capture_default_str()
       ->check(app::at_least_one());
-  verb->add_option("--scratch", options->scratch, "Where stores are made (default: the system's temporary folder)")
+  verb->add_option("--scratch", options->scratch, "Folder for stores (default: the system's temporary folder)")
       ->type_name("DIR");
   verb->add_option("--picture", options->picture, "Draw the steps' times by size, to an SVG file")->type_name("FILE");
   verb->add_flag("--json", options->json, "Print one JSON object");

@@ -144,12 +144,12 @@ int main(int argc, char** argv) {
   CLI::App app{
       "Times the steps of a flight along the first path of the gallery through stores of it (microseconds of the\n"
       "thread's own time, the median of the rounds), and draws a picture of them"};
-  app.add_option("stores", options.stores, "that `roam build` made of galleries of different sizes");
-  app.add_option("--gallery", options.galleries, "made and held in memory: how many triangles; several are possible");
+  app.add_option("stores", options.stores, "stores of galleries of different sizes, made by `roam build`");
+  app.add_option("--gallery", options.galleries, "triangles of galleries in memory");
   app.add_option("--memory", options.memory_mib, "MiB of each pager")->capture_default_str();
-  app.add_option("--speed", options.speed, "metres per second")->capture_default_str();
+  app.add_option("--speed", options.speed, "speed of the flight, in metres per second")->capture_default_str();
   app.add_flag("--walk", options.walk, "a person of 1.8 m on foot, instead of a sphere of 0.3 m that flies");
-  app.add_flag("--queries", options.queries, "counts what a step asks, which takes time of its own");
+  app.add_flag("--queries", options.queries, "count the queries of a step, which takes time");
   app.add_option("--rounds", options.rounds, "flights through each, in turns")
       ->capture_default_str()
       ->check(roam::app::at_least_one());

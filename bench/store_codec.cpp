@@ -139,10 +139,10 @@ int run(const Options& options) {
 
 int main(int argc, char** argv) {
   Options options;
-  CLI::App app{"What tiles of a store take on disk, and the time to encode and decode them"};
+  CLI::App app{"Times encoding and decoding of a store's tiles, and prints their size on disk"};
   app.add_option("--scene", options.scene.scene, "gallery, terrain, city, or a file")->capture_default_str();
-  roam::app::add_triangles(app, "--triangles", options.scene.triangles, "of a made scene");
-  app.add_option("--rounds", options.rounds, "a tile's time is the least of these")
+  roam::app::add_triangles(app, "--triangles", options.scene.triangles, "triangles of a made scene");
+  app.add_option("--rounds", options.rounds, "repetitions; the least time of a tile counts")
       ->capture_default_str()
       ->check(roam::app::at_least_one());
   app.add_flag("--lossless", options.lossless, "tiles that keep the source's floats");
