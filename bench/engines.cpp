@@ -1,8 +1,10 @@
 // Compares roam with other engines, on the same queries in one run. Wrong answers come before times.
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
+#include <nlohmann/json.hpp>
 
 #include "bars.h"
 #include "bench_verbs.h"

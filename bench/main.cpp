@@ -1,4 +1,5 @@
 // The program roam-bench, which `roam bench` starts. It links other people's engines; roam does not.
+#include <CLI/CLI.hpp>
 #include <string_view>
 
 #include "bench_verbs.h"

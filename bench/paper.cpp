@@ -2,8 +2,10 @@
 // row.
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <filesystem>
+#include <nlohmann/json.hpp>
 
 #include "bench_verbs.h"
 #include "cli/interrupt.h"

@@ -1,12 +1,14 @@
 // roam bench scale: the times of a sweep, a clearance and a step in the same gallery, with more and more triangles.
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
 #include <chrono>
 #include <cmath>
 #include <filesystem>
 #include <glm/geometric.hpp>
+#include <nlohmann/json.hpp>
 
 #include "bench_verbs.h"
 #include "cli/interrupt.h"

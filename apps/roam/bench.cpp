@@ -1,6 +1,7 @@
 // roam bench: hands its arguments to the program roam-bench, which links the engines that roam is measured beside.
 #include <unistd.h>
 
+#include <CLI/CLI.hpp>
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>

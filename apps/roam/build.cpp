@@ -1,13 +1,14 @@
 // roam build: makes a collision store of a scene of any size.
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <chrono>
 #include <cmath>
+#include <nlohmann/json.hpp>
 #include <optional>
 
 #include "cli/exit_status.h"
 #include "cli/interrupt.h"
-#include "cli/values.h"
 #include "cli/progress.h"
 #include "cli/report.h"
 #include "cli/tell.h"

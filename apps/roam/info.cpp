@@ -1,8 +1,10 @@
 // roam info: what a scene holds and what its world costs.
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <filesystem>
+#include <nlohmann/json.hpp>
 #include <system_error>
 
 #include "cli/progress.h"

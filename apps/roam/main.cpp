@@ -1,4 +1,5 @@
 // The command line `roam`: its verbs, and what is said of all of them.
+#include <CLI/CLI.hpp>
 #include <string>
 
 #include "cli/command_line.h"

@@ -1,8 +1,10 @@
 // roam make: demo scenes of a wished size.
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <chrono>
 #include <filesystem>
+#include <nlohmann/json.hpp>
 
 #include "cli/progress.h"
 #include "cli/report.h"

@@ -5,6 +5,7 @@
 #include <tbb/parallel_pipeline.h>
 #include <unistd.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <atomic>
 #include <cerrno>

@@ -1,6 +1,9 @@
 // roam verify: is every byte of a store what was written?
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+
 #include "cli/exit_status.h"
 #include "cli/progress.h"
 #include "cli/report.h"

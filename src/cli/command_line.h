@@ -2,10 +2,13 @@
 /// \file
 /// From the arguments of a program to its exit status.
 
-#include <CLI/CLI.hpp>
 #include <functional>
 
 #include "cli/exit_status.h"
+
+namespace CLI {
+class App;
+}
 
 namespace roam::app {
 

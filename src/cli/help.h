@@ -2,9 +2,12 @@
 /// \file
 /// The text of `--help`.
 
-#include <CLI/CLI.hpp>
 #include <string>
 #include <string_view>
+
+namespace CLI {
+class App;
+}
 
 namespace roam::app {
 

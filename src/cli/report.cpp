@@ -6,6 +6,7 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <nlohmann/json.hpp>
 
 #include "cli/exit_status.h"
 #include "cli/tell.h"
@@ -50,6 +51,10 @@ void write(const Json& json, int indent) {
 }
 
 }  // namespace
+
+Json to_json(const Vec3& v) { return Json::array({v.x, v.y, v.z}); }
+
+Json to_json(const Box& box) { return {{"min", to_json(box.lower)}, {"max", to_json(box.upper)}}; }
 
 Json to_json(const PagerStats& paging) {
   return {{"memory", paging.memory},

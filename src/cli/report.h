@@ -2,21 +2,23 @@
 /// \file
 /// Pieces of the JSON reports that several verbs share.
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
 
 #include "roam/math.h"
 #include "roam/pager.h"
 
 namespace roam::app {
 
-/// One JSON object whose members keep the order in which they are set.
+/// One JSON object whose members keep the order in which they are set. Sources that build one include
+/// <nlohmann/json.hpp>.
 using Json = nlohmann::ordered_json;
 
 /// [x, y, z]
-[[nodiscard]] inline Json to_json(const Vec3& v) { return Json::array({v.x, v.y, v.z}); }
+[[nodiscard]] Json to_json(const Vec3& v);
 
 /// {"min": [x, y, z], "max": [x, y, z]}
-[[nodiscard]] inline Json to_json(const Box& box) { return {{"min", to_json(box.lower)}, {"max", to_json(box.upper)}}; }
+[[nodiscard]] Json to_json(const Box& box);
 
 /// What a pager held and did.
 [[nodiscard]] Json to_json(const PagerStats& paging);

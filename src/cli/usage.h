@@ -2,9 +2,14 @@
 /// \file
 /// Wrong command lines, in roam's words. Together with help.h the only place that knows how CLI11 speaks.
 
-#include <CLI/CLI.hpp>
 #include <optional>
 #include <string>
+#include <vector>
+
+namespace CLI {
+class App;
+class ParseError;
+}
 
 namespace roam::app {
 

@@ -1,5 +1,6 @@
 #include "cli/values.h"
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cctype>
 #include <charconv>

@@ -2,7 +2,6 @@
 /// \file
 /// The options by which every verb names its scene, and the way from them to a world.
 
-#include <CLI/CLI.hpp>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -12,6 +11,10 @@
 #include "roam/import.h"
 #include "roam/profile.h"
 #include "roam/world.h"
+
+namespace CLI {
+class App;
+}
 
 namespace roam::app {
 

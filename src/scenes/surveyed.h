@@ -2,7 +2,6 @@
 /// \file
 /// The input of `roam train` and `roam probe`: a scene, or a store, read whole and surveyed.
 
-#include <CLI/CLI.hpp>
 #include <memory>
 #include <string>
 #include <utility>
@@ -12,6 +11,10 @@
 #include "roam/store.h"
 #include "roam/survey.h"
 #include "scenes/scene_options.h"
+
+namespace CLI {
+class App;
+}
 
 namespace roam::app {
 

@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <glm/geometric.hpp>
+#include <nlohmann/json.hpp>
 #include <random>
 #include <thread>
 

@@ -1,6 +1,7 @@
 // What roam probe says of answers that no scene gives as asked: walkers that contradict a way, searches that ended.
 #include <gtest/gtest.h>
 
+#include <nlohmann/json.hpp>
 #include <span>
 #include <string>
 #include <vector>

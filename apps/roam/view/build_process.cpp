@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <future>
+#include <nlohmann/json.hpp>
 #include <utility>
 
 #include "cli/report.h"

@@ -2,7 +2,6 @@
 /// \file
 /// The options of `roam view`, and what follows from them and the settings file.
 
-#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -15,6 +14,10 @@
 #include "scenes/scene_profile.h"
 #include "view/pose.h"
 #include "view/settings.h"
+
+namespace CLI {
+class App;
+}
 
 namespace roam::app {
 

@@ -1,5 +1,6 @@
 #include "walk/options.h"
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 

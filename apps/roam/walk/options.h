@@ -2,7 +2,6 @@
 /// \file
 /// The options of `roam walk`, and the body that they mean.
 
-#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -12,6 +11,10 @@
 #include "scenes/open_scene.h"
 #include "scenes/recorded_body.h"
 #include "scenes/scene_profile.h"
+
+namespace CLI {
+class App;
+}
 
 namespace roam::app {
 
