@@ -4,12 +4,14 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <optional>
 
 #include "bench_verbs.h"
 #include "cli/interrupt.h"
 #include "cli/values.h"
 #include "cli/output_file.h"
 #include "cli/report.h"
+#include "draw/picture_file.h"
 #include "paper_report.h"
 #include "paper_scene.h"
 #include "roam/error.h"
@@ -94,13 +96,15 @@ app::ExitStatus run(const Options& options) {
   const std::vector<PaperRow> rows = asked_rows(options);
   const std::filesystem::path scene = options.paper.scene;
   if (!options.picture.empty()) app::check_output({&scene, 1}, "--picture", options.picture);
+  std::optional<draw::PictureFile> drawing;
+  if (!options.picture.empty()) drawing.emplace(options.picture);
   const PaperFindings findings = find(options, rows);
   if (options.json) {
     app::print(paper_json(findings));
   } else {
     app::print(paper_tables(findings));
   }
-  if (!options.picture.empty()) draw_paper(options.picture, findings);
+  if (drawing) drawing->write(paper_chart(findings));
   return paper_status(findings);
 }
 
@@ -152,7 +156,7 @@ void add_paper(CLI::App& program, app::Run& run) {
       ->type_name("DIR");
   verb->add_option("--scratch", paper.scratch, "Where the scene is laid out (default: the system's temporary folder)")
       ->type_name("DIR");
-  verb->add_option("--picture", options->picture, "Draw the steps' times as bars, to an SVG file")->type_name("FILE");
+  verb->add_option("--picture", options->picture, "Draw the steps' times as bars (.svg or .png)")->type_name("FILE");
   verb->add_flag("--json", options->json, "Print one JSON object");
   verb->callback([options, &run] { run = [options] { return bench::run(*options); }; });
 }

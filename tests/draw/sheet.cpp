@@ -6,7 +6,8 @@
 #include <glm/geometric.hpp>
 
 #include "draw/labels.h"
-#include "draw/picture.h"
+#include "draw/picture_file.h"
+#include "draw/walk_sheet.h"
 #include "roam/generate.h"
 #include "walker_scenes.h"
 
@@ -152,7 +153,7 @@ TEST(PictureSheet, HasItsTextsInsideAndNoneOverAnother) {
     EXPECT_GT(texts.size(), 10u);
     const draw::Rect sheet{{0, 0}, {drawn.sheet.width, drawn.sheet.height}};
     for (std::size_t i = 0; i < texts.size(); ++i) {
-      const draw::Rect extent = draw::measure_text(texts[i].text, texts[i].size, texts[i].bold);
+      const draw::Rect extent = draw::measure_text(texts[i].text, texts[i].font);
       EXPECT_NEAR(texts[i].box.width(), extent.width(), 1e-9);
       EXPECT_TRUE(sheet.contains(texts[i].box)) << texts[i].what << ": " << texts[i].text;
       for (std::size_t k = 0; k < i; ++k) {
@@ -166,7 +167,7 @@ TEST(PictureSheet, HasItsTextsInsideAndNoneOverAnother) {
 TEST(PictureSheet, HasPlanSectionScaleAxesTitleAndLegend) {
   for (const Drawn& drawn : drawings()) {
     for (const char* what : {"plan frame", "plan way", "plan start", "section frame", "section way", "section walls",
-                             "plan scale bar", "section scale bar", "axis x", "axis y"}) {
+                             "plan scale bar", "section scale bar", "plan axis x", "plan axis y"}) {
       const bool shown = !drawn.all<Lines>(what).empty() || !drawn.all<Disc>(what).empty();
       // A body that stays where it is has no way.
       const bool stands = drawn.record.places.size() == 1 && std::string(what).ends_with("way");
@@ -276,7 +277,7 @@ TEST(PictureSheet, TurnsALongWayAndShowsItsPlacesMagnified) {
     return (line.at(1) - line.at(0)) / glm::distance(line.at(0), line.at(1));
   };
   const Vec3 way = glm::normalize(straight.to - straight.from);
-  const Point on_sheet = way.x * axis("axis x") + way.y * axis("axis y");
+  const Point on_sheet = way.x * axis("plan axis x") + way.y * axis("plan axis y");
   EXPECT_NEAR(on_sheet.x, 1.0, 0.01);
   EXPECT_NEAR(on_sheet.y, 0.0, 0.02);
   EXPECT_FALSE(drawn.all<Lines>("detail A plan walls").empty());
@@ -293,23 +294,21 @@ TEST(PictureSheet, SaysWhereItFell) {
 }
 
 TEST(PictureLabels, BreakTextThatIsTooLong) {
-  const auto width = [](const std::string& text) { return draw::measure_text(text, 20, false).width(); };
+  const auto width = [](const std::string& text) { return draw::measure_text(text, draw::small_font).width(); };
   const std::string text = "a few words and " + std::string(200, 'W') + " at the end";
   std::string joined;
-  for (const std::string& line : draw::wrapped(text, 300, 20, false, draw::measure_text)) {
+  for (const std::string& line : draw::wrapped(text, 300, draw::small_font)) {
     EXPECT_LE(width(line), 300.0) << line;
     for (const char c : line) joined += c == ' ' ? "" : std::string(1, c);
   }
   EXPECT_EQ(joined, "afewwordsand" + std::string(200, 'W') + "attheend");
 }
 
-TEST(PictureLabels, ShowWhatIsNoTextAsQuestionMarks) {
-  EXPECT_EQ(draw::with_question_marks("Tür \xe2\x82\xac"), "Tür \xe2\x82\xac");
-  EXPECT_EQ(draw::with_question_marks("a\xff"
-                                      "b\x01\n"),
-            "a?b??");
-  EXPECT_EQ(draw::with_question_marks("\xc3"), "?");
-  EXPECT_EQ(draw::with_question_marks("\xed\xa0\x80"), "???");  // half of a surrogate pair
+TEST(PictureLabels, ArePrintable) {
+  Sheet sheet;
+  draw::Labels labels(sheet);
+  labels.write("name", "T\xc3\xbcr \xff\x1b[2J", {0.0, 0.0}, draw::small_font, draw::ink);
+  EXPECT_EQ(std::get<Text>(sheet.items.at(0)).text, "T\xc3\xbcr \xef\xbf\xbd\xef\xbf\xbd[2J");
 }
 
 }  // namespace
