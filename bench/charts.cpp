@@ -126,6 +126,7 @@ draw::Sheet step_chart(const std::vector<StepTimes>& times) {
       left);
   grid(panel, size, true);
   grid(panel, time, false);
+  panel.border();
   const auto curve = [&](const char* name, double StepTimes::*which, const draw::Colour& colour) {
     draw::Polyline line;
     for (const StepTimes& t : times) line.emplace_back(size.at(static_cast<double>(t.triangles)), time.at(t.*which));

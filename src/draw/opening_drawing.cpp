@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <glm/trigonometric.hpp>
 
 #include "cli/progress.h"
 
@@ -136,7 +135,7 @@ OpeningDrawing drawing_of(const OpeningView& o, std::span<const Mesh> meshes, do
   d.cut = crack ? knee : no_height ? o.floor + 0.5 * o.height : o.point.z;
   // For a crack its own walls; else the lower obstacles that still are walls.
   const double below = crack ? o.floor - 0.05 * o.height : knee;
-  PlanView plan{LevelMap(d.plan.view, 0), {d.cut}, {}, std::cos(glm::radians(45.0))};
+  PlanView plan{LevelMap(d.plan.view, 0), {d.cut}, {}, flies ? 1.0 : usual_ground};
   if (!flies && below < d.cut) plan.below.push_back(d.cut - below);
   std::vector<PlanView> views{plan};
   if (!d.is_level && o.kind == OpeningView::Kind::passage) {

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <glm/trigonometric.hpp>
 #include <set>
 
 #include "draw/cut.h"
@@ -125,7 +124,7 @@ void add_overview(Page& page, const Overview& o, std::span<const Mesh> meshes) {
   const double below = 0.5 * o.height - o.step - 0.02 * o.height;
   const PlanView plan{LevelMap(frame.view, levels, stations, turn, o.height), levels.cuts,
                       o.mode == Mode::walk && below > 0.0 ? std::vector{below} : std::vector<double>{},
-                      std::cos(glm::radians(45.0))};
+                      o.mode == Mode::walk ? usual_ground : 1.0};
   const Cuts cuts = cut_out("the plan", meshes, turn, {&plan, 1}, {});
   page.heading("overview", {"Plan", cut_text(levels), frame.scale_x, &turn});
   Panel panel = page.panel("overview", frame, sheet_margin);

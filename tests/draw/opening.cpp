@@ -253,6 +253,26 @@ TEST(OpeningPicture, MeasuresAHeightBesideTheBodyAndDashesWhatHangsThere) {
   expect_readable(sheet);
 }
 
+TEST(OpeningPicture, DrawsSlopesAsWallsInFlight) {
+  Mesh ramp;
+  scenes::add_quad(ramp, {-9, -1, 0.7}, {9, -1, 0.7}, {9, 3, 1.9}, {-9, 3, 1.9});
+  OpeningView view = view_of_door({0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}, 0.8);
+  Overview overview;
+  overview.mode = view.mode = roam::Mode::fly;
+  overview.radius = view.radius;
+  overview.height = view.height = 2.0 * view.radius;
+  overview.start = {-5.0, 0.0, 1.0};
+  overview.target = {5.0, 0.0, 1.0};
+  for (const roam::Mode mode : {roam::Mode::fly, roam::Mode::walk}) {
+    overview.mode = view.mode = mode;
+    const Sheet sheet = opening_sheet("ramp.obj", std::vector{view}, std::vector{ramp}, {}, overview);
+    for (const char* panel : {"overview", "plan"}) {
+      const std::string seen = mode == roam::Mode::fly ? "walls" : "below";  // on foot it is ground to walk on
+      EXPECT_EQ(all<Lines>(sheet, std::string(panel) + " " + seen).size(), 1u) << panel;
+    }
+  }
+}
+
 TEST(OpeningPicture, ShowsBothEndsAndWhatIsReachedFromThem) {
   const Vec3 at(-13739.0, 253.0, 181.0), across(0.0, 1.0, 0.0);
   Overview overview;
