@@ -131,7 +131,7 @@ void add_overview(Page& page, const Overview& o, std::span<const Mesh> meshes) {
   paint(panel, o, turn, cuts.plans[0]);
   page.below(panel);
   page.legend(std::array<LegendEntry, 5>{{{"cut by the plane", wall_style, 0.0, true},
-                                          {"lower, and still a wall", below_style},
+                                          {o.mode == Mode::walk ? "lower, and still a wall" : "lower", below_style},
                                           {"way", way_style},
                                           {"reached from the start", from_start_style},
                                           {"reached from the target", from_target_style}}});

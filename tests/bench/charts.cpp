@@ -3,42 +3,14 @@
 
 #include <gtest/gtest.h>
 
-#include <glm/geometric.hpp>
+#include "sheet_items.h"
 
 namespace roam::bench {
 namespace {
 
-template <class Item>
-std::vector<Item> all(const draw::Sheet& sheet, const std::string& what) {
-  std::vector<Item> found;
-  for (const auto& item : sheet.items) {
-    const Item* one = std::get_if<Item>(&item);
-    if (one != nullptr && one->what == what) found.push_back(*one);
-  }
-  return found;
-}
-
-draw::Rect box(const draw::Lines& lines) {
-  draw::Rect box;
-  for (const draw::Polyline& line : lines.lines) {
-    for (const draw::Point& p : line) box.include(p);
-  }
-  return box;
-}
-
-void expect_readable(const draw::Sheet& sheet) {
-  const draw::Rect paper{{0.0, 0.0}, {sheet.width, sheet.height}};
-  std::vector<draw::Text> texts;
-  for (const auto& item : sheet.items) {
-    if (const auto* text = std::get_if<draw::Text>(&item)) texts.push_back(*text);
-  }
-  for (std::size_t i = 0; i < texts.size(); ++i) {
-    EXPECT_TRUE(paper.contains(texts[i].box)) << texts[i].text;
-    for (std::size_t k = 0; k < i; ++k) {
-      EXPECT_FALSE(texts[i].box.overlaps(texts[k].box)) << texts[i].text << " over " << texts[k].text;
-    }
-  }
-}
+using sheets::all;
+using sheets::box;
+using sheets::expect_readable;
 
 TEST(BarChart, IsAsLongAsItsTimesAre) {
   const draw::Sheet sheet =

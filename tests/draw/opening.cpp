@@ -6,6 +6,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "sheet_items.h"
 #include "walker_scenes.h"
 
 namespace {
@@ -13,6 +14,8 @@ namespace {
 using namespace roam::draw;
 using roam::Mesh;
 using roam::Vec3;
+using sheets::all;
+using sheets::box;
 
 /// A wall along `across` through `at` with a door of `width` in it, on a floor.
 std::vector<Mesh> door(const Vec3& at, const Vec3& across, double width) {
@@ -39,17 +42,6 @@ OpeningView view_of_door(const Vec3& at, const Vec3& across, double width) {
   return view;
 }
 
-/// The items of that name, in all panels.
-template <class Item>
-std::vector<Item> all(const Sheet& sheet, const std::string& what) {
-  std::vector<Item> found;
-  for (const auto& item : sheet.items) {
-    const Item* one = std::get_if<Item>(&item);
-    if (one != nullptr && (" " + one->what).ends_with(" " + what)) found.push_back(*one);
-  }
-  return found;
-}
-
 /// From the bar and what stands over it.
 double pixels_per_metre(const Sheet& sheet) {
   const auto bars = all<Lines>(sheet, "scale bar");
@@ -60,21 +52,8 @@ double pixels_per_metre(const Sheet& sheet) {
   return glm::distance(bar[1], bar[2]) / (std::stod(texts[0].text) * unit);
 }
 
-void expect_readable(const Sheet& sheet) {
-  std::vector<Text> texts;
-  for (const auto& item : sheet.items) {
-    if (const Text* text = std::get_if<Text>(&item)) texts.push_back(*text);
-  }
-  const Rect paper{{0.0, 0.0}, {sheet.width, sheet.height}};
-  for (std::size_t i = 0; i < texts.size(); ++i) {
-    EXPECT_TRUE(paper.contains(texts[i].box)) << texts[i].text;
-    for (std::size_t k = 0; k < i; ++k) {
-      // Lines of one label touch.
-      EXPECT_FALSE(texts[i].box.grown(-2.0).overlaps(texts[k].box.grown(-2.0)))
-          << texts[i].text << " over " << texts[k].text;
-    }
-  }
-}
+/// Lines of one label touch.
+void expect_readable(const Sheet& sheet) { sheets::expect_readable(sheet, 2.0); }
 
 TEST(OpeningPicture, MeasuresTheDoorToScaleInPlanAndSection) {
   const Vec3 at(-13739.0, 253.0, 181.0), across = glm::normalize(Vec3(0.6, 0.8, 0.0));
@@ -113,11 +92,7 @@ TEST(OpeningPicture, StandsTheBodyOnTheFloorOfTheSection) {
   const auto walls = all<Lines>(sheet, "section walls");
   ASSERT_EQ(bodies.size(), 1u);
   ASSERT_EQ(walls.size(), 1u);
-  Rect body, scene;
-  for (const Point& p : bodies[0].lines[0]) body.include(p);
-  for (const Polyline& line : walls[0].lines) {
-    for (const Point& p : line) scene.include(p);
-  }
+  const Rect body = box(bodies[0]), scene = box(walls[0]);
   EXPECT_NEAR(body.height(), 1.9 * scale, 1.0);
   EXPECT_NEAR(body.width(), 0.6 * scale, 1.0);
   EXPECT_NEAR(body.upper.y, scene.upper.y, 1.0);  // the sheet's y points down: the feet are on the floor
@@ -243,10 +218,9 @@ TEST(OpeningPicture, MeasuresAHeightBesideTheBodyAndDashesWhatHangsThere) {
   ASSERT_EQ(measures.size(), 1u);
   const Point low = measures[0].lines[0][0], high = measures[0].lines[0][1];
   EXPECT_NEAR(low.y - high.y, 1.75 * scale, 0.5);
-  Rect body;
   const auto bodies = all<Lines>(sheet, "section body");
   ASSERT_EQ(bodies.size(), 1u);
-  for (const Point& p : bodies[0].lines[0]) body.include(p);
+  const Rect body = box(bodies[0]);
   EXPECT_GT(low.x, body.upper.x);
   ASSERT_EQ(all<Lines>(sheet, "plan above").size(), 1u);
   EXPECT_GT(all<Lines>(sheet, "plan above")[0].style.dash[0], 0.0);
