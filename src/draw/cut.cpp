@@ -246,7 +246,7 @@ void Cutter::add(std::span<const Mesh> meshes, const std::function<void(std::uin
         corner = s.turn(corner);
         box.include({corner.x, corner.y});
       }
-      const auto [lowest, highest] = std::minmax({t[0].z, t[1].z, t[2].z});
+      const double lowest = std::min({t[0].z, t[1].z, t[2].z}), highest = std::max({t[0].z, t[1].z, t[2].z});
       for (std::size_t k = 0; k < s.views.size(); ++k) {
         cut_plan(t, box, lowest, highest, s.views[k], task.out.plans[k]);
       }

@@ -165,7 +165,7 @@ class WalkSheet {
       label_marks(panel, walk_, true, [&](std::size_t i) { return full_label(i); });
     }
     page_.below(plans[0]);
-    page_.down(-8.0);
+    page_.down(-8.0);  // no headings between them
     for (std::size_t k = 0; k < details.size(); ++k) {
       Panel panel = page_.panel("detail " + letter(k) + " section", details[k].section, plans[k].area().lower.x);
       paint_section(panel, walk_);
