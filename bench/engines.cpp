@@ -5,14 +5,16 @@
 #include <algorithm>
 #include <cstdio>
 #include <nlohmann/json.hpp>
+#include <optional>
 
-#include "bars.h"
 #include "bench_verbs.h"
+#include "charts.h"
 #include "cli/interrupt.h"
 #include "cli/output_file.h"
 #include "cli/report.h"
 #include "cli/values.h"
 #include "comparison.h"
+#include "draw/picture_file.h"
 #include "roam/error.h"
 #include "run_options.h"
 
@@ -187,7 +189,7 @@ Json to_json(const Findings& findings, int rounds) {
           {"runs", runs}};
 }
 
-void draw(const std::string& file, const Findings& findings) {
+draw::Sheet drawn(const Findings& findings) {
   std::vector<BarGroup> groups;
   for (const EngineRun& run : findings.runs) {
     if (groups.empty() || groups.back().title != run.set) groups.push_back({run.set, {}});
@@ -200,19 +202,21 @@ void draw(const std::string& file, const Findings& findings) {
              wrong == 0 ? "" : fmt::format("({:.2g} % missed or late)", 100.0 * static_cast<double>(wrong) / run.asked),
          .stressed = run.engine->name == "roam"});
   }
-  write_bars(file, "Sweeps, " + findings.scene, groups);
+  return bar_chart("Sweeps, " + findings.scene, groups);
 }
 
 app::ExitStatus run(const Options& options) {
   const std::filesystem::path scene = options.scene.scene;
   if (!options.picture.empty()) app::check_output({&scene, 1}, "--picture", options.picture);
+  std::optional<draw::PictureFile> drawing;
+  if (!options.picture.empty()) drawing.emplace(options.picture);
   const Findings findings = find(options);
   if (options.json) {
     app::print(to_json(findings, options.comparison.rounds));
   } else {
     app::print(table(findings, options.comparison.rounds));
   }
-  if (!options.picture.empty()) draw(options.picture, findings);
+  if (drawing) drawing->write(drawn(findings));
   if (std::any_of(findings.failed.begin(), findings.failed.end(), [](const Failure& f) { return f.name == "roam"; })) {
     return app::failed;
   }
@@ -248,7 +252,7 @@ void add_engines(CLI::App& program, app::Run& run) {
                    "Seconds for a set of queries; a slower engine answers its first part only")
       ->capture_default_str()
       ->check(app::positive());
-  verb->add_option("--picture", options->picture, "Draw the times as bars, to an SVG file")->type_name("FILE");
+  verb->add_option("--picture", options->picture, "Draw the times as bars (.svg or .png)")->type_name("FILE");
   verb->add_flag("--json", options->json, "Print one JSON object");
   verb->callback([options, &run] {
     options->comparison.rounds = options->rounds;

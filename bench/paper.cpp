@@ -6,12 +6,14 @@
 #include <algorithm>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "bench_verbs.h"
 #include "cli/interrupt.h"
 #include "cli/output_file.h"
 #include "cli/report.h"
 #include "cli/values.h"
+#include "draw/picture_file.h"
 #include "paper_report.h"
 #include "paper_scene.h"
 #include "roam/error.h"
@@ -96,13 +98,15 @@ app::ExitStatus run(const Options& options) {
   const std::vector<PaperRow> rows = chosen_rows(options);
   const std::filesystem::path scene = options.paper.scene;
   if (!options.picture.empty()) app::check_output({&scene, 1}, "--picture", options.picture);
+  std::optional<draw::PictureFile> drawing;
+  if (!options.picture.empty()) drawing.emplace(options.picture);
   const PaperFindings findings = find(options, rows);
   if (options.json) {
     app::print(paper_json(findings));
   } else {
     app::print(paper_tables(findings));
   }
-  if (!options.picture.empty()) draw_paper(options.picture, findings);
+  if (drawing) drawing->write(paper_chart(findings));
   return paper_status(findings);
 }
 
@@ -157,7 +161,7 @@ void add_paper(CLI::App& program, app::Run& run) {
       ->type_name("DIR");
   verb->add_option("--scratch", paper.scratch, "Folder for the scene's files (default: the system's temporary folder)")
       ->type_name("DIR");
-  verb->add_option("--picture", options->picture, "Draw the steps' times as bars, to an SVG file")->type_name("FILE");
+  verb->add_option("--picture", options->picture, "Draw the steps' times as bars (.svg or .png)")->type_name("FILE");
   verb->add_flag("--json", options->json, "Print one JSON object");
   verb->callback([options, &run] { run = [options] { return bench::run(*options); }; });
 }

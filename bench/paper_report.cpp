@@ -7,7 +7,7 @@
 #include <numeric>
 #include <optional>
 
-#include "bars.h"
+#include "charts.h"
 #include "timing.h"
 
 namespace roam::bench {
@@ -207,7 +207,7 @@ app::ExitStatus paper_status(const PaperFindings& findings) {
   return in_wall ? app::answer_no : app::done;
 }
 
-void draw_paper(const std::string& file, const PaperFindings& findings) {
+draw::Sheet paper_chart(const PaperFindings& findings) {
   std::vector<BarGroup> groups;
   for (std::size_t way = 0; way < table_1_ways; ++way) {
     BarGroup& group = groups.emplace_back();
@@ -223,7 +223,7 @@ void draw_paper(const std::string& file, const PaperFindings& findings) {
                             .stressed = row.row->name.starts_with("roam")});
     }
   }
-  write_bars(file, "A step, " + findings.scene, groups);
+  return bar_chart("A step, " + findings.scene, groups);
 }
 
 }  // namespace roam::bench

@@ -4,6 +4,7 @@
 
 #include "cli/exit_status.h"
 #include "cli/report.h"
+#include "draw/sheet.h"
 #include "paper_judge.h"
 #include "row_process.h"
 
@@ -33,7 +34,7 @@ constexpr std::uint64_t massive_limit = 1ull << 30;
 [[nodiscard]] app::Json paper_json(const PaperFindings& findings);
 /// Failed if a row of roam's own did not finish, answer_no if roam was in a wall. Other rows may fail.
 [[nodiscard]] app::ExitStatus paper_status(const PaperFindings& findings);
-/// The steps' times on the first two ways as bars. Throws roam::Error.
-void draw_paper(const std::string& file, const PaperFindings& findings);
+/// The steps' times on the first two ways as bars.
+[[nodiscard]] draw::Sheet paper_chart(const PaperFindings& findings);
 
 }  // namespace roam::bench

@@ -9,12 +9,15 @@
 #include <filesystem>
 #include <glm/geometric.hpp>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "bench_verbs.h"
+#include "charts.h"
 #include "cli/interrupt.h"
 #include "cli/output_file.h"
 #include "cli/report.h"
 #include "cli/values.h"
+#include "draw/picture_file.h"
 #include "paper_scene.h"
 #include "roam/error.h"
 #include "roam/generate.h"
@@ -22,7 +25,6 @@
 #include "roam/route.h"
 #include "roam/store_build.h"
 #include "roam/world.h"
-#include "steps_picture.h"
 #include "timing.h"
 
 namespace roam::bench {
@@ -207,6 +209,8 @@ Json to_json(const std::vector<Row>& rows, const Options& options) {
 app::ExitStatus run(const Options& options) {
   if (options.least > options.triangles) throw app::UsageError("--least is larger than --triangles");
   if (!options.picture.empty()) app::check_output({}, "--picture", options.picture);
+  std::optional<draw::PictureFile> drawing;
+  if (!options.picture.empty()) drawing.emplace(options.picture);
   const ScratchFolder scratch(options.scratch);
   std::vector<Size> sizes;
   for (std::uint64_t n = options.least; n < options.triangles; n *= 10) {
@@ -219,10 +223,10 @@ app::ExitStatus run(const Options& options) {
   } else {
     app::print(table(rows, options));
   }
-  if (!options.picture.empty()) {
+  if (drawing) {
     std::vector<StepTimes> curve;
     for (const Row& row : rows) curve.push_back({row.size->triangles, row.times[2].p50, row.times[2].p99});
-    write_picture(options.picture, curve);
+    drawing->write(step_chart(curve));
   }
   return app::done;
 }
@@ -257,7 +261,7 @@ void add_scale(CLI::App& program, app::Run& run) {
       ->check(app::at_least_one());
   verb->add_option("--scratch", options->scratch, "Folder for stores (default: the system's temporary folder)")
       ->type_name("DIR");
-  verb->add_option("--picture", options->picture, "Draw the steps' times by size, to an SVG file")->type_name("FILE");
+  verb->add_option("--picture", options->picture, "Draw the steps' times by size (.svg or .png)")->type_name("FILE");
   verb->add_flag("--json", options->json, "Print one JSON object");
   verb->callback([options, &run] { run = [options] { return bench::run(*options); }; });
 }

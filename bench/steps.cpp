@@ -7,17 +7,19 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "charts.h"
 #include "cli/values.h"
 #include "counted_space.h"
+#include "draw/picture_file.h"
 #include "program.h"
 #include "roam/generate.h"
 #include "roam/pager.h"
 #include "roam/route.h"
 #include "roam/world.h"
-#include "steps_picture.h"
 #include "thread_clock.h"
 #include "timing.h"
 
@@ -108,6 +110,8 @@ int run(const Options& options) {
 
     [[nodiscard]] std::uint64_t triangles() const { return store ? store->info().triangles : world->stats().triangles; }
   };
+  std::optional<roam::draw::PictureFile> drawing;
+  if (!options.picture.empty()) drawing.emplace(options.picture);
   std::vector<Rounds> all;
   for (const std::uint64_t triangles : options.galleries) {
     const auto meshes = roam::generate::collect(roam::generate::gallery({.triangles = triangles}));
@@ -133,7 +137,7 @@ int run(const Options& options) {
     std::printf("%12llu %8zu %10.2f %10.2f %10.2f\n", static_cast<unsigned long long>(table.back().triangles),
                 one.steps, table.back().median_us, table.back().p99_us, median(one.most));
   }
-  if (!options.picture.empty()) write_picture(options.picture, table);
+  if (drawing) drawing->write(step_chart(table));
   return 0;
 }
 
@@ -153,6 +157,6 @@ int main(int argc, char** argv) {
   app.add_option("--rounds", options.rounds, "flights through each, in turns")
       ->capture_default_str()
       ->check(roam::app::at_least_one());
-  app.add_option("--picture", options.picture, "an SVG file to write");
+  app.add_option("--picture", options.picture, "a file to draw (.svg or .png)");
   return run_program(app, argc, argv, [&] { return run(options); });
 }

@@ -18,7 +18,7 @@
 #include "cli/standard_streams.h"
 #include "cli/tell.h"
 #include "cli/values.h"
-#include "draw/draw.h"
+#include "draw/picture_file.h"
 #include "measure/along.h"
 #include "measure/slope.h"
 #include "probe/picture.h"
@@ -201,7 +201,6 @@ ExitStatus probe(ProbeOptions o) {
   if (o.path) demand_one_output("--path", *o.path, o.json);
   if (o.path && !is_standard(*o.path)) check_output(o.scene.scenes, "--path", *o.path);
   if (o.picture) check_output(o.scene.scenes, "--picture", *o.picture);
-  if (o.picture) draw::check_picture(*o.picture);
   std::optional<tbb::global_control> limit;
   if (o.scene.threads > 0) {
     limit.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(o.scene.threads));

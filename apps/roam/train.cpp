@@ -15,7 +15,7 @@
 #include "cli/progress.h"
 #include "cli/tell.h"
 #include "cli/values.h"
-#include "draw/picture.h"
+#include "draw/picture_file.h"
 #include "roam/error.h"
 #include "scenes/surveyed.h"
 #include "train/report.h"
@@ -99,7 +99,6 @@ ExitStatus train(TrainVerbOptions o) {
   if (o.no_profile && o.profile) throw UsageError("-o and --no-profile: one of them");
   const std::filesystem::path profile = profile_file(o);
   if (o.picture) check_output(o.scene.scenes, "--picture", *o.picture);
-  if (o.picture) draw::check_picture(*o.picture);
   std::optional<draw::PictureFile> drawing;
   if (o.picture) drawing.emplace(*o.picture);
   const Surveyed scene = survey_scene(o.scene, o.slope);

@@ -3,11 +3,12 @@
 #include <tbb/parallel_for.h>
 
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <mutex>
 #include <utility>
 
-#include "draw/thin_segments.h"
+#include "draw/lines.h"
 
 namespace roam::draw {
 namespace {
@@ -31,6 +32,11 @@ bool crossings(const TurnedTriangle& t, const std::array<double, 3>& side, std::
     points[found++] = t[i] + side[i] / (side[i] - side[j]) * (t[j] - t[i]);
   }
   return found == 2;
+}
+
+/// Boxes that only touch count too: the box of a stretch along an axis is flat.
+bool meet(const Rect& a, const Rect& b) {
+  return a.lower.x <= b.upper.x && b.lower.x <= a.upper.x && a.lower.y <= b.upper.y && b.lower.y <= a.upper.y;
 }
 
 /// The stretches in a tree of boxes over their indices: most triangles are far from all of them.
@@ -68,10 +74,7 @@ class StretchTree {
 
   template <class Visit>
   void descend(std::size_t node, std::size_t from, std::size_t to, const Rect& box, const Visit& visit) const {
-    const Rect& b = nodes_[node].box;
-    // Boxes that only touch count too: the box of a stretch along an axis is flat.
-    if (b.lower.x > box.upper.x || box.lower.x > b.upper.x || b.lower.y > box.upper.y || box.lower.y > b.upper.y)
-      return;
+    if (!meet(nodes_[node].box, box)) return;
     if (to - from <= leaf) {
       for (std::size_t i = from; i < to; ++i) visit(stretches_[i]);
       return;
@@ -94,11 +97,7 @@ double levelness(const TurnedTriangle& t) {
 
 void cut_plan(const TurnedTriangle& t, const Rect& box, double lowest, double highest, const PlanView& view,
               PlanCut& out) {
-  const Rect& area = view.map.area();
-  if (box.lower.x > area.upper.x || area.lower.x > box.upper.x || box.lower.y > area.upper.y ||
-      area.lower.y > box.upper.y) {
-    return;
-  }
+  if (!meet(box, view.map.area())) return;
   const auto levels_in = [&](double shift, const auto& take) {
     auto level = std::lower_bound(view.cuts.begin(), view.cuts.end(), lowest + shift);
     for (; level != view.cuts.end() && *level <= highest + shift; ++level) {
@@ -201,26 +200,22 @@ Cutter::~Cutter() = default;
 Box Cutter::box() const {
   const State& s = *state_;
   Box box;
-  const auto include = [&](const Point& p, double z) {
-    box.include(s.turn.origin + Vec3(s.turn.cosine * p.x - s.turn.sine * p.y, s.turn.sine * p.x + s.turn.cosine * p.y,
-                                     z - s.turn.origin.z));
+  const auto include = [&](const Rect& area, double lowest, double highest) {
+    for (const Point& p : area.outline()) {
+      const double x = s.turn.origin.x + s.turn.cosine * p.x - s.turn.sine * p.y;
+      const double y = s.turn.origin.y + s.turn.sine * p.x + s.turn.cosine * p.y;
+      box.include({x, y, lowest});
+      box.include({x, y, highest});
+    }
   };
   for (const PlanView& view : s.views) {
     if (view.cuts.empty()) continue;
-    const double deepest = view.below.empty() ? 0.0 : *std::max_element(view.below.begin(), view.below.end());
-    const Rect& area = view.map.area();
-    for (const double x : {area.lower.x, area.upper.x}) {
-      for (const double y : {area.lower.y, area.upper.y}) {
-        include({x, y}, view.cuts.front() - std::max(0.0, deepest));
-        include({x, y}, view.cuts.back());
-      }
-    }
+    double deepest = 0.0;
+    for (const double depth : view.below) deepest = std::max(deepest, depth);
+    include(view.map.area(), view.cuts.front() - deepest, view.cuts.back());
   }
   for (const Stretch& stretch : s.section) {
-    for (const Point& p : {stretch.from, stretch.to}) {
-      include(p, stretch.lowest);
-      include(p, stretch.highest);
-    }
+    include({glm::min(stretch.from, stretch.to), glm::max(stretch.from, stretch.to)}, stretch.lowest, stretch.highest);
   }
   // Covers the rounding of turning back.
   constexpr double rounding = 1e-6;
@@ -251,7 +246,7 @@ void Cutter::add(std::span<const Mesh> meshes, const std::function<void(std::uin
         corner = s.turn(corner);
         box.include({corner.x, corner.y});
       }
-      const auto [lowest, highest] = std::minmax({t[0].z, t[1].z, t[2].z});
+      const double lowest = std::min({t[0].z, t[1].z, t[2].z}), highest = std::max({t[0].z, t[1].z, t[2].z});
       for (std::size_t k = 0; k < s.views.size(); ++k) {
         cut_plan(t, box, lowest, highest, s.views[k], task.out.plans[k]);
       }

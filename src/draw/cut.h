@@ -35,6 +35,9 @@ struct PlanView {
   double ground = 1.0;
 };
 
+/// PlanView::ground for slopes of 45 degrees.
+inline constexpr double usual_ground = 0.7071;
+
 struct PlanCut {
   std::vector<Segment> walls;  ///< at body height, in metres of the plan
   std::vector<Segment> below;  ///< lower surfaces: at the depths `below`, the lower of two storeys, and rising ground

@@ -3,6 +3,9 @@
 #include <cmath>
 #include <glm/trigonometric.hpp>
 #include <numbers>
+#include <numeric>
+
+#include "draw/page.h"
 
 namespace roam::draw {
 namespace {
@@ -15,7 +18,6 @@ constexpr double section_most_height = 420.0;
 constexpr double section_scale_width = 120.0;  ///< left of the section, for its heights
 constexpr double least_body = 20.0;            ///< across; a smaller body needs details
 constexpr double detail_most_width = 607.0;
-constexpr double detail_gap = 30.0;
 constexpr double detail_height = 0.62;  ///< of its plan's width
 constexpr std::size_t most_details = 4;
 
@@ -98,9 +100,7 @@ Frame plan_frame(const Sights& sights, const Turn& turn, const Box& scene, doubl
   }
   all = all.grown(0.02 * all.width());
   if (fitting_scale(all) >= whole_scene * fitting_scale(shown)) shown = all;
-  const double scale = fitting_scale(shown);
-  const double height = std::clamp(shown.height() * scale, plan_least_height, plan_most_height);
-  return {Rect::around(shown.center(), content_width / scale, height / scale), scale, scale};
+  return Frame::fitted(shown, content_width, plan_least_height, plan_most_height);
 }
 
 void frame_section(Frames& frames, const Way& way, const RoomSurvey& survey, double body_height, double radius) {
@@ -146,67 +146,38 @@ void frame_details(Frames& frames, const RoomSurvey& survey, const std::vector<M
   // The measure of the narrowest place should be visible whole, unless it is nearly open.
   if (survey.narrowest) size = std::clamp(survey.narrowest->width / detail_height * 1.2, size, 1.6 * size);
   if (2.0 * settings.radius * frames.plan.scale_x >= least_body) return;
-  // The end comes first, then narrow places, then the start, then falls on the way.
-  const auto rank = [&](std::size_t i) {
-    if (i + 1 == marks.size()) return 0;
-    switch (marks[i].kind) {
-      case MarkKind::blocked:
-      case MarkKind::end:
-        return 0;
-      case MarkKind::narrowest:
-        return 1;
-      case MarkKind::nearest:
-        return 2;
-      case MarkKind::start:
-        return 3;
-      case MarkKind::fell:
-        return 4;
-    }
-    return 4;
-  };
   std::vector<std::size_t> order(marks.size());
-  for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  const auto rank = [&](std::size_t i) { return i + 1 == marks.size() ? MarkKind::end : marks[i].kind; };
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return rank(a) < rank(b); });
-  std::vector<std::size_t> about;
-  std::vector<std::vector<std::size_t>> with;
+  std::vector<Detail> details;
   for (const std::size_t i : order) {
-    std::size_t k = 0;
-    for (; k < about.size(); ++k) {
-      const Vec3 d = marks[about[k]].centre - marks[i].centre;
-      if (std::hypot(d.x, d.y) < 0.35 * size && std::abs(d.z) < settings.height) break;
-    }
-    if (k < about.size()) {
-      with[k].push_back(i);
-    } else if (about.size() < most_details) {
-      about.push_back(i);
-      with.push_back({i});
+    const auto near = std::find_if(details.begin(), details.end(), [&](const Detail& detail) {
+      const Vec3 d = marks[detail.marks[0]].centre - marks[i].centre;
+      return std::hypot(d.x, d.y) < 0.35 * size && std::abs(d.z) < settings.height;
+    });
+    if (near != details.end()) {
+      near->marks.push_back(i);
+    } else if (details.size() < most_details) {
+      details.push_back({{i}, {}, {}});
     }
   }
-  const auto count = static_cast<double>(about.size());
+  const auto count = static_cast<double>(details.size());
   const double width = std::min(detail_most_width, (content_width - (count - 1.0) * detail_gap) / count);
   const double scale = width / size;
   if (scale < 2.0 * frames.plan.scale_x) return;
-  for (std::size_t k = 0; k < about.size(); ++k) {
-    const Mark& mark = marks[about[k]];
-    const double tall = std::clamp(2.2 * settings.height, 0.25 * size, 0.5 * size);
-    frames.details.push_back({with[k],
-                              {Rect::around(frames.turn.plan(mark.centre), size, detail_height * size), scale, scale},
-                              {Rect::around({mark.along, mark.centre.z}, size, tall), scale, scale}});
+  const double tall = std::clamp(2.2 * settings.height, 0.25 * size, 0.5 * size);
+  for (Detail& detail : details) {
+    const Mark& mark = marks[detail.marks[0]];
+    detail.plan = {Rect::around(frames.turn.plan(mark.centre), size, detail_height * size), scale, scale};
+    detail.section = {Rect::around({mark.along, mark.centre.z}, size, tall), scale, scale};
   }
+  frames.details = std::move(details);
   std::sort(frames.details.begin(), frames.details.end(),
             [&](const Detail& a, const Detail& b) { return marks[a.marks[0]].along < marks[b.marks[0]].along; });
 }
 
 }  // namespace
-
-double round_length(double limit) {
-  const double power = std::pow(10.0, std::floor(std::log10(limit)));
-  constexpr double rounding = 1e-9;
-  for (const double digit : {10.0, 5.0, 2.0}) {
-    if (digit * power <= limit * (1.0 + rounding)) return digit * power;
-  }
-  return power;
-}
 
 Frames choose_frames(const Way& way, const RoomSurvey& survey, const std::vector<Mark>& marks, const Box& scene,
                      const WalkerSettings& settings) {

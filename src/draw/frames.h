@@ -1,6 +1,7 @@
 #pragma once
 /// \file
-/// Chooses the part of the scene that a picture shows, and its scale: pure numbers, before anything is cut or drawn.
+/// The parts of the scene that the sheet of a walk shows, and their scales: pure numbers, before anything is cut or
+/// drawn.
 
 #include <vector>
 
@@ -12,20 +13,7 @@
 
 namespace roam::draw {
 
-/// Pixels of the sheet.
-inline constexpr double sheet_width = 2000.0;
-inline constexpr double sheet_margin = 60.0;
-inline constexpr double content_width = sheet_width - 2.0 * sheet_margin;
-
-/// A part of a plan or section, with its scale.
-struct Frame {
-  Rect view;             ///< in metres of the plan or section
-  double scale_x = 1.0;  ///< pixels per metre
-  double scale_y = 1.0;
-
-  [[nodiscard]] double width() const { return view.width() * scale_x; }    ///< pixels
-  [[nodiscard]] double height() const { return view.height() * scale_y; }  ///< pixels
-};
+inline constexpr double detail_gap = 30.0;  ///< pixels between details
 
 /// A magnified place.
 struct Detail {
@@ -52,8 +40,5 @@ struct Frames {
 /// - adds details if the body would be smaller than a dot.
 [[nodiscard]] Frames choose_frames(const Way& way, const RoomSurvey& survey, const std::vector<Mark>& marks,
                                    const Box& scene, const WalkerSettings& settings);
-
-/// The largest of 1, 2, 5, 10, 20, 50, ... and 0.5, 0.2, ... that is at most `limit` (> 0).
-[[nodiscard]] double round_length(double limit);
 
 }  // namespace roam::draw

@@ -4,6 +4,7 @@
 /// way, height) in metres. A point of a sheet is (right, down) in pixels.
 
 #include <algorithm>
+#include <cmath>
 #include <glm/vec2.hpp>
 #include <limits>
 #include <vector>
@@ -44,7 +45,35 @@ struct Rect {
     const Point half(0.5 * width, 0.5 * height);
     return {centre - half, centre + half};
   }
+  /// The corners as a closed line.
+  [[nodiscard]] Polyline outline() const { return {lower, {upper.x, lower.y}, upper, {lower.x, upper.y}}; }
 };
+
+/// A part of a plan or section, with its scale.
+struct Frame {
+  Rect view;             ///< in metres of the plan or section
+  double scale_x = 1.0;  ///< pixels per metre
+  double scale_y = 1.0;
+
+  [[nodiscard]] double width() const { return view.width() * scale_x; }    ///< pixels
+  [[nodiscard]] double height() const { return view.height() * scale_y; }  ///< pixels
+  /// The largest one with `shown` in its middle, `width` pixels wide and from `least` to `most` pixels high.
+  static Frame fitted(const Rect& shown, double width, double least, double most) {
+    const double scale = std::min(width / shown.width(), most / shown.height());
+    const double height = std::max(shown.height(), least / scale);
+    return {Rect::around(shown.center(), width / scale, height), scale, scale};
+  }
+};
+
+/// The largest of 1, 2, 5, 10, 20, 50, ... and 0.5, 0.2, ... that is at most `limit` (> 0).
+[[nodiscard]] inline double round_length(double limit) {
+  const double power = std::pow(10.0, std::floor(std::log10(limit)));
+  constexpr double rounding = 1e-9;
+  for (const double digit : {10.0, 5.0, 2.0}) {
+    if (digit * power <= limit * (1.0 + rounding)) return digit * power;
+  }
+  return power;
+}
 
 /// The orientation of a plan on the sheet: the scene turned about the vertical through `origin`. Heights stay.
 struct Turn {

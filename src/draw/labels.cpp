@@ -2,51 +2,24 @@
 
 #include <array>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
+
+#include "draw/picture_file.h"
+#include "text/printable.h"
 
 namespace roam::draw {
 namespace {
 
-constexpr double padding = 5.0;       ///< pixels around the lines of a label
-constexpr double avoided_step = 8.0;  ///< pixels between the points of a line to avoid
-
-/// Number of bytes of the UTF-8 character at `i`; 0 if there is none.
-std::size_t character(const std::string& s, std::size_t i) {
-  const auto byte = [&](std::size_t k) { return k < s.size() ? static_cast<unsigned char>(s[k]) : 0U; };
-  const unsigned first = byte(i);
-  if (first >= 0x20U && first < 0x7fU) return 1;
-  const std::size_t size = first >= 0xf0U && first < 0xf5U ? 4 : first >= 0xe0U ? 3 : first >= 0xc2U ? 2 : 0;
-  if (size == 0 || first >= 0xf5U) return 0;
-  for (std::size_t k = 1; k < size; ++k) {
-    if ((byte(i + k) & 0xc0U) != 0x80U) return 0;
-  }
-  const unsigned second = byte(i + 1);
-  const bool overlong = (first == 0xe0U && second < 0xa0U) || (first == 0xf0U && second < 0x90U);
-  const bool beyond = (first == 0xedU && second >= 0xa0U) || (first == 0xf4U && second >= 0x90U);
-  const bool control = first == 0xc2U && second < 0xa0U;
-  return overlong || beyond || control ? 0 : size;
-}
-
-Point nearest_of(const Rect& r, const Point& p) {
-  return {std::clamp(p.x, r.lower.x, r.upper.x), std::clamp(p.y, r.lower.y, r.upper.y)};
-}
+constexpr double padding = 5.0;           ///< pixels around the lines of a label
+constexpr double avoided_step = 8.0;      ///< pixels between the points of a line to avoid
+constexpr double farthest_beside = 18.0;  ///< pixels between a label and its anchor without a line between them
 
 }  // namespace
 
-std::string with_question_marks(const std::string& text) {
-  std::string result;
-  for (std::size_t i = 0; i < text.size();) {
-    const std::size_t size = character(text, i);
-    result += size > 0 ? text.substr(i, size) : "?";
-    i += std::max<std::size_t>(size, 1);
-  }
-  return result;
-}
-
-std::vector<std::string> wrapped(const std::string& text, double width, double size, bool bold,
-                                 const MeasureText& measure) {
-  const auto fits = [&](const std::string& line) { return measure(line, size, bold).width() <= width; };
-  const std::string shown = with_question_marks(text);
+std::vector<std::string> wrapped(const std::string& text, double width, const Font& font) {
+  const auto fits = [&](const std::string& line) { return measure_text(line, font).width() <= width; };
+  const std::string shown = printable(text, text.size());
   std::vector<std::string> lines{""};
   for (std::size_t i = 0; i < shown.size();) {
     std::size_t end = std::min(shown.find(' ', i), shown.size());
@@ -63,7 +36,7 @@ std::vector<std::string> wrapped(const std::string& text, double width, double s
     // A word longer than a line: as many of its characters as fit.
     std::size_t part = i;
     while (part < end) {
-      const std::size_t next = part + character(shown, part);
+      const std::size_t next = part + first_character(std::string_view(shown).substr(part)).bytes;
       if (part > i && !fits(shown.substr(i, next - i))) break;
       part = next;
     }
@@ -75,14 +48,14 @@ std::vector<std::string> wrapped(const std::string& text, double width, double s
   return lines;
 }
 
-Rect Labels::write(const std::string& what, const std::string& text, const Point& at, double size, bool bold,
+Rect Labels::write(const std::string& what, const std::string& text, const Point& at, const Font& font,
                    const Colour& colour, Align align) {
-  const std::string shown = with_question_marks(text);
-  const Rect extent = measure_(shown, size, bold);
+  const std::string shown = printable(text, text.size());
+  const Rect extent = measure_text(shown, font);
   const double shift = align == Align::left ? 0.0 : align == Align::centre ? 0.5 * extent.width() : extent.width();
   const Point from = at - Point(shift, 0.0);
   const Rect box{from + extent.lower, from + extent.upper};
-  sheet_.items.emplace_back(Text{what, shown, from, size, bold, colour, box});
+  sheet_.items.emplace_back(Text{what, shown, from, font, colour, box});
   taken_.push_back(box);
   return box;
 }
@@ -108,18 +81,19 @@ double Labels::covered(const Rect& r) const {
   return sum;
 }
 
-bool Labels::place(const Label& label, const Point& anchor, const Rect& panel) {
+bool Labels::place(const std::string& what, const std::vector<std::string>& lines, const Colour& colour, double letters,
+                   const Point& anchor, const Rect& panel) {
+  const auto font = [&](std::size_t i) { return Font{letters, i == 0}; };
   double width = 0.0;
-  for (std::size_t i = 0; i < label.lines.size(); ++i) {
-    width = std::max(width, measured(label.lines[i], label.size, i == 0).width());
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    width = std::max(width, measure_text(printable(lines[i]), font(i)).width());
   }
-  const Rect line = measured("x", label.size, true);
+  const Rect line = measure_text("x", font(0));
   const double step = line.height();
-  const double height = step * static_cast<double>(label.lines.size());
+  const double height = step * static_cast<double>(lines.size());
   const Point size(width + 2.0 * padding, height + 2.0 * padding);
 
-  constexpr std::array<std::array<double, 2>, 8> directions{
-      {{0, -1}, {0, 1}, {1, -1}, {-1, -1}, {1, 1}, {-1, 1}, {1, 0}, {-1, 0}}};
+  constexpr std::array<Point, 8> directions{{{0, -1}, {0, 1}, {1, -1}, {-1, -1}, {1, 1}, {-1, 1}, {1, 0}, {-1, 0}}};
   double best = std::numeric_limits<double>::infinity();
   Rect box;
   const auto consider = [&](const Point& centre, double cost) {
@@ -133,14 +107,14 @@ bool Labels::place(const Label& label, const Point& anchor, const Rect& panel) {
   };
   for (const double away : {14.0, 30.0, 55.0, 90.0, 140.0, 200.0}) {
     for (std::size_t k = 0; k < directions.size(); ++k) {
-      const auto [x, y] = directions[k];
-      const Point centre = anchor + Point(x * (0.5 * size.x + away), y * (0.5 * size.y + away));
-      consider(centre, 0.15 * away + 0.1 * static_cast<double>(k));
+      const Point way = directions[k], centre = anchor + way * (0.5 * size + away);
+      const double cost = 0.15 * away + 0.1 * static_cast<double>(k);
+      consider(centre, cost);
+      if (way.x != 0.0) continue;
       // Above and below, it may also begin or end at the anchor.
-      if (x == 0.0) {
-        consider(centre + Point(0.5 * size.x - 20.0, 0.0), 0.15 * away + 0.1 * static_cast<double>(k));
-        consider(centre - Point(0.5 * size.x - 20.0, 0.0), 0.15 * away + 0.1 * static_cast<double>(k));
-      }
+      const Point aside(0.5 * size.x - 20.0, 0.0);
+      consider(centre + aside, cost);
+      consider(centre - aside, cost);
     }
   }
   if (box.empty()) {
@@ -152,20 +126,15 @@ bool Labels::place(const Label& label, const Point& anchor, const Rect& panel) {
   }
   if (box.empty()) return false;
 
-  const Point edge = nearest_of(box, anchor);
-  if (glm::distance(edge, anchor) > 18.0) {
-    sheet_.items.emplace_back(Lines{.what = "leader", .lines = {{anchor, edge}}, .width = 1.2, .stroke = label.colour});
+  const Point edge = glm::clamp(anchor, box.lower, box.upper);
+  if (glm::distance(edge, anchor) > farthest_beside) {
+    sheet_.items.emplace_back(Lines{"leader", {{anchor, edge}}, {.width = 1.2, .stroke = colour}});
   }
-  constexpr Colour ground{1.0, 1.0, 1.0, 0.82};
-  sheet_.items.emplace_back(
-      Lines{.what = "label ground",
-            .lines = {{box.lower, {box.upper.x, box.lower.y}, box.upper, {box.lower.x, box.upper.y}}},
-            .fill = ground,
-            .closed = true});
+  sheet_.items.emplace_back(Lines{"label ground", {box.outline()}, ground_style, true});
   Point at(box.lower.x + padding, box.lower.y + padding - line.lower.y);
   taken_.push_back(box);
-  for (std::size_t i = 0; i < label.lines.size(); ++i) {
-    write(label.what, label.lines[i], at, label.size, i == 0, i == 0 ? label.colour : ink);
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    write(what, lines[i], at, font(i), i == 0 ? colour : ink);
     at.y += step;
   }
   return true;

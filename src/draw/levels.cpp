@@ -1,5 +1,7 @@
 #include "draw/levels.h"
 
+#include <fmt/format.h>
+
 #include <glm/geometric.hpp>
 #include <numeric>
 
@@ -75,6 +77,14 @@ Levels find_levels(std::span<const Station> stations, double body_height) {
   for (auto& level : levels.where) level = rank[level];
   for (const std::size_t i : falling) levels.where[i] = levels.where[i - 1];
   return levels;
+}
+
+std::string cut_text(const Levels& levels) {
+  const auto& cuts = levels.cuts;
+  const std::string heights =
+      cuts.size() == 1 ? fmt::format("z = {:.2f} m", cuts[0])
+                       : fmt::format("{} levels from z = {:.2f} to {:.2f} m", cuts.size(), cuts.front(), cuts.back());
+  return "cut at the height of the body's centre, " + heights;
 }
 
 LevelMap::LevelMap(const Rect& area, const Levels& levels, std::span<const Station> stations, const Turn& turn,

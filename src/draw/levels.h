@@ -17,6 +17,7 @@
 #include <cmath>
 #include <cstdint>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "draw/geometry.h"
@@ -30,6 +31,9 @@ struct Levels {
 };
 
 [[nodiscard]] Levels find_levels(std::span<const Station> stations, double body_height);
+
+/// For people: "cut at the height of the body's centre, z = 1.20 m".
+[[nodiscard]] std::string cut_text(const Levels& levels);
 
 /// The levels shown in each cell of a grid over a rectangle of the plan.
 class LevelMap {

@@ -1,57 +1,50 @@
 #include "draw/lines.h"
 
-#include <array>
 #include <cmath>
-#include <cstdint>
-#include <glm/geometric.hpp>
-
-#include "draw/corners.h"
+#include <glm/common.hpp>
+#include <tuple>
 
 namespace roam::draw {
 namespace {
 
 constexpr double finest_grid = 0.125;  ///< pixels; gives numbers with few digits
 constexpr double coarsest_grid = 4.0;
-constexpr double straight = 0.2;  ///< pixels
+/// Cells of the first grid along the longer side of the area: a sheet has 2,000 pixels, and magnifies parts of it.
+constexpr double first_cells = 1 << 17;
 
-using Node = std::array<std::int32_t, 2>;
-using Edge = std::array<Node, 2>;
+bool before(const Point& a, const Point& b) { return std::tie(a.x, a.y) < std::tie(b.x, b.y); }
+bool same(const Segment& a, const Segment& b) { return a.a == b.a && a.b == b.b; }
 
-/// The distinct edges between distinct nodes of a grid.
-std::vector<Edge> snapped(std::span<const Segment> segments, double grid) {
-  std::vector<Edge> edges;
-  edges.reserve(segments.size());
-  const auto node = [grid](const Point& p) {
-    return Node{static_cast<std::int32_t>(std::lround(p.x / grid)), static_cast<std::int32_t>(std::lround(p.y / grid))};
-  };
-  for (const Segment& s : segments) {
-    Edge edge{node(s.a), node(s.b)};
-    if (edge[0] == edge[1]) continue;
-    if (edge[1] < edge[0]) std::swap(edge[0], edge[1]);
-    edges.push_back(edge);
+/// Rounds the ends to a grid, and removes points and duplicates.
+void snap(std::vector<Segment>& segments, const Point& origin, double grid) {
+  for (Segment& s : segments) {
+    for (Point* p : {&s.a, &s.b}) *p = origin + grid * glm::round((*p - origin) / grid);
+    if (before(s.b, s.a)) std::swap(s.a, s.b);
   }
-  std::sort(edges.begin(), edges.end());
-  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
-  return edges;
+  std::erase_if(segments, [](const Segment& s) { return s.a == s.b; });
+  std::sort(segments.begin(), segments.end(),
+            [](const Segment& a, const Segment& b) { return a.a == b.a ? before(a.b, b.b) : before(a.a, b.a); });
+  segments.erase(std::unique(segments.begin(), segments.end(), same), segments.end());
 }
 
-/// Edges, and for each node the edges that end there.
+/// Distinct segments, and for each of their ends the segments that end there.
 class Network {
  public:
-  explicit Network(std::vector<Edge> edges) : edges_(std::move(edges)), used_(edges_.size(), 0) {
-    for (std::size_t i = 0; i < edges_.size(); ++i) {
-      for (const Node& node : edges_[i]) ends_.emplace_back(node, i);
+  explicit Network(std::vector<Segment> segments) : segments_(std::move(segments)), used_(segments_.size(), 0) {
+    for (std::size_t i = 0; i < segments_.size(); ++i) {
+      ends_.emplace_back(segments_[i].a, i);
+      ends_.emplace_back(segments_[i].b, i);
     }
-    std::sort(ends_.begin(), ends_.end());
+    std::stable_sort(ends_.begin(), ends_.end(), less);
   }
 
-  [[nodiscard]] std::vector<Polyline> lines(double grid) {
+  [[nodiscard]] std::vector<Polyline> lines() {
     std::vector<Polyline> result;
     // First lines that begin at a free end or a fork, then the remaining rings.
     for (const bool rings : {false, true}) {
-      for (std::size_t i = 0; i < edges_.size(); ++i) {
-        for (std::size_t end = 0; end < 2 && !used_[i]; ++end) {
-          if (rings || ends_at(edges_[i][end]).size() != 2) result.push_back(follow(i, end, grid));
+      for (std::size_t i = 0; i < segments_.size(); ++i) {
+        for (const Point& end : {segments_[i].a, segments_[i].b}) {
+          if (!used_[i] && (rings || ends_at(end).size() != 2)) result.push_back(follow(i, end));
         }
       }
     }
@@ -59,31 +52,29 @@ class Network {
   }
 
  private:
-  using End = std::pair<Node, std::size_t>;
+  using End = std::pair<Point, std::size_t>;
+  static bool less(const End& a, const End& b) { return before(a.first, b.first); }
 
-  [[nodiscard]] std::span<const End> ends_at(const Node& node) const {
-    const auto less = [](const End& a, const End& b) { return a.first < b.first; };
-    const auto [from, to] = std::equal_range(ends_.begin(), ends_.end(), End{node, 0}, less);
+  [[nodiscard]] std::span<const End> ends_at(const Point& p) const {
+    const auto [from, to] = std::equal_range(ends_.begin(), ends_.end(), End{p, 0}, less);
     return {from, to};
   }
 
-  Polyline follow(std::size_t edge, std::size_t end, double grid) {
-    const auto point = [grid](const Node& n) { return Point(n[0] * grid, n[1] * grid); };
-    Node at = edges_[edge][end];
-    Polyline line{point(at)};
+  Polyline follow(std::size_t i, Point at) {
+    Polyline line{at};
     while (true) {
-      used_[edge] = 1;
-      at = edges_[edge][0] == at ? edges_[edge][1] : edges_[edge][0];
-      line.push_back(point(at));
+      used_[i] = 1;
+      at = segments_[i].a == at ? segments_[i].b : segments_[i].a;
+      line.push_back(at);
       const auto ends = ends_at(at);
       if (ends.size() != 2) return line;
-      const std::size_t next = ends[0].second == edge ? ends[1].second : ends[0].second;
+      const std::size_t next = ends[0].second == i ? ends[1].second : ends[0].second;
       if (used_[next]) return line;
-      edge = next;
+      i = next;
     }
   }
 
-  std::vector<Edge> edges_;
+  std::vector<Segment> segments_;
   std::vector<char> used_;
   std::vector<End> ends_;
 };
@@ -107,24 +98,36 @@ Polyline simplified(const Polyline& line, double tolerance) {
 
 std::vector<Polyline> joined(std::span<const Segment> segments, const std::function<Point(const Point&)>& to_sheet,
                              std::size_t most) {
-  std::vector<Segment> on_sheet;
-  on_sheet.reserve(segments.size());
-  for (const Segment& s : segments) on_sheet.push_back({to_sheet(s.a), to_sheet(s.b)});
+  std::vector<Segment> drawn;
+  drawn.reserve(segments.size());
+  for (const Segment& s : segments) drawn.push_back({to_sheet(s.a), to_sheet(s.b)});
   double grid = finest_grid;
-  std::vector<Edge> edges = snapped(on_sheet, grid);
-  while (edges.size() > most && grid < coarsest_grid) {
-    grid *= 2.0;
-    edges = snapped(on_sheet, grid);
-  }
-  if (edges.size() > most) {
+  snap(drawn, Point(0.0), grid);
+  while (drawn.size() > most && grid < coarsest_grid) snap(drawn, Point(0.0), grid *= 2.0);
+  if (drawn.size() > most) {
     // Too many long lines: the longest are the most useful.
-    const auto length = [](const Edge& e) { return std::hypot(e[1][0] - e[0][0], e[1][1] - e[0][1]); };
-    std::stable_sort(edges.begin(), edges.end(), [&](const Edge& a, const Edge& b) { return length(a) > length(b); });
-    edges.resize(most);
+    const auto length = [](const Segment& s) { return glm::distance(s.a, s.b); };
+    std::stable_sort(drawn.begin(), drawn.end(),
+                     [&](const Segment& a, const Segment& b) { return length(a) > length(b); });
+    drawn.resize(most);
   }
-  std::vector<Polyline> lines = Network(std::move(edges)).lines(grid);
+  std::vector<Polyline> lines = Network(std::move(drawn)).lines();
   for (Polyline& line : lines) line = simplified(line, straight);
   return lines;
+}
+
+ThinSegments::ThinSegments(const Rect& area, std::size_t most) : grid_(1e-6), most_(most) {
+  if (area.empty()) return;
+  origin_ = area.lower;
+  grid_ = std::max(grid_, std::max(area.width(), area.height()) / first_cells);
+}
+
+void ThinSegments::add(std::vector<Segment>&& segments) {
+  segments_.insert(segments_.end(), segments.begin(), segments.end());
+  if (segments_.size() <= most_) return;
+  snap(segments_, origin_, grid_);
+  // Half as many, so that the next few segments do not thin again at once.
+  while (segments_.size() > most_ / 2) snap(segments_, origin_, grid_ *= 2.0);
 }
 
 }  // namespace roam::draw

@@ -1,10 +1,13 @@
 #pragma once
 /// \file
-/// Joins loose segments into few long lines, so that a drawing stays small for any number of triangles.
+/// Long lines in few points, so that a drawing stays small for any number of triangles: the corners that keep the shape
+/// of a line, loose segments joined into lines, and segments held in bounded memory.
 
 #include <cstddef>
 #include <functional>
+#include <glm/geometric.hpp>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "draw/geometry.h"
@@ -13,14 +16,70 @@ namespace roam::draw {
 
 /// Limit for each kind in one panel: some 3 MB of SVG.
 inline constexpr std::size_t usual_segments = 60'000;
+/// Pixels: a drawn line may be straightened by this.
+inline constexpr double straight = 0.2;
+
+/// The position of the place of the segment from `a` (0) to `b` (1) nearest to `p`; 0 if the segment is no longer than
+/// a point.
+template <typename V>
+[[nodiscard]] double nearest_part(const V& p, const V& a, const V& b) {
+  const V d = b - a;
+  const double square = glm::dot(d, d);
+  return square > 0.0 ? std::clamp(glm::dot(p - a, d) / square, 0.0, 1.0) : 0.0;
+}
+
+/// Sets keep[i] to 1 for the places of [first, last] that must stay, including first and last. Every other place
+/// deviates by at most `tolerance` from the straight piece between its kept neighbours (Douglas and Peucker, 1973).
+/// `deviation(i, from, to)` is that of `i` from the piece between `from` and `to`.
+template <typename Deviation>
+void keep_corners(std::size_t first, std::size_t last, double tolerance, const Deviation& deviation,
+                  std::vector<char>& keep) {
+  std::vector<std::pair<std::size_t, std::size_t>> open{{first, last}};
+  keep[first] = keep[last] = 1;
+  while (!open.empty()) {
+    const auto [from, to] = open.back();
+    open.pop_back();
+    double worst = tolerance;
+    std::size_t at = from;
+    for (std::size_t i = from + 1; i < to; ++i) {
+      const double d = deviation(i, from, to);
+      if (d > worst) {
+        worst = d;
+        at = i;
+      }
+    }
+    if (at == from) continue;
+    keep[at] = 1;
+    open.emplace_back(from, at);
+    open.emplace_back(at, to);
+  }
+}
 
 /// Removes the corners that lie within `tolerance` of the line between their neighbours.
 [[nodiscard]] Polyline simplified(const Polyline& line, double tolerance);
 
 /// Moves the segments to the sheet by `to_sheet` and rounds their ends to an eighth of a pixel. Removes points and
-/// duplicates, joins ends that meet, and straightens lines within a fifth of a pixel. If more than `most` segments are
-/// left, rounds to coarser grids, up to 4 pixels, and then keeps the longest.
+/// duplicates, joins ends that meet, and straightens lines. If more than `most` segments are left, rounds to coarser
+/// grids, up to 4 pixels, and then keeps the longest.
 [[nodiscard]] std::vector<Polyline> joined(std::span<const Segment> segments,
                                            const std::function<Point(const Point&)>& to_sheet, std::size_t most);
+
+/// Takes any number of segments and holds about `most`. If there are more, rounds their ends to a grid over `area`, so
+/// that lines stay joined, and removes points and duplicates. The grid begins far finer than a sheet can show, and
+/// doubles its cells as needed. The same segments in the same order give the same result.
+class ThinSegments {
+ public:
+  ThinSegments(const Rect& area, std::size_t most);
+
+  void add(std::vector<Segment>&& segments);
+  /// Call it once.
+  [[nodiscard]] std::vector<Segment> take() { return std::move(segments_); }
+
+ private:
+  Point origin_{0.0};
+  double grid_;  ///< metres
+  std::size_t most_;
+  std::vector<Segment> segments_;
+};
 
 }  // namespace roam::draw

@@ -11,16 +11,16 @@
 
 namespace roam::draw {
 
-enum class MarkKind : std::uint8_t { start, end, narrowest, nearest, blocked, fell };
+/// Ordered by importance.
+enum class MarkKind : std::uint8_t { end, blocked, narrowest, nearest, start, fell };
 
 struct Mark {
   MarkKind kind = MarkKind::start;
-  Vec3 point{0.0};      ///< the body's centre; for `blocked` the touched point
-  Vec3 centre{0.0};     ///< of the body there
-  double height = 0.0;  ///< of that body, metres
-  double along = 0.0;   ///< metres, as WayPoint::along
-  std::string name;     ///< "start", "narrowest", ...
-  std::string note;     ///< more about it, or nothing: "0.750 m clear"
+  Vec3 point{0.0};                 ///< the body's centre; for `blocked` the touched point
+  Vec3 centre{0.0};                ///< of the body there
+  double height = 0.0;             ///< of that body, metres
+  double along = 0.0;              ///< metres, as WayPoint::along
+  std::vector<std::string> label;  ///< its name, "start", "narrowest", ..., then more about it: "0.75 m clear"
 };
 
 /// The marks in their order along the way. `nearest`, the place of the least certified clearance, only for flying: on

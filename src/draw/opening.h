@@ -3,7 +3,7 @@
 /// Pictures of the places that limit a body: `roam probe --picture` and `roam train --picture`. For each door, lintel,
 /// gap or crack: a plan and a section to the same scale, with the body and the measured width.
 ///
-///     draw::PictureFile file("door.png");   // before the long work: it may not be writable
+///     draw::PictureFile file("door.png");  // before the long work: it may not be writable
 ///     file.write(draw::opening_sheet("dam.ply", openings, survey.meshes()));
 
 #include <optional>
@@ -11,8 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "draw/draw.h"
-#include "draw/opening_overview.h"
+#include "draw/overview.h"
 #include "draw/sheet.h"
 #include "roam/mesh.h"
 #include "roam/walker.h"

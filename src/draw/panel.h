@@ -1,76 +1,78 @@
 #pragma once
 /// \file
-/// One framed drawing of a sheet: a plan or a section, of the whole way or of a detail.
+/// The painter of plans, sections and charts: takes shapes in metres and puts them on a sheet, framed and to scale.
 
-#include "draw/compose.h"
+#include <span>
+#include <string>
+#include <vector>
+
 #include "draw/labels.h"
+#include "draw/lines.h"
+#include "draw/sheet.h"
 
 namespace roam::draw {
 
-/// The gaps beside the body, metres, at which the colour of the way changes, and the colours from tight to wide.
-struct GapScale {
-  std::array<double, 4> limits{};
-  static constexpr std::array<Colour, 5> colours{
-      {{0.70, 0.05, 0.15}, {0.93, 0.42, 0.10}, {0.92, 0.70, 0.05}, {0.15, 0.62, 0.45}, {0.10, 0.38, 0.72}}};
-  /// From a sixth of the radius upward in round lengths.
-  explicit GapScale(double radius);
-  [[nodiscard]] std::size_t index(double gap) const;
-};
-
-inline constexpr Colour wall_ink{0.13, 0.15, 0.20};
-inline constexpr Colour below_ink{0.66, 0.70, 0.76};
-inline constexpr Colour frame_ink{0.78, 0.80, 0.84};
-inline constexpr Colour body_ink{0.10, 0.38, 0.72};
-inline constexpr Colour body_fill{0.10, 0.38, 0.72, 0.16};
-inline constexpr Colour ghost_ink{0.45, 0.25, 0.65};
-inline constexpr Colour touch_ink{0.86, 0.10, 0.32};
-/// A mark's colour: success, attention or failure.
-[[nodiscard]] Colour mark_colour(MarkKind kind);
-
-/// The position of a frame on the sheet.
-struct Map {
-  Frame frame;
-  Point corner{0.0};  ///< upper left, pixels
-
-  [[nodiscard]] Point operator()(const Point& p) const {
-    return {corner.x + (p.x - frame.view.lower.x) * frame.scale_x,
-            corner.y + (frame.view.upper.y - p.y) * frame.scale_y};
-  }
-  [[nodiscard]] Rect panel() const { return {corner, corner + Point(frame.width(), frame.height())}; }
-};
-
-/// Draws panels of one picture on a sheet.
-class PanelPainter {
+/// A frame at its place on a sheet. What it draws is cut off at the frame. Names of items begin with the panel's.
+/// Labels come last: they keep off what was drawn before.
+class Panel {
  public:
-  PanelPainter(const Contents& contents, Sheet& sheet, Labels& labels);
+  /// `corner`: upper left, pixels. The sheet and the labels must outlive it.
+  Panel(Sheet& sheet, Labels& labels, std::string name, const Frame& frame, const Point& corner)
+      : sheet_(sheet), labels_(labels), name_(std::move(name) + " "), frame_(frame), corner_(corner) {}
 
-  /// Draws walls, way, touches, bodies and marks; `prefix` begins the names of the items.
-  void plan(const std::string& prefix, const Map& map, const PlanCut& cut);
-  void section(const std::string& prefix, const Map& map);
+  /// The position on the sheet, in pixels, of a point in metres.
+  [[nodiscard]] Point operator()(const Point& p) const {
+    return corner_ + Point(frame_.scale_x * (p.x - frame_.view.lower.x), frame_.scale_y * (frame_.view.upper.y - p.y));
+  }
+  [[nodiscard]] const Frame& frame() const { return frame_; }
+  [[nodiscard]] double scale() const { return frame_.scale_x; }  ///< pixels per metre
+  /// The covered rectangle, pixels.
+  [[nodiscard]] Rect area() const { return {corner_, corner_ + Point(frame_.width(), frame_.height())}; }
+  [[nodiscard]] bool shows(const Point& p) const { return frame_.view.contains(p); }
 
-  /// Writes a label for each mark in the panel; `text` returns its lines.
-  void label_marks(const std::string& prefix, const Map& map, bool is_plan,
-                   const std::function<std::vector<std::string>(std::size_t)>& text);
+  // Shapes in metres.
+
+  /// Loose segments, joined into at most about `most` lines.
+  void segments(const std::string& what, std::span<const Segment> segments, const Style& style,
+                std::size_t most = usual_segments);
+  void lines(const std::string& what, std::vector<Polyline> lines, const Style& style, bool closed = false);
+  void areas(const std::string& what, std::vector<Polyline> areas, const Style& style) {
+    lines(what, std::move(areas), style, true);
+  }
+  void disc(const std::string& what, const Point& centre, double radius, const Style& style);
+  /// An upright capsule from the side; `foot` is its lowest point.
+  void capsule(const std::string& what, const Point& foot, double radius, double height, const Style& style);
+  /// A line with a stroke across each of its ends. Nothing if it is shorter than a pixel.
+  void measure(const std::string& what, const Point& from, const Point& to);
+
+  // Signs at a point in metres, with a size in pixels. They may stand out of the frame a little.
+
+  /// Lines around the point.
+  void sign(const std::string& what, const Point& at, std::vector<Polyline> lines, const Style& style,
+            bool closed = false);
+  void dot(const std::string& what, const Point& at, double radius, const Style& style);
+  /// A text whose baseline begins, is centred or ends `beside` the point.
+  void text(const std::string& what, const Point& at, const Point& beside, const std::string& text, const Font& font,
+            const Colour& colour, Labels::Align align = Labels::Align::centre);
+  /// Keeps labels off a rectangle around the point.
+  void block(const Point& at, double width, double height);
+  /// Writes a label near the point, if there is room within the frame: its lines, the first one bold.
+  void label(const std::string& what, const Point& at, const std::vector<std::string>& lines, const Colour& colour,
+             double letters = label_size);
+
+  /// A letter in the upper left corner, which labels keep off.
+  void badge(const std::string& letter);
+  /// Draws the frame.
+  void border();
 
  private:
-  void segments(const std::string& what, const Map& map, std::span<const Segment> segments, double width,
-                const Colour& colour);
-  /// Draws the way through `at` (maps a station to a place in the map's metres), in the colours of the gaps.
-  void way(const std::string& prefix, const Map& map, const std::function<Point(const Station&)>& at);
-  void touches(const std::string& prefix, const Map& map, bool is_plan);
-  void mark(const std::string& prefix, const Map& map, bool is_plan, const Mark& mark);
-  void body_outline(const std::string& prefix, const Map& map, bool is_plan, const Mark& mark);
-  [[nodiscard]] Point at(const Mark& mark, bool is_plan) const;
-  /// A point near the body, in the section: ahead of the body's centre or behind it, along the body's heading.
-  [[nodiscard]] Point unrolled(const Vec3& point, const Vec3& centre, double along) const;
+  void put(const std::string& what, std::vector<Polyline> pixels, const Style& style, bool closed, const Rect& clip);
 
-  const Contents& c_;
   Sheet& sheet_;
   Labels& labels_;
-  GapScale gaps_;
+  std::string name_;
+  Frame frame_;
+  Point corner_;
 };
-
-/// A rectangle as a closed line.
-[[nodiscard]] Polyline outline(const Rect& r);
 
 }  // namespace roam::draw

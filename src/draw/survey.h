@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "draw/way.h"
+#include "measure/along.h"
 #include "roam/space.h"
 
 namespace roam::draw {
@@ -25,20 +26,11 @@ struct Station {
   std::optional<double> ceiling;  ///< the same above
 };
 
-/// The narrowest place of a walk, see measure::NarrowPlace.
-struct Narrowest {
-  Vec3 centre{0.0};
-  double height = 0.0;
-  double along = 0.0;  ///< metres, as WayPoint::along
-  double width = 0.0;  ///< metres
-  Vec3 left{0.0};      ///< the ends of the width
-  Vec3 right{0.0};
-};
-
 struct RoomSurvey {
   double reach = 0.0;  ///< measured metres beside the body, at most
   std::vector<Station> stations;
-  std::optional<Narrowest> narrowest;  ///< set by the caller; survey() leaves it empty
+  /// Its `along` is as WayPoint::along. Set by the caller; survey() leaves it empty.
+  std::optional<measure::NarrowPlace> narrowest;
 };
 
 /// Called before each measurement: `reach` metres around the place should be loaded then.

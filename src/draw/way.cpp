@@ -3,7 +3,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "draw/corners.h"
+#include "draw/lines.h"
 
 namespace roam::draw {
 namespace {
@@ -139,6 +139,19 @@ Way simplified(const Record& record, double tolerance) {
     before = i;
   }
   return way;
+}
+
+WayPoint nearest_on(const Way& way, const Vec3& place) {
+  WayPoint best = way.points.front();
+  for (std::size_t i = 1; i < way.points.size(); ++i) {
+    const WayPoint &a = way.points[i - 1], &b = way.points[i];
+    const double t = b.jump ? 1.0 : nearest_part(place, a.position, b.position);
+    const Vec3 at = a.position + t * (b.position - a.position);
+    if (glm::distance(place, at) < glm::distance(place, best.position)) {
+      best = {at, b.height, a.along + t * (b.along - a.along), false};
+    }
+  }
+  return best;
 }
 
 }  // namespace roam::draw

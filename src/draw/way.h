@@ -61,4 +61,7 @@ struct Way {
 /// one place.
 [[nodiscard]] Way simplified(const Record& record, double tolerance);
 
+/// The place on the way that is nearest to `place`.
+[[nodiscard]] WayPoint nearest_on(const Way& way, const Vec3& place);
+
 }  // namespace roam::draw

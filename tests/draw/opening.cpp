@@ -1,10 +1,12 @@
 // The sheet of an opening: that its measures are true, the body is where it stands, and its texts can be read.
+#include "draw/opening.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "draw/opening.h"
+#include "sheet_items.h"
 #include "walker_scenes.h"
 
 namespace {
@@ -12,6 +14,8 @@ namespace {
 using namespace roam::draw;
 using roam::Mesh;
 using roam::Vec3;
+using sheets::all;
+using sheets::box;
 
 /// A wall along `across` through `at` with a door of `width` in it, on a floor.
 std::vector<Mesh> door(const Vec3& at, const Vec3& across, double width) {
@@ -38,41 +42,18 @@ OpeningView view_of_door(const Vec3& at, const Vec3& across, double width) {
   return view;
 }
 
-template <class Item>
-std::vector<Item> all(const Sheet& sheet, const std::string& what) {
-  std::vector<Item> found;
-  for (const auto& item : sheet.items) {
-    const Item* one = std::get_if<Item>(&item);
-    if (one != nullptr && one->what == what) found.push_back(*one);
-  }
-  return found;
-}
-
 /// From the bar and what stands over it.
 double pixels_per_metre(const Sheet& sheet) {
   const auto bars = all<Lines>(sheet, "scale bar");
-  const auto texts = all<Text>(sheet, "scale");
+  const auto texts = all<Text>(sheet, "scale length");
   if (bars.empty() || texts.empty()) return 0.0;
   const Polyline& bar = bars[0].lines[0];
   const double unit = texts[0].text.find("mm") != std::string::npos ? 1e-3 : 1.0;
   return glm::distance(bar[1], bar[2]) / (std::stod(texts[0].text) * unit);
 }
 
-void expect_readable(const Sheet& sheet) {
-  std::vector<Text> texts;
-  for (const auto& item : sheet.items) {
-    if (const Text* text = std::get_if<Text>(&item)) texts.push_back(*text);
-  }
-  const Rect paper{{0.0, 0.0}, {sheet.width, sheet.height}};
-  for (std::size_t i = 0; i < texts.size(); ++i) {
-    EXPECT_TRUE(paper.contains(texts[i].box)) << texts[i].text;
-    for (std::size_t k = 0; k < i; ++k) {
-      // Lines of one label touch.
-      EXPECT_FALSE(texts[i].box.grown(-2.0).overlaps(texts[k].box.grown(-2.0)))
-          << texts[i].text << " over " << texts[k].text;
-    }
-  }
-}
+/// Lines of one label touch.
+void expect_readable(const Sheet& sheet) { sheets::expect_readable(sheet, 2.0); }
 
 TEST(OpeningPicture, MeasuresTheDoorToScaleInPlanAndSection) {
   const Vec3 at(-13739.0, 253.0, 181.0), across = glm::normalize(Vec3(0.6, 0.8, 0.0));
@@ -111,11 +92,7 @@ TEST(OpeningPicture, StandsTheBodyOnTheFloorOfTheSection) {
   const auto walls = all<Lines>(sheet, "section walls");
   ASSERT_EQ(bodies.size(), 1u);
   ASSERT_EQ(walls.size(), 1u);
-  Rect body, scene;
-  for (const Point& p : bodies[0].lines[0]) body.include(p);
-  for (const Polyline& line : walls[0].lines) {
-    for (const Point& p : line) scene.include(p);
-  }
+  const Rect body = box(bodies[0]), scene = box(walls[0]);
   EXPECT_NEAR(body.height(), 1.9 * scale, 1.0);
   EXPECT_NEAR(body.width(), 0.6 * scale, 1.0);
   EXPECT_NEAR(body.upper.y, scene.upper.y, 1.0);  // the sheet's y points down: the feet are on the floor
@@ -241,14 +218,33 @@ TEST(OpeningPicture, MeasuresAHeightBesideTheBodyAndDashesWhatHangsThere) {
   ASSERT_EQ(measures.size(), 1u);
   const Point low = measures[0].lines[0][0], high = measures[0].lines[0][1];
   EXPECT_NEAR(low.y - high.y, 1.75 * scale, 0.5);
-  Rect body;
   const auto bodies = all<Lines>(sheet, "section body");
   ASSERT_EQ(bodies.size(), 1u);
-  for (const Point& p : bodies[0].lines[0]) body.include(p);
+  const Rect body = box(bodies[0]);
   EXPECT_GT(low.x, body.upper.x);
   ASSERT_EQ(all<Lines>(sheet, "plan above").size(), 1u);
-  EXPECT_FALSE(all<Lines>(sheet, "plan above")[0].dash.empty());
+  EXPECT_GT(all<Lines>(sheet, "plan above")[0].style.dash[0], 0.0);
   expect_readable(sheet);
+}
+
+TEST(OpeningPicture, DrawsSlopesAsWallsInFlight) {
+  Mesh ramp;
+  scenes::add_quad(ramp, {-9, -1, 0.7}, {9, -1, 0.7}, {9, 3, 1.9}, {-9, 3, 1.9});
+  OpeningView view = view_of_door({0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}, 0.8);
+  Overview overview;
+  overview.mode = view.mode = roam::Mode::fly;
+  overview.radius = view.radius;
+  overview.height = view.height = 2.0 * view.radius;
+  overview.start = {-5.0, 0.0, 1.0};
+  overview.target = {5.0, 0.0, 1.0};
+  for (const roam::Mode mode : {roam::Mode::fly, roam::Mode::walk}) {
+    overview.mode = view.mode = mode;
+    const Sheet sheet = opening_sheet("ramp.obj", std::vector{view}, std::vector{ramp}, {}, overview);
+    for (const char* panel : {"overview", "plan"}) {
+      const std::string seen = mode == roam::Mode::fly ? "walls" : "below";  // on foot it is ground to walk on
+      EXPECT_EQ(all<Lines>(sheet, std::string(panel) + " " + seen).size(), 1u) << panel;
+    }
+  }
 }
 
 TEST(OpeningPicture, ShowsBothEndsAndWhatIsReachedFromThem) {

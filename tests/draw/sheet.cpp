@@ -6,8 +6,10 @@
 #include <glm/geometric.hpp>
 
 #include "draw/labels.h"
-#include "draw/picture.h"
+#include "draw/picture_file.h"
+#include "draw/walk_sheet.h"
 #include "roam/generate.h"
+#include "sheet_items.h"
 #include "walker_scenes.h"
 
 namespace {
@@ -61,13 +63,11 @@ struct Drawn {
     sheet = draw::make_sheet({title, report, record, measured, world.bounds(), triangles});
   }
 
+  /// The whole name counts: details have plans and sections of their own.
   template <class Item>
   [[nodiscard]] std::vector<Item> all(const std::string& what) const {
-    std::vector<Item> found;
-    for (const auto& item : sheet.items) {
-      const Item* one = std::get_if<Item>(&item);
-      if (one != nullptr && one->what == what) found.push_back(*one);
-    }
+    std::vector<Item> found = sheets::all<Item>(sheet, what);
+    std::erase_if(found, [&](const Item& item) { return item.what != what; });
     return found;
   }
   template <class Item>
@@ -145,20 +145,11 @@ std::vector<Drawn> drawings() {
 
 TEST(PictureSheet, HasItsTextsInsideAndNoneOverAnother) {
   for (const Drawn& drawn : drawings()) {
-    std::vector<Text> texts;
-    for (const auto& item : drawn.sheet.items) {
-      if (const Text* text = std::get_if<Text>(&item)) texts.push_back(*text);
-    }
+    sheets::expect_readable(drawn.sheet);
+    const auto texts = sheets::all<Text>(drawn.sheet);
     EXPECT_GT(texts.size(), 10u);
-    const draw::Rect sheet{{0, 0}, {drawn.sheet.width, drawn.sheet.height}};
-    for (std::size_t i = 0; i < texts.size(); ++i) {
-      const draw::Rect extent = draw::measure_text(texts[i].text, texts[i].size, texts[i].bold);
-      EXPECT_NEAR(texts[i].box.width(), extent.width(), 1e-9);
-      EXPECT_TRUE(sheet.contains(texts[i].box)) << texts[i].what << ": " << texts[i].text;
-      for (std::size_t k = 0; k < i; ++k) {
-        EXPECT_FALSE(texts[i].box.overlaps(texts[k].box))
-            << texts[i].what << ": " << texts[i].text << "\n over " << texts[k].what << ": " << texts[k].text;
-      }
+    for (const Text& text : texts) {
+      EXPECT_NEAR(text.box.width(), draw::measure_text(text.text, text.font).width(), 1e-9);
     }
   }
 }
@@ -166,7 +157,7 @@ TEST(PictureSheet, HasItsTextsInsideAndNoneOverAnother) {
 TEST(PictureSheet, HasPlanSectionScaleAxesTitleAndLegend) {
   for (const Drawn& drawn : drawings()) {
     for (const char* what : {"plan frame", "plan way", "plan start", "section frame", "section way", "section walls",
-                             "plan scale bar", "section scale bar", "axis x", "axis y"}) {
+                             "plan scale bar", "section scale bar", "plan axis x", "plan axis y"}) {
       const bool shown = !drawn.all<Lines>(what).empty() || !drawn.all<Disc>(what).empty();
       // A body that stays where it is has no way.
       const bool stands = drawn.record.places.size() == 1 && std::string(what).ends_with("way");
@@ -203,10 +194,7 @@ TEST(PictureSheet, ShowsBodiesAndWallsToScale) {
   const auto bodies = drawn.all<Disc>("plan body");
   ASSERT_EQ(bodies.size(), 3u);  // start, narrowest, end
   for (const Disc& body : bodies) EXPECT_NEAR(body.radius, 0.3 * scale, 1e-6);
-  draw::Rect walls;
-  for (const auto& line : drawn.only<Lines>("plan walls").lines) {
-    for (const Point& p : line) walls.include(p);
-  }
+  const draw::Rect walls = sheets::box(drawn.only<Lines>("plan walls"));
   EXPECT_NEAR(walls.width(), 20.0 * scale, 0.3);
   EXPECT_NEAR(walls.height(), 4.0 * scale, 0.3);
   EXPECT_TRUE(drawn.says("1.20 m clear") || drawn.says("1.19 m clear"));
@@ -218,16 +206,10 @@ TEST(PictureSheet, ShowsTheWallsBesideAShortWayAndTheWholeNarrowestPlace) {
   scenes::add_box(meshes[1], {400, 300, 0}, {410, 310, 3});  // so that the plan does not show the whole scene
   const Drawn drawn(meshes, {{14, 3.6, 0.9}, {26, 3.6, 0.9}}, Mode::walk);
   ASSERT_EQ(drawn.report.result.outcome, roam::Outcome::reached);
-  draw::Rect frame, walls, narrowest;
-  const Lines border = drawn.only<Lines>("plan frame");
-  for (const Point& p : border.lines.at(0)) frame.include(p);
-  for (const auto& line : drawn.only<Lines>("plan walls").lines) {
-    for (const Point& p : line) walls.include(p);
-  }
+  const draw::Rect frame = sheets::box(drawn.only<Lines>("plan frame"));
+  const draw::Rect walls = sheets::box(drawn.only<Lines>("plan walls"));
+  const draw::Rect narrowest = sheets::box(drawn.only<Lines>("plan narrowest"));
   EXPECT_NEAR(walls.height(), 6.4 * drawn.scale("plan scale"), 0.3);
-  for (const auto& line : drawn.only<Lines>("plan narrowest").lines) {
-    for (const Point& p : line) narrowest.include(p);
-  }
   EXPECT_NEAR(narrowest.height(), walls.height(), 20.0);
   EXPECT_TRUE(frame.contains(narrowest));
 }
@@ -240,10 +222,7 @@ TEST(PictureSheet, UnrollsTheSectionToItsScale) {
   const Point start = drawn.only<Disc>("section start").centre, end = drawn.only<Disc>("section end").centre;
   EXPECT_NEAR(end.x - start.x, 16.0 * scale, 1.0);
   EXPECT_NEAR(start.x, drawn.only<Disc>("plan start").centre.x, 1e-6);  // below its part of the plan
-  draw::Rect walls;
-  for (const auto& line : drawn.only<Lines>("section walls").lines) {
-    for (const Point& p : line) walls.include(p);
-  }
+  const draw::Rect walls = sheets::box(drawn.only<Lines>("section walls"));
   EXPECT_NEAR(walls.height(), 3.0 * scale, 0.3);  // floor and ceiling
 }
 
@@ -276,7 +255,7 @@ TEST(PictureSheet, TurnsALongWayAndShowsItsPlacesMagnified) {
     return (line.at(1) - line.at(0)) / glm::distance(line.at(0), line.at(1));
   };
   const Vec3 way = glm::normalize(straight.to - straight.from);
-  const Point on_sheet = way.x * axis("axis x") + way.y * axis("axis y");
+  const Point on_sheet = way.x * axis("plan axis x") + way.y * axis("plan axis y");
   EXPECT_NEAR(on_sheet.x, 1.0, 0.01);
   EXPECT_NEAR(on_sheet.y, 0.0, 0.02);
   EXPECT_FALSE(drawn.all<Lines>("detail A plan walls").empty());
@@ -293,23 +272,21 @@ TEST(PictureSheet, SaysWhereItFell) {
 }
 
 TEST(PictureLabels, BreakTextThatIsTooLong) {
-  const auto width = [](const std::string& text) { return draw::measure_text(text, 20, false).width(); };
+  const auto width = [](const std::string& text) { return draw::measure_text(text, draw::small_font).width(); };
   const std::string text = "a few words and " + std::string(200, 'W') + " at the end";
   std::string joined;
-  for (const std::string& line : draw::wrapped(text, 300, 20, false, draw::measure_text)) {
+  for (const std::string& line : draw::wrapped(text, 300, draw::small_font)) {
     EXPECT_LE(width(line), 300.0) << line;
     for (const char c : line) joined += c == ' ' ? "" : std::string(1, c);
   }
   EXPECT_EQ(joined, "afewwordsand" + std::string(200, 'W') + "attheend");
 }
 
-TEST(PictureLabels, ShowWhatIsNoTextAsQuestionMarks) {
-  EXPECT_EQ(draw::with_question_marks("Tür \xe2\x82\xac"), "Tür \xe2\x82\xac");
-  EXPECT_EQ(draw::with_question_marks("a\xff"
-                                      "b\x01\n"),
-            "a?b??");
-  EXPECT_EQ(draw::with_question_marks("\xc3"), "?");
-  EXPECT_EQ(draw::with_question_marks("\xed\xa0\x80"), "???");  // half of a surrogate pair
+TEST(PictureLabels, ArePrintable) {
+  Sheet sheet;
+  draw::Labels labels(sheet);
+  labels.write("name", "T\xc3\xbcr \xff\x1b[2J", {0.0, 0.0}, draw::small_font, draw::ink);
+  EXPECT_EQ(std::get<Text>(sheet.items.at(0)).text, "T\xc3\xbcr \xef\xbf\xbd\xef\xbf\xbd[2J");
 }
 
 }  // namespace

@@ -7,7 +7,6 @@
 #include "cli/exit_status.h"
 #include "cli/standard_streams.h"
 #include "cli/values.h"
-#include "draw/draw.h"
 #include "roam/error.h"
 
 namespace roam::app {
@@ -78,7 +77,6 @@ void check_outputs(const WalkOptions& options) {
   check_output(options, "--trace", options.trace);
   check_output(options, "--picture", options.picture);
   if (options.picture.empty()) return;
-  draw::check_picture(options.picture);
   std::error_code none;
   if (std::filesystem::weakly_canonical(options.picture, none) ==
       std::filesystem::weakly_canonical(options.trace, none)) {

@@ -1,4 +1,4 @@
-#include "draw/draw.h"
+#include "draw/picture_file.h"
 
 #include <cairo-svg.h>
 #include <cairo.h>
@@ -37,24 +37,25 @@ void prepare(cairo_t* context) {
   cairo_set_line_cap(context, CAIRO_LINE_CAP_ROUND);
 }
 
-void choose_font(cairo_t* context, double size, bool bold) {
+void choose(cairo_t* context, const Font& font) {
   cairo_select_font_face(context, "sans-serif", CAIRO_FONT_SLANT_NORMAL,
-                         bold ? CAIRO_FONT_WEIGHT_BOLD : CAIRO_FONT_WEIGHT_NORMAL);
-  cairo_set_font_size(context, size);
+                         font.bold ? CAIRO_FONT_WEIGHT_BOLD : CAIRO_FONT_WEIGHT_NORMAL);
+  cairo_set_font_size(context, font.size);
 }
 
 void set_colour(cairo_t* context, const Colour& c) { cairo_set_source_rgba(context, c.red, c.green, c.blue, c.alpha); }
 
 /// Fills and strokes the current path.
-template <class Shape>
-void paint(cairo_t* context, const Shape& shape) {
-  if (shape.fill) {
-    set_colour(context, *shape.fill);
+void paint(cairo_t* context, const Style& style) {
+  if (style.fill) {
+    set_colour(context, *style.fill);
     cairo_fill_preserve(context);
   }
-  if (shape.width > 0.0) {
-    set_colour(context, shape.stroke);
-    cairo_set_line_width(context, shape.width);
+  if (style.width > 0.0) {
+    set_colour(context, style.stroke);
+    const auto dashes = std::find(style.dash.begin(), style.dash.end(), 0.0) - style.dash.begin();
+    cairo_set_dash(context, style.dash.data(), static_cast<int>(dashes), 0.0);
+    cairo_set_line_width(context, style.width);
     cairo_stroke_preserve(context);
   }
   cairo_new_path(context);
@@ -69,25 +70,24 @@ void begin_clip(cairo_t* context, const Rect& clip) {
 
 void draw(cairo_t* context, const Lines& shape) {
   begin_clip(context, shape.clip);
-  cairo_set_dash(context, shape.dash.data(), static_cast<int>(shape.dash.size()), 0.0);
   for (const Polyline& line : shape.lines) {
     cairo_new_sub_path(context);
     for (const Point& p : line) cairo_line_to(context, p.x, p.y);
     if (shape.closed) cairo_close_path(context);
   }
-  paint(context, shape);
+  paint(context, shape.style);
   cairo_restore(context);
 }
 
 void draw(cairo_t* context, const Disc& disc) {
   begin_clip(context, disc.clip);
   cairo_arc(context, disc.centre.x, disc.centre.y, disc.radius, 0.0, 2.0 * std::numbers::pi);
-  paint(context, disc);
+  paint(context, disc.style);
   cairo_restore(context);
 }
 
 void draw(cairo_t* context, const Text& text) {
-  choose_font(context, text.size, text.bold);
+  choose(context, text.font);
   set_colour(context, text.colour);
   cairo_move_to(context, text.at.x, text.at.y);
   cairo_show_text(context, text.text.c_str());
@@ -103,6 +103,12 @@ void draw(cairo_surface_t* surface, const Sheet& sheet) {
   cairo_show_page(context.get());
 }
 
+const std::filesystem::path& checked(const std::filesystem::path& file) {
+  const std::string extension = files::lower_extension(file);
+  if (extension == ".svg" || extension == ".png") return file;
+  throw app::UsageError("--picture " + file.string() + ": a picture is an .svg or a .png, by its extension");
+}
+
 /// Appends to a std::string. Cairo is C, so no exception may pass through it.
 cairo_status_t append(void* text, const unsigned char* bytes, unsigned int size) noexcept {
   try {
@@ -115,26 +121,20 @@ cairo_status_t append(void* text, const unsigned char* bytes, unsigned int size)
 
 }  // namespace
 
-Rect measure_text(const std::string& text, double size, bool bold) {
+Rect measure_text(const std::string& text, const Font& font) {
   const Surface surface(cairo_image_surface_create(CAIRO_FORMAT_A8, 1, 1));
   const Context context(cairo_create(surface.get()));
   prepare(context.get());
-  choose_font(context.get(), size, bold);
+  choose(context.get(), font);
   cairo_text_extents_t extents;
   cairo_text_extents(context.get(), text.c_str(), &extents);
-  cairo_font_extents_t font;
-  cairo_font_extents(context.get(), &font);
-  return {{std::min(0.0, extents.x_bearing), -font.ascent},
-          {std::max(extents.x_advance, extents.x_bearing + extents.width), font.descent}};
+  cairo_font_extents_t line;
+  cairo_font_extents(context.get(), &line);
+  return {{std::min(0.0, extents.x_bearing), -line.ascent},
+          {std::max(extents.x_advance, extents.x_bearing + extents.width), line.descent}};
 }
 
-void check_picture(const std::filesystem::path& file) {
-  const std::string extension = files::lower_extension(file);
-  if (extension == ".svg" || extension == ".png") return;
-  throw app::UsageError("--picture " + file.string() + ": a picture is an .svg or a .png, by its extension");
-}
-
-PictureFile::PictureFile(const std::filesystem::path& file) : path_(file), file_(file) {}
+PictureFile::PictureFile(const std::filesystem::path& file) : path_(checked(file)), file_(file) {}
 
 void PictureFile::write(const Sheet& sheet) {
   std::string bytes;

@@ -6,8 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "draw/labels.h"
-#include "draw/sheet.h"
+#include "draw/page.h"
 #include "roam/mesh.h"
 #include "roam/walker.h"
 
@@ -33,12 +32,7 @@ struct Overview {
   std::vector<Mark> marks;
 };
 
-/// The directions of the scene's y, which is north on maps, and of its x.
-void draw_compass(const Turn& turn, const Point& centre, Sheet& sheet, Labels& labels);
-
-/// Draws the plan below `y` (pixels) with its caption and legend, as wide as the sheet's contents. Returns its lower
-/// end. Throws roam::Cancelled after Ctrl-C.
-[[nodiscard]] double draw_overview(const Overview& overview, std::span<const Mesh> meshes, double y, Sheet& sheet,
-                                   Labels& labels);
+/// Adds the plan with its heading and legend to the page. Throws roam::Cancelled after Ctrl-C.
+void add_overview(Page& page, const Overview& overview, std::span<const Mesh> meshes);
 
 }  // namespace roam::draw

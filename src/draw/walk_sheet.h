@@ -1,23 +1,23 @@
 #pragma once
 /// \file
-/// `roam walk --picture`: plan and section of a walk, as an SVG or a PNG. docs/pictures.md shows one.
+/// The sheet of `roam walk --picture`: title, plan, details, section and legend. docs/pictures.md shows one.
 ///
-/// A picture is made in steps, one file each. All steps but the last turn values into values:
-///   way       the places of all steps -> few corners, with their distances along the way
-///   survey    -> the room beside the body, floor, ceiling (queries the space)
-///   marks     -> the places to mark
-///   levels    -> the heights at which the plan is cut
-///   frames    -> the part of the scene to show, and its scale
-///   cut       -> cuts of planes with the scene; lines: loose segments -> few long lines
-///   compose   -> a sheet: lines, discs and texts in pixels (panel, legend, labels)
-///   draw      -> a file, with Cairo
+/// Each step is a file of its own. Only `survey` queries a space, and only the last three draw:
+///   way          the places of all steps -> few corners, with their distances along the way
+///   survey       -> the room beside the body, floor, ceiling
+///   marks        -> the places to mark
+///   levels       -> the heights at which the plan is cut
+///   frames       -> the part of the scene to show, and its scale
+///   cut          -> cuts of planes with the scene; lines: loose segments -> few long lines
+///   walk_panels  -> shapes in metres, painted by a Panel on a Page
+///   walk_sheet   -> a Sheet: lines, discs and texts in pixels
+///   picture_file -> a file
 
 #include <filesystem>
 #include <functional>
 #include <span>
 #include <string>
 
-#include "draw/draw.h"
 #include "draw/lines.h"
 #include "draw/sheet.h"
 #include "draw/survey.h"
@@ -40,7 +40,7 @@ struct Measured {
 /// Passes all triangles that meet a box to `take`, in parts.
 using Triangles = std::function<void(const Box&, const std::function<void(std::span<const Mesh>)>& take)>;
 
-/// The input of a picture.
+/// The input of a sheet.
 struct Walked {
   std::string title;  ///< the scene and the path, for people
   const words::EndedWalk& report;

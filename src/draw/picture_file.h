@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Writes sheets to files, with Cairo. The only file of the picture that uses Cairo.
+/// Sheets as SVG and PNG files. No other file uses Cairo.
 
 #include <filesystem>
 #include <string>
@@ -10,16 +10,14 @@
 
 namespace roam::draw {
 
-/// Measures with the font of PictureFile::write.
-[[nodiscard]] Rect measure_text(const std::string& text, double size, bool bold);
-
-/// Throws app::UsageError if the extension of a --picture is neither .svg nor .png, in either case.
-void check_picture(const std::filesystem::path& file);
+/// The rectangle covered by a text whose baseline begins at (0, 0). All lines of one font are equally high.
+[[nodiscard]] Rect measure_text(const std::string& text, const Font& font);
 
 /// A picture file that appears under its name only when it is complete.
 class PictureFile {
  public:
-  /// Begins the file, to make sure that it can be written. `file` must pass check_picture. Throws roam::Error.
+  /// Begins the file of a --picture, to make sure that it can be written. Throws app::UsageError if its extension is
+  /// neither .svg nor .png, in either case, and roam::Error.
   explicit PictureFile(const std::filesystem::path& file);
 
   /// Draws the sheet and puts the file in its place. Call it once. SVG, or PNG with one pixel per pixel of the sheet.
