@@ -61,8 +61,9 @@ std::filesystem::path profile_file(const TrainVerbOptions& o) {
   }
   const std::filesystem::path beside = profile_path(o.scene.scenes);
   if (const std::optional<Obstacle> found = obstacle(beside))
-    throw UsageError(fmt::format("the profile {}: {}; name a file elsewhere by -o, or say --no-profile",
-                                 beside.string(), found->what));
+    throw UsageError(
+        Error::at(beside.string(), fmt::format("the profile {}: {}; name a file elsewhere by -o, or say --no-profile",
+                                               beside.string(), found->what)));
   return beside;
 }
 
@@ -87,14 +88,13 @@ ExitStatus train(TrainVerbOptions o) {
   o.train.method = o.method == "paper" ? Method::paper : Method::interval;
   o.train.threads = o.scene.threads;
   if (o.train.mode == Mode::fly && o.train.height > 0.0)
-    throw UsageError("--height with --mode fly: what flies is a sphere; leave it out");
+    throw UsageError("--height with --mode fly", "what flies is a sphere; leave it out");
   constexpr double least_above_knee = 0.1;  // m
   if (o.train.height > 0.0 && o.train.height <= o.train.step + least_above_knee)
-    throw UsageError(fmt::format(
-        "--height {:g} with --step {:g}: nothing is left above the knee; take a smaller step or leave --height out",
-        o.train.height, o.train.step));
+    throw UsageError(fmt::format("--height {:g} with --step {:g}", o.train.height, o.train.step),
+                     "nothing is left above the knee; take a smaller step or leave --height out");
   o.scene.check_there();
-  if (o.no_profile && o.profile) throw UsageError("-o and --no-profile: one of them");
+  if (o.no_profile && o.profile) throw UsageError("-o and --no-profile", "one of them");
   const std::filesystem::path profile = profile_file(o);
   if (o.picture) check_output(o.scene.scenes, "--picture", *o.picture);
   if (o.picture) draw::check_picture(*o.picture);

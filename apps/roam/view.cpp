@@ -26,7 +26,7 @@ ViewSettings read_settings_for(const ViewOptions& options) {
   try {
     return find_settings(options.settings);
   } catch (const Error& error) {
-    throw UsageError(error.what());
+    throw UsageError(error);
   }
 }
 
@@ -36,7 +36,7 @@ std::string keys_of(const ViewSettings& settings) {
   try {
     set_up(roamer->controls(), settings);
   } catch (const Error& error) {
-    throw UsageError(error.what());
+    throw UsageError(error);
   }
   return key_table(roamer->controls());
 }
@@ -70,7 +70,7 @@ ExitStatus view(const ViewOptions& options) {
     print(keys);
     return done;
   }
-  if (options.scene.scenes.empty()) throw UsageError("view: which scene? Give it a file or a folder");
+  if (options.scene.scenes.empty()) throw UsageError("view", "which scene? Give it a file or a folder");
   const RecordedPath path = load_recorded_path(options.path);
   ViewPlan plan = make_plan(options, settings, path.body, profile_for(options, path.body));
   plan.path = path.waypoints();

@@ -251,13 +251,13 @@ ExitStatus walk(WalkOptions options) {
   take_profile(options);
   options.settings = walker_settings(options);
   check_outputs(options);
-  if (options.route.dt < Route::shortest_step) throw UsageError("--dt: a step takes 1e-6 s at least");
+  if (options.route.dt < Route::shortest_step) throw UsageError("--dt", "a step takes 1e-6 s at least");
   const Mode mode = options.walker_mode();
   if (options.checks() && mode == Mode::ghost) {
-    throw UsageError("--verify with --mode ghost: a ghost passes through walls, so there is nothing to verify");
+    throw UsageError("--verify with --mode ghost", "a ghost passes through walls, so there is nothing to verify");
   }
   if (options.wander && mode == Mode::ghost) {
-    throw UsageError("--wander with --mode ghost: a ghost meets nothing that could turn it; give it a --path");
+    throw UsageError("--wander with --mode ghost", "a ghost meets nothing that could turn it; give it a --path");
   }
   const std::vector<Vec3> path = positions(recorded.waypoints());
   if (options.recorded) {

@@ -62,14 +62,16 @@ std::optional<RecordedBody> recorded_body(const std::string& text, const std::st
       good = value != nullptr && words >> *value;
     }
     if (!good) {
-      throw Error(fmt::format("{}:{}: '{}' does not say a body as in '{}'; correct or remove the line", name_of_file,
-                              number, printable(line), body_line({}, Mode::walk)));
+      throw Error(fmt::format("{}:{}", name_of_file, number),
+                  fmt::format("'{}' does not say a body as in '{}'; correct or remove the line", printable(line),
+                              body_line({}, Mode::walk)));
     }
     if (!body) {
       try {
         check(settings_of(read));
       } catch (const Error& error) {
-        throw Error(fmt::format("{}:{}: {}; correct or remove the line", name_of_file, number, error.what()));
+        throw Error(fmt::format("{}:{}", name_of_file, number),
+                    fmt::format("{}; correct or remove the line", error.what()));
       }
       body = read;
       body->mode = *mode;
@@ -95,7 +97,7 @@ RecordedPath load_recorded_path(const std::filesystem::path& file) {
     path.places = read_path(in, name);
     path.body = recorded_body(text, name);
   } catch (const Error& error) {
-    path.problem = error.what();
+    path.problem = error;
   }
   return path;
 }

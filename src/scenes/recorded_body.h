@@ -34,12 +34,12 @@ struct RecordedBody {
 struct RecordedPath {
   std::vector<Waypoint> places;
   std::optional<RecordedBody> body;
-  std::string problem;  ///< why there are no places
+  std::optional<Error> problem;  ///< why there are no places
 
   /// The places; call it after invalid options are refused. Throws roam::Error as load_path does. It also throws, with
   /// file and line, for a line that begins like those above but continues differently.
   [[nodiscard]] const std::vector<Waypoint>& waypoints() const {
-    if (!problem.empty()) throw Error(problem);
+    if (problem) throw Error(*problem);
     return places;
   }
 };

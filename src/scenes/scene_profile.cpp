@@ -19,7 +19,7 @@ std::optional<SceneProfile> find_scene_profile(const SceneOptions& scene, Mode m
   try {
     profile = find_profile(scene.scenes);
   } catch (const Error& error) {
-    throw Error(std::string(error.what()) + "; --no-profile does without it");
+    throw Error::at(error.where(), std::string(error.what()) + "; --no-profile does without it");
   }
   if (!profile) return std::nullopt;
   if (profile->mode == Mode::fly && mode == Mode::walk) {
@@ -36,7 +36,8 @@ std::optional<SceneProfile> find_scene_profile(const SceneOptions& scene, Mode m
 
 void demand_belongs(const SceneProfile& profile, const SceneIdentity& scene, const std::string& scene_name) {
   if (profile.profile.belongs_to(scene)) return;
-  throw Error(
+  throw Error::at(
+      profile.file.string(),
       fmt::format("{} is not of {}: it was trained on another scene, or on this one before it changed or read in "
                   "another way (--up, --unit, --ignore). Train again (roam train {}), delete the file, or say "
                   "--no-profile",

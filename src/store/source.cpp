@@ -26,7 +26,8 @@ Source source_of(const Store::State& s, TriangleId triangle) {
   const auto tile = static_cast<std::uint32_t>(triangle >> store::triangle_bits & ((1U << store::tile_bits) - 1));
   const auto number = static_cast<std::uint32_t>(triangle & ((1U << store::triangle_bits) - 1));
   const auto no_such = [&] {
-    return Error(fmt::format("{} has no triangle {}: it must come from an answer of this store", s.name, triangle));
+    return Error::at(s.name,
+                     fmt::format("{} has no triangle {}: it must come from an answer of this store", s.name, triangle));
   };
   if (page >= s.pages.size()) throw no_such();
   const auto& numbers = s.recent->numbers_of(page, tile, no_such);
@@ -34,10 +35,9 @@ Source source_of(const Store::State& s, TriangleId triangle) {
   const store::SourceNumber from = numbers[number];
   const auto part = s.part_of.find(from.part);
   if (part == s.part_of.end() || from.number >= s.manifest.parts[part->second].triangles) {
-    throw Error(
-        fmt::format("{}: triangle {} comes from a part of the scene that the manifest does not name: the store "
-                    "is damaged; verify it, and repair it from its scene",
-                    s.name, triangle));
+    throw Error(s.name, fmt::format("triangle {} comes from a part of the scene that the manifest does not name: the "
+                                    "store is damaged; verify it, and repair it from its scene",
+                                    triangle));
   }
   return {part->second, from.number};
 }
@@ -70,7 +70,7 @@ std::string Store::State::Recent::object(std::uint32_t part, std::uint64_t trian
   store::PartBytes file(store, store.manifest.parts[part]);
   file.visit(std::move(visitor));
   if (!file.is_whole()) {
-    throw Error(fmt::format("{} is damaged: it is not what it was when it was written", file.name()));
+    throw Error::at(file.name(), fmt::format("{} is damaged: it is not what it was when it was written", file.name()));
   }
   if (taken <= most_of_a_part) {
     make_room(2 * taken);

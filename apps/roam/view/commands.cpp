@@ -37,14 +37,15 @@ constexpr Line lines[] = {
 /// Headings of the help, and the commands that they stand above.
 constexpr std::pair<const char*, const char*> headings[] = {{"forward", "Move"}, {"grab", "Mouse"}, {"help", "View"}};
 
-/// The keys as Controls::rebind reads them. Throws roam::Error that begins with `entry` for a name of none.
-std::vector<std::string> printed(const std::vector<std::string>& names, const std::string& entry) {
+/// The keys as Controls::rebind reads them. Throws roam::Error for a name of none.
+std::vector<std::string> printed(const std::vector<std::string>& names, const std::string& file,
+                                 const std::string& entry) {
   std::vector<std::string> keys;
   for (const std::string& name : names) {
     try {
       keys.push_back(Controls::print(Controls::parseKey(name)));
     } catch (const Error& error) {
-      throw Error(fmt::format("{}: {}", entry, error.what()));
+      throw Error(file, fmt::format("{}: {}", entry, error.what()));
     }
   }
   return keys;
@@ -81,17 +82,17 @@ void set_up(osgRoam::Controls& controls, const ViewSettings& settings) {
                "other cameras, as in osgviewer; only the first meets walls", Kind::gesture);
   std::string changes;
   for (const auto& [command, keys] : settings.keys) {
-    const std::string entry = fmt::format("{}: the entry \"keys.{}\"", settings.file.string(), command);
+    const std::string file = settings.file.string(), entry = fmt::format("the entry \"keys.{}\"", command);
     const Controls::Command* const known = controls.find(command);
-    if (known == nullptr) throw Error(entry + ": there is no such command; `roam view --keys` lists them");
-    if (known->kind == Kind::gesture) throw Error(entry + " is no command that can be given another key");
-    changes += fmt::format("{} = {}\n", command, fmt::join(printed(keys, entry), ", "));
+    if (known == nullptr) throw Error(file, entry + ": there is no such command; `roam view --keys` lists them");
+    if (known->kind == Kind::gesture) throw Error(file, entry + " is no command that can be given another key");
+    changes += fmt::format("{} = {}\n", command, fmt::join(printed(keys, file, entry), ", "));
   }
   try {
     controls.rebind(changes);
     demand_free_digits(controls);
   } catch (const Error& error) {
-    throw Error(fmt::format("{}: keys: {}", settings.file.string(), error.what()));
+    throw Error(settings.file.string(), fmt::format("keys: {}", error.what()));
   }
 }
 

@@ -61,7 +61,7 @@ void Display::tell_news() {
   if (!display_told_ && scene_.state().phase == LoadState::Phase::failed) {
     display_told_ = true;
     news_.note(fmt::format("{} of the scene can be seen, its walls are there all the same: {}",
-                           scene_.has_pieces() ? "not all" : "nothing", scene_.state().error));
+                           scene_.has_pieces() ? "not all" : "nothing", scene_.state().error.what()));
   }
   if (!display_told_ && scene_.report()) {
     display_told_ = true;

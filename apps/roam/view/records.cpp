@@ -25,21 +25,21 @@ Records::Records(const SceneOptions& scene, osgRoam::Manipulator& roamer, News& 
   try {
     bookmarks_.emplace(folder.empty() ? folder : folder / "bookmarks.json", scene.scenes, scene.up, scene.unit);
   } catch (const Error& error) {
-    problem_ = error.what();
-    news_.note(problem_);
+    problem_ = error;
+    news_.note(error.what());
   }
 }
 
 Pose Records::named(const std::string& name) {
-  if (!bookmarks_) throw Error(problem_);
+  if (!bookmarks_) throw Error(*problem_);
   if (const Bookmark* found = bookmarks_->find(name)) return found->pose;
-  throw UsageError(
-      fmt::format("--bookmark {}: this scene has {}", name,
-                  bookmarks_->all().empty() ? "no bookmarks" + remedy(roamer_) : "these: " + bookmarks_->names()));
+  throw UsageError(fmt::format("--bookmark {}", name),
+                   fmt::format("this scene has {}", bookmarks_->all().empty() ? "no bookmarks" + remedy(roamer_)
+                                                                              : "these: " + bookmarks_->names()));
 }
 
 void Records::add_bookmark() {
-  if (!bookmarks_) throw Error(problem_);
+  if (!bookmarks_) throw Error(*problem_);
   news_.tell("bookmark " + bookmarks_->add(standing_pose_of(roamer_)).name);
 }
 

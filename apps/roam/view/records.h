@@ -7,6 +7,7 @@
 #include <string>
 
 #include "osgRoam/Manipulator.h"
+#include "roam/error.h"
 #include "scenes/scene_options.h"
 #include "view/bookmarks.h"
 #include "view/news.h"
@@ -44,7 +45,7 @@ class Records {
   osgRoam::Manipulator& roamer_;
   News& news_;
   std::optional<Bookmarks> bookmarks_;
-  std::string problem_;  ///< why there are no bookmarks
+  std::optional<Error> problem_;  ///< why there are no bookmarks
   std::optional<PathRecorder> recorder_;
 };
 
