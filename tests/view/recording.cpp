@@ -188,11 +188,13 @@ TEST(WalkLog, KeepsForVerifyingWhatABodyDidBeforeItWasHeld) {
   held.held = true;
   log.take(held, Mode::walk, 0.01);
   log.take(step(2.0, 0.0), Mode::ghost, 0.01);
-  EXPECT_EQ(log.tally().steps, 2u);
-  EXPECT_EQ(log.tally().length, 2.0);
-  EXPECT_EQ(log.tally().least_axis_clearance, 0.4);
+  ViewReport report;
+  log.fill(report);
+  EXPECT_EQ(report.steps, 2u);
+  EXPECT_EQ(report.length, 2.0);
+  EXPECT_EQ(report.least_axis_clearance, 0.4);
   int of_the_step = 0;
-  log.take_pieces().each(100, [&](std::span<const verification::Piece> pieces) {
+  report.pieces.each(100, [&](std::span<const verification::Piece> pieces) {
     for (const verification::Piece& piece : pieces) {
       EXPECT_NE(piece.step, 2u) << "nothing is promised of a ghost";
       of_the_step += piece.step == 1 ? 1 : 0;

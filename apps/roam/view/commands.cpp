@@ -14,24 +14,23 @@ using osgRoam::Controls;
 using Kind = Controls::Kind;
 
 struct Line {
-  Command command;
   const char* name;
   const char* keys;
   const char* help;
 };
 
 constexpr Line lines[] = {
-    {Command::help, "help", "H", "shows or hides this help"},
-    {Command::hud, "hud", "F1", "all of the display, the least of it, none"},
-    {Command::marks, "marks", "V", "shows the body, what it touches and the nearest triangles"},
-    {Command::fullscreen, "fullscreen", "F", "fills the screen, or leaves it"},
-    {Command::bookmark, "bookmark", "B", "keeps this place as a bookmark"},
-    {Command::next_bookmark, "next_bookmark", "Tab", "goes to the next bookmark; with Shift to the one before"},
-    {Command::picture, "picture", "P, F12", "writes a picture, roam-1.png and so on, into this folder"},
-    {Command::record, "record", "R", "begins or ends recording the way, as roam-1.path and so on"},
-    {Command::store, "store", "O", "builds the scene's collision store in the background, or stops that"},
-    {Command::adapt, "adapt", "Y", "takes the size of the body that would get on here"},
-    {Command::quit, "quit", "F10", "ends; so does Escape when the mouse is free"},
+    {"help", "H", "shows or hides this help"},
+    {"hud", "F1", "all of the display, the least of it, none"},
+    {"marks", "V", "shows the body, what it touches and the nearest triangles"},
+    {"fullscreen", "F", "fills the screen, or leaves it"},
+    {"bookmark", "B", "keeps this place as a bookmark"},
+    {"next_bookmark", "Tab", "goes to the next bookmark; with Shift to the one before"},
+    {"picture", "P, F12", "writes a picture, roam-1.png and so on, into this folder"},
+    {"record", "R", "begins or ends recording the way, as roam-1.path and so on"},
+    {"store", "O", "builds the scene's collision store in the background, or stops that"},
+    {"adapt", "Y", "takes the size of the body that would get on here"},
+    {"quit", "F10", "ends; so does Escape when the mouse is free"},
 };
 
 /// Headings of the help, and the commands that they stand above.
@@ -70,10 +69,16 @@ const std::vector<std::string>& camera_names() {
   return names;
 }
 
-Command parse_command(const std::string& name) {
-  const auto found =
-      std::find_if(std::begin(lines), std::end(lines), [&](const Line& line) { return line.name == name; });
-  return found == std::end(lines) ? Command::none : found->command;
+bool Commands::run(const std::string& name) const {
+  if (std::none_of(std::begin(lines), std::end(lines), [&](const Line& line) { return line.name == name; }))
+    return false;
+  const auto found = deeds_.find(name);
+  try {
+    if (found != deeds_.end()) found->second();
+  } catch (const Error& error) {
+    news_.note(error.what());
+  }
+  return true;
 }
 
 void set_up(osgRoam::Controls& controls, const ViewSettings& settings) {
