@@ -26,11 +26,12 @@ std::optional<SceneProfile> find_scene_profile(const SceneOptions& scene, Mode m
     tell(fmt::format("note: {} was trained for flying: it is not used on foot", file.string()));
     return std::nullopt;
   }
-  const bool same =
-      !recorded ||
-      (recorded->radius == profile->radius && recorded->height == profile->height && recorded->step == profile->step &&
-       recorded->slope_degrees == profile->slope_degrees && recorded->support_radius == profile->support_radius);
-  if (!same) return std::nullopt;
+  if (recorded) {
+    const WalkerSettings& body = recorded->settings;
+    const bool same = body.radius == profile->radius && body.height == profile->height && body.step == profile->step &&
+                      body.slope_degrees == profile->slope_degrees && body.support_radius == profile->support_radius;
+    if (!same) return std::nullopt;
+  }
   return SceneProfile{file, std::move(*profile)};
 }
 

@@ -62,12 +62,13 @@ WalkerSettings walker_settings(const ViewOptions& options, const ViewSettings& s
   const bool replay = !options.path.empty();
   ViewSettings known = replay ? ViewSettings{} : settings;
   if (recorded) {
-    known.radius = recorded->radius;
-    known.height = recorded->height;
-    known.eye = recorded->eye;
-    known.step = recorded->step;
-    known.slope = recorded->slope_degrees;
-    if (!options.radius) walker.support_radius = recorded->support_radius;
+    const WalkerSettings& body = recorded->settings;
+    known.radius = body.radius;
+    known.height = body.height;
+    known.eye = body.eye;
+    known.step = body.step;
+    known.slope = body.slope_degrees;
+    if (!options.radius) walker.support_radius = body.support_radius;
   }
   if (profile && !options.radius) {
     const Profile& trained = profile->profile;

@@ -38,7 +38,7 @@ WalkerSettings walker_settings(const WalkOptions& options) {
   constexpr double sphere = 2.0;  // height of a sphere in radii
   WalkerSettings settings = options.settings;
   if (options.recorded && !options.radius) {
-    const RecordedBody& body = *options.recorded;
+    const WalkerSettings& body = options.recorded->settings;
     settings.radius = body.radius;
     settings.height = options.height.value_or(body.height);
     settings.eye = options.eye.value_or(std::min(body.eye, settings.height));
