@@ -173,7 +173,9 @@ words::ProbeDetails details_of(const ProbeOptions& o, const Surveyed& scene, con
   return details;
 }
 
-Json report_of(const ProbeOptions& o, const Surveyed& scene, std::span<const ProbeAnswer> answers) {
+/// `details`: of the only answer.
+Json report_of(const ProbeOptions& o, const Surveyed& scene, std::span<const ProbeAnswer> answers,
+               const words::ProbeDetails& details) {
   const bool one = !o.matrix;
   Json json = {{"scene", o.scene.names()},           {"triangles", scene.survey.triangles()},
                {"mode", to_string(o.question.mode)}, {"from", to_json(o.question.from)},
@@ -182,7 +184,7 @@ Json report_of(const ProbeOptions& o, const Surveyed& scene, std::span<const Pro
                {"spacing", o.question.spacing}};
   if (one) {
     json.update(json_report(answers.front(), true));
-    add_details(json, details_of(o, scene, answers.front()));
+    add_details(json, details);
     json["answer"] = words::explain(o.question, answers.front());
     return json;
   }
@@ -227,12 +229,9 @@ ExitStatus probe(ProbeOptions o) {
   if (drawing) {
     unwritten.attempt([&] { drawing->write(sheet_of(o.scene.file_names(), scene.survey, o.question, first)); });
   }
-  if (o.json) {
-    print(report_of(o, scene, answers));
-  } else {
-    print_beside(o.path.value_or(""),
-                 o.matrix ? table(o.question, answers) : words::report(o.question, first, details_of(o, scene, first)));
-  }
+  const words::ProbeDetails details = o.matrix ? words::ProbeDetails{} : details_of(o, scene, first);
+  print_report(o.json, report_of(o, scene, answers, details),
+               o.matrix ? table(o.question, answers) : words::report(o.question, first, details), o.path.value_or(""));
   unwritten.raise();
   const bool all = std::all_of(answers.begin(), answers.end(), [](const ProbeAnswer& a) { return a.passable; });
   return all ? done : answer_no;

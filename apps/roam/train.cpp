@@ -11,6 +11,7 @@
 #include "cli/interrupt.h"
 #include "cli/output_file.h"
 #include "cli/progress.h"
+#include "cli/standard_streams.h"
 #include "cli/tell.h"
 #include "cli/values.h"
 #include "draw/picture.h"
@@ -113,11 +114,7 @@ ExitStatus train(TrainVerbOptions o) {
     report.names.push_back(scene.names_at(d.point, d.direction, d.width));
   Unwritten unwritten;
   unwritten.attempt([&] { write_profile(o, profile, scene.identity, report); });
-  if (o.json) {
-    print(json_report(report));
-  } else {
-    print(o.stats ? text_report(report) + stats_report(report) : text_report(report));
-  }
+  print_report(o.json, json_report(report), text_report(report) + (o.stats ? stats_report(report) : ""));
   if (drawing && interrupted()) {
     tell(fmt::format("{} was not drawn: this training ended early", o.picture->string()));
   } else if (drawing) {

@@ -103,11 +103,7 @@ ExitStatus view(const ViewOptions& options) {
       tell(fmt::format("note: the {} moves were not all verified: Ctrl-C came before", report.pieces.size()));
     }
   }
-  if (options.json) {
-    print(json_report(report));
-  } else {
-    print_beside(options.trace, text_report(report));
-  }
+  print_report(options.json, json_report(report), text_report(report), options.trace);
   if (cancelled) throw Cancelled();
   if (report.verified) verification::demand_all_read(*report.verified, report.store);
   const bool reached = report.path_ended && report.result->outcome == Outcome::reached;

@@ -231,11 +231,6 @@ void check_moves(const WalkOptions& options, const OpenScene& scene, const verif
   report.verify_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 }
 
-void print_report(const WalkOptions& options, const WalkReport& report) {
-  if (options.json) return print(json_report(report));
-  print_beside(options.trace, options.stats ? text_report(report) + stats_report(report) : text_report(report));
-}
-
 ExitStatus walk(WalkOptions options) {
   check_way(options);
   if (!options.against.scenes.empty()) {
@@ -328,7 +323,8 @@ ExitStatus walk(WalkOptions options) {
   const auto draw_way = [&] { drawing->write(sheet(options, scene, report, recorder.record(), *seen)); };
   // After Ctrl-C the picture may take more time than there is.
   if (drawing && !report.interrupted) draw_way();
-  print_report(options, report);
+  const std::string text = text_report(report) + (options.stats ? stats_report(report) : "");
+  print_report(options.json, json_report(report), text, options.trace);
   if (drawing && report.interrupted) draw_way();
   if (report.interrupted) return failed;
   if (report.verified) {

@@ -7,6 +7,7 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <sstream>
 
 #include "cli/exit_status.h"
 #include "cli/report.h"
@@ -40,9 +41,18 @@ void write_output(std::string_view text) {
   }
 }
 
-void print_beside(const std::filesystem::path& file, const std::string& report) {
-  if (!is_standard(file)) return print(report);
-  std::fputs(printable_lines(report).c_str(), stderr);
+void print_report(bool json, const Json& report, const std::string& text, const std::filesystem::path& file) {
+  const std::string printable = printable_lines(text);
+  if (!json && is_standard(file)) {
+    std::fputs(printable.c_str(), stderr);
+  } else if (!json) {
+    print(text);
+  } else {
+    Json whole = report;
+    std::istringstream in(printable);
+    for (std::string line; std::getline(in, line);) whole["text"].push_back(line);
+    print(whole);
+  }
 }
 
 void demand_one_output(const char* option, const std::filesystem::path& file, bool json) {

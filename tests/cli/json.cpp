@@ -49,6 +49,26 @@ TEST(Json, EveryReportHasVersionAndSchema) {
   }
 }
 
+TEST(Json, HasTheLinesOfTheReportForPeople) {
+  const TestFolder folder;
+  const std::string scene = folder.write("room.obj", room_obj());
+  const std::string path = folder.write("way.path", "2 0 0.9\n18 0 0.9\n");
+  for (const Arguments& arguments :
+       std::vector<Arguments>{{"info", scene, "--stats"},
+                              {"walk", scene, "--path", path, "--height", "1.8"},
+                              {"probe", scene, "--from", "2,0,1", "--to", "8,0,1", "--radius", "0.3"},
+                              {"probe", scene, "--from", "2,0,1", "--to", "8,0,1", "--matrix", "0.3,0.4x1.8"},
+                              {"train", scene, "--height", "1.8", "--no-profile"}}) {
+    SCOPED_TRACE(arguments.front());
+    Arguments all = arguments;
+    all.push_back("--json");
+    std::string text;
+    for (const json& line : object_of(roam(all))["text"]) text += line.get<std::string>() + "\n";
+    EXPECT_EQ(text, roam(arguments).out);
+    EXPECT_NE(text, "");
+  }
+}
+
 TEST(Json, ACommandThatFailsHasAnObjectToo) {
   const ProgramResult missing = roam({"info", "no/such/scene.obj", "--json"});
   EXPECT_EQ(missing.status, 1);
