@@ -37,9 +37,9 @@ Examples:
 fs::path find_bench() {
   if (const char* named = std::getenv("ROAM_BENCH"); named != nullptr && *named != '\0') {
     if (process::can_run(named)) return named;
-    throw Error(std::string("the environment variable ROAM_BENCH names ") + named +
-                ", which is not a program that can be run. Name the program " + program_name +
-                " of this installation.");
+    throw Error::at(named, std::string("the environment variable ROAM_BENCH names ") + named +
+                               ", which is not a program that can be run. Name the program " + program_name +
+                               " of this installation.");
   }
   const fs::path folder = process::own_folder();
   const fs::path beside = folder / program_name;
@@ -59,7 +59,7 @@ ExitStatus become(std::vector<std::string> arguments) {
   for (std::string& argument : arguments) argv.push_back(argument.data());
   argv.push_back(nullptr);
   ::execv(program.c_str(), argv.data());
-  throw Error("cannot start " + program + ": " + std::strerror(errno));
+  throw Error::at(program, "cannot start " + program + ": " + std::strerror(errno));
 }
 
 }  // namespace
@@ -70,7 +70,7 @@ void add_bench(CLI::App& program, Run& run) {
   verb->prefix_command();
   verb->callback([verb, &run] {
     const std::vector<std::string> arguments = verb->remaining();
-    if (arguments.empty()) throw UsageError("bench: what is to be measured? Say engines, paper or scale");
+    if (arguments.empty()) throw UsageError("bench", "what is to be measured? Say engines, paper or scale");
     run = [arguments] { return become(arguments); };
   });
 }

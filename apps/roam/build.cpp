@@ -107,12 +107,14 @@ StoreKey build_key(const BuildVerb& verb) {
   UserKey user = made_user_key();
   if (user.key) return *user.key;
   if (verb.plan || verb.shard || verb.merge) {
-    throw Error(fmt::format("a build in steps needs your key, by which the steps know each other: {}", user.problem));
+    throw Error::at(
+        user.problem.where(),
+        fmt::format("a build in steps needs your key, by which the steps know each other: {}", user.problem.what()));
   }
   tell(
       fmt::format("note: no key of yours can be used: {}; without it a build begins anew, and `roam view` uses its "
                   "store only where you name it",
-                  user.problem));
+                  user.problem.what()));
   return key_of_this_run();
 }
 
@@ -224,21 +226,20 @@ ExitStatus run_steps(const BuildVerb& verb) {
 
 /// What no build can mean, before anything is made on the disk.
 void check_usage(const BuildVerb& verb) {
-  if (verb.scene.scenes.empty() && !verb.shard && !verb.merge) throw UsageError("build: SCENE is required");
+  if (verb.scene.scenes.empty() && !verb.shard && !verb.merge) throw UsageError("build", "SCENE is required");
   if (const auto memory = verb.scene.memory; memory && *memory < StoreBuildOptions::least_memory) {
-    throw UsageError(fmt::format("build: --memory {:.5g} MiB: a build needs at least {} MiB",
-                                 std::ldexp(static_cast<double>(*memory), -20), StoreBuildOptions::least_memory >> 20));
+    throw UsageError(fmt::format("--memory {:.5g} MiB", std::ldexp(static_cast<double>(*memory), -20)),
+                     fmt::format("a build needs at least {} MiB", StoreBuildOptions::least_memory >> 20));
   }
   if (verb.shard || verb.merge) {
     if (verb.reading.empty()) return;  // they read the plan, not the scene
-    throw UsageError(
-        fmt::format("build: {} with {}: how the scene is read was fixed by --plan; leave it out, or plan "
-                    "again with it",
-                    verb.reading, verb.shard ? "--shard" : "--merge"));
+    throw UsageError(fmt::format("{} with {}", verb.reading, verb.shard ? "--shard" : "--merge"),
+                     "how the scene is read was fixed by --plan; leave it out, or plan again with it");
   }
   for (const auto& scene : verb.scene.scenes) {
     if (Store::is_store(scene)) {
-      throw UsageError(scene.string() + " is a store already: name the scene that it was made of");
+      throw UsageError(
+          Error::at(scene.string(), scene.string() + " is a store already: name the scene that it was made of"));
     }
   }
   verb.scene.check_there();
@@ -247,7 +248,7 @@ void check_usage(const BuildVerb& verb) {
 ExitStatus build(BuildVerb verb) {
   check_usage(verb);
   if (verb.output.empty()) {
-    if (verb.scene.scenes.empty()) throw UsageError("build: without SCENE, -o says which store is meant");
+    if (verb.scene.scenes.empty()) throw UsageError("build", "without SCENE, -o says which store is meant");
     verb.output = store_beside(verb.scene.scenes.front());
     verb.beside = true;
     demand_no_link(verb.output);

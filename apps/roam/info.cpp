@@ -9,6 +9,7 @@
 
 #include "cli/progress.h"
 #include "cli/report.h"
+#include "cli/standard_streams.h"
 #include "cli/tell.h"
 #include "files/extension.h"
 #include "measure/edges.h"
@@ -200,11 +201,7 @@ ExitStatus store_info(const SceneOptions& options, bool json, bool stats) {
     throw UsageError("a store is a scene of its own, and was read when it was built: name it alone");
   }
   const auto store = Store::open(options.scenes.front());
-  if (json) {
-    print(json_report(*store));
-  } else {
-    print(stats ? text_report(*store) + stats_report(*store) : text_report(*store));
-  }
+  print_report(json, json_report(*store), text_report(*store) + (stats ? stats_report(*store) : ""));
   return done;
 }
 
@@ -213,11 +210,7 @@ ExitStatus info(const SceneOptions& options, bool json, bool stats) {
     if (Store::is_store(scene)) return store_info(options, json, stats);
   }
   const LoadedScene scene = load(options, Source::keep);
-  if (json) {
-    print(json_report(options, scene));
-  } else {
-    print(stats ? text_report(options, scene) + stats_report(scene) : text_report(options, scene));
-  }
+  print_report(json, json_report(options, scene), text_report(options, scene) + (stats ? stats_report(scene) : ""));
   return done;
 }
 

@@ -103,7 +103,7 @@ void add_kind(CLI::App& verb, const std::shared_ptr<MakeOptions>& options, std::
         try {
           return maker(*options);
         } catch (const Error& error) {
-          throw UsageError(error.what());
+          throw UsageError(error);
         }
       }();
       return make(*options, scene, gallery);

@@ -64,7 +64,7 @@ std::vector<ProbedSize> read_sizes(const std::filesystem::path& file) {
 std::vector<ProbedSize> matrix_sizes(const std::string& text) {
   std::error_code none;
   if (std::filesystem::is_directory(text, none))
-    throw UsageError(fmt::format("--matrix {}: that is a folder; name a file of sizes, or sizes", text));
+    throw UsageError(fmt::format("--matrix {}", text), "that is a folder; name a file of sizes, or sizes");
   std::vector<ProbedSize> sizes;
   if (is_standard(text) || std::filesystem::exists(text, none)) {
     sizes = read_sizes(text);
@@ -72,33 +72,33 @@ std::vector<ProbedSize> matrix_sizes(const std::string& text) {
     try {
       sizes = parse_sizes(text, "--matrix");
     } catch (const UsageError& error) {
-      throw UsageError(fmt::format("{}; and there is no file \"{}\"", error.what(), text));
+      throw UsageError(Error::at(error.where(), fmt::format("{}; and there is no file \"{}\"", error.what(), text)));
     }
   }
-  if (sizes.empty()) throw UsageError(fmt::format("--matrix \"{}\": there are no sizes in it", text));
+  if (sizes.empty()) throw UsageError(fmt::format("--matrix {}", text), "there are no sizes in it");
   return sizes;
 }
 
 std::vector<ProbedSize> sizes_of(const ProbeOptions& o) {
   std::vector<ProbedSize> sizes;
   if (!o.matrix) {
-    if (!o.radius) throw UsageError("probe: how large is the body? Give it a --radius, or sizes by --matrix");
+    if (!o.radius) throw UsageError("probe", "how large is the body? Give it a --radius, or sizes by --matrix");
     sizes.push_back({*o.radius, o.height.value_or(2.0 * *o.radius)});
   } else {
-    if (o.radius || o.height) throw UsageError("--matrix says all sizes: leave out --radius and --height");
+    if (o.radius || o.height) throw UsageError("--matrix", "it says all sizes; leave out --radius and --height");
     if (o.picture || o.path || o.narrower)
-      throw UsageError("--matrix has no one way: leave out --picture, --path and --narrower");
+      throw UsageError("--matrix", "it has no one way; leave out --picture, --path and --narrower");
     sizes = matrix_sizes(*o.matrix);
   }
   for (const ProbedSize& size : sizes) {
     try {
       static_cast<void>(probed_body(o.question, size, o.slope_degrees()));
     } catch (const Error& error) {
-      throw UsageError(o.matrix ? fmt::format("--matrix, size {:g}x{:g}: {}", size.radius, size.height, error.what())
-                                : error.what());
+      if (!o.matrix) throw UsageError(error);
+      throw UsageError(fmt::format("--matrix, size {:g}x{:g}", size.radius, size.height), error.what());
     }
     if (o.question.mode == Mode::fly && size.height > 2.0 * size.radius)
-      throw UsageError("--mode fly: what flies is a sphere; leave its height out");
+      throw UsageError("--mode fly", "what flies is a sphere; leave its height out");
   }
   return sizes;
 }
@@ -113,14 +113,14 @@ ProbeQuestion question_of(const ProbeOptions& o) {
   const auto place = [](const char* option, const std::vector<double>& value) {
     for (const double v : value) {
       if (!(std::abs(v) <= coordinate_limit))
-        throw UsageError(fmt::format("{}: {} is no coordinate; it must be within 1e9 m of the origin", option, v));
+        throw UsageError(option, fmt::format("{} is no coordinate; it must be within 1e9 m of the origin", v));
     }
     return Vec3(value[0], value[1], value[2]);
   };
   q.from = place("--from", o.from);
   q.to = place("--to", o.to);
   if (q.mode == Mode::fly && (o.step || o.slope || o.support_radius))
-    throw UsageError("--mode fly: --step, --slope and --support-radius are for walking; leave them out");
+    throw UsageError("--mode fly", "--step, --slope and --support-radius are for walking; leave them out");
   q.step = o.step.value_or(q.step);
   q.support_radius = o.support_radius.value_or(q.support_radius);
   q.spacing = o.spacing.value_or(q.spacing);
@@ -175,7 +175,9 @@ words::ProbeDetails details_of(const ProbeOptions& o, const Surveyed& scene, con
   return details;
 }
 
-Json report_of(const ProbeOptions& o, const Surveyed& scene, std::span<const ProbeAnswer> answers) {
+/// `details`: of the only answer.
+Json report_of(const ProbeOptions& o, const Surveyed& scene, std::span<const ProbeAnswer> answers,
+               const words::ProbeDetails& details) {
   const bool one = !o.matrix;
   Json json = {{"scene", o.scene.names()},           {"triangles", scene.survey.triangles()},
                {"mode", to_string(o.question.mode)}, {"from", to_json(o.question.from)},
@@ -184,7 +186,6 @@ Json report_of(const ProbeOptions& o, const Surveyed& scene, std::span<const Pro
                {"spacing", o.question.spacing}};
   if (one) {
     json.update(json_report(answers.front(), true));
-    const words::ProbeDetails details = details_of(o, scene, answers.front());
     add_details(json, details);
     json["answer"] = words::report(o.question, answers.front(), details).sentences();
     return json;
@@ -218,7 +219,7 @@ ExitStatus probe(ProbeOptions o) {
     try {
       answers = roam::probe(scene.survey, o.question, sizes);
     } catch (const NoRoomAtEnd& error) {
-      throw Error(std::string("--") + error.what());  // it begins with "from" or "to", as the options are called
+      throw Error("--" + std::string(error.where()), error.reason());  // "from" or "to", as the options are called
     }
     o.question.progress = {};
   }
@@ -229,12 +230,9 @@ ExitStatus probe(ProbeOptions o) {
   if (drawing) {
     unwritten.attempt([&] { drawing->write(sheet_of(o.scene.file_names(), scene.survey, o.question, first)); });
   }
-  if (o.json) {
-    print(report_of(o, scene, answers));
-  } else {
-    print_beside(o.path.value_or(""), o.matrix ? table(o.question, answers)
-                                               : words::report(o.question, first, details_of(o, scene, first)).text());
-  }
+  const words::ProbeDetails details = o.matrix ? words::ProbeDetails{} : details_of(o, scene, first);
+  print_report(o.json, report_of(o, scene, answers, details),
+               o.matrix ? table(o.question, answers) : words::report(o.question, first, details).text(), o.path.value_or(""));
   unwritten.raise();
   const bool all = std::all_of(answers.begin(), answers.end(), [](const ProbeAnswer& a) { return a.passable; });
   return all ? done : answer_no;

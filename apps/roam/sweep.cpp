@@ -50,7 +50,7 @@ struct Answers {
   std::string text;
   std::uint64_t rows = 0;
   std::vector<std::pair<std::uint64_t, std::string>> missing;  ///< line, and what could not be read for it
-  std::optional<std::string> error;
+  std::optional<Error> error;
 };
 
 /// Cuts standard input into chunks of whole rows, as they arrive: a script that writes one row and waits gets its
@@ -70,7 +70,8 @@ class RowReader {
       rest_.resize(old + chunk_bytes);
       const ssize_t got = ::read(STDIN_FILENO, rest_.data() + old, chunk_bytes);
       rest_.resize(old + static_cast<std::size_t>(std::max<ssize_t>(got, 0)));
-      if (got < 0 && errno != EINTR) throw Error(std::string("cannot read the queries: ") + std::strerror(errno));
+      if (got < 0 && errno != EINTR)
+        throw Error::at("-", std::string("cannot read the queries: ") + std::strerror(errno));
       if (got == 0) {
         ended_ = true;
         rows.text = std::move(rest_);
@@ -84,7 +85,7 @@ class RowReader {
         line_ += static_cast<std::uint64_t>(std::count(rows.text.begin(), rows.text.end(), '\n'));
         return rows;
       }
-      if (rest_.size() > longest_row) throw Error(fmt::format("line {}: too long for a query", line_));
+      if (rest_.size() > longest_row) throw Error(fmt::format("line {}", line_), "too long for a query");
     }
     return rows;
   }
@@ -136,7 +137,7 @@ Answers answer(Scene&& scene, const Rows& rows) {
       ++answers.rows;
       if (!found.missing.empty()) answers.missing.emplace_back(line, std::move(found.missing));
     } catch (const Error& error) {
-      answers.error = fmt::format("line {}: {}", line, error.what());
+      answers.error = Error(fmt::format("line {}", line), error.what());
       return answers;
     }
   }

@@ -13,6 +13,7 @@
 #include "cli/interrupt.h"
 #include "cli/output_file.h"
 #include "cli/progress.h"
+#include "cli/standard_streams.h"
 #include "cli/tell.h"
 #include "cli/values.h"
 #include "draw/picture_file.h"
@@ -63,8 +64,9 @@ std::filesystem::path profile_file(const TrainVerbOptions& o) {
   }
   const std::filesystem::path beside = profile_path(o.scene.scenes);
   if (const std::optional<Obstacle> found = obstacle(beside))
-    throw UsageError(fmt::format("the profile {}: {}; name a file elsewhere by -o, or say --no-profile",
-                                 beside.string(), found->what));
+    throw UsageError(
+        Error::at(beside.string(), fmt::format("the profile {}: {}; name a file elsewhere by -o, or say --no-profile",
+                                               beside.string(), found->what)));
   return beside;
 }
 
@@ -89,14 +91,13 @@ ExitStatus train(TrainVerbOptions o) {
   o.train.method = o.method == "paper" ? Method::paper : Method::interval;
   o.train.threads = o.scene.threads;
   if (o.train.mode == Mode::fly && o.train.height > 0.0)
-    throw UsageError("--height with --mode fly: what flies is a sphere; leave it out");
+    throw UsageError("--height with --mode fly", "what flies is a sphere; leave it out");
   constexpr double least_above_knee = 0.1;  // m
   if (o.train.height > 0.0 && o.train.height <= o.train.step + least_above_knee)
-    throw UsageError(fmt::format(
-        "--height {:g} with --step {:g}: nothing is left above the knee; take a smaller step or leave --height out",
-        o.train.height, o.train.step));
+    throw UsageError(fmt::format("--height {:g} with --step {:g}", o.train.height, o.train.step),
+                     "nothing is left above the knee; take a smaller step or leave --height out");
   o.scene.check_there();
-  if (o.no_profile && o.profile) throw UsageError("-o and --no-profile: one of them");
+  if (o.no_profile && o.profile) throw UsageError("-o and --no-profile", "one of them");
   const std::filesystem::path profile = profile_file(o);
   if (o.picture) check_output(o.scene.scenes, "--picture", *o.picture);
   std::optional<draw::PictureFile> drawing;
@@ -114,11 +115,7 @@ ExitStatus train(TrainVerbOptions o) {
     report.names.push_back(scene.names_at(d.point, d.direction, d.width));
   Unwritten unwritten;
   unwritten.attempt([&] { write_profile(o, profile, scene.identity, report); });
-  if (o.json) {
-    print(json_report(report));
-  } else {
-    print(o.stats ? text_report(report) + stats_report(report) : text_report(report));
-  }
+  print_report(o.json, json_report(report), text_report(report) + (o.stats ? stats_report(report) : ""));
   if (drawing && interrupted()) {
     tell(fmt::format("{} was not drawn: this training ended early", o.picture->string()));
   } else if (drawing) {

@@ -28,7 +28,7 @@ ViewSettings read_settings_for(const ViewOptions& options) {
   try {
     return find_settings(options.settings);
   } catch (const Error& error) {
-    throw UsageError(error.what());
+    throw UsageError(error);
   }
 }
 
@@ -38,7 +38,7 @@ std::string keys_of(const ViewSettings& settings) {
   try {
     set_up(roamer->controls(), settings);
   } catch (const Error& error) {
-    throw UsageError(error.what());
+    throw UsageError(error);
   }
   return key_table(roamer->controls());
 }
@@ -72,7 +72,7 @@ ExitStatus view(const ViewOptions& options) {
     print(keys);
     return done;
   }
-  if (options.scene.scenes.empty()) throw UsageError("view: which scene? Give it a file or a folder");
+  if (options.scene.scenes.empty()) throw UsageError("view", "which scene? Give it a file or a folder");
   const RecordedPath path = load_recorded_path(options.path);
   ViewPlan plan = make_plan(options, settings, path.body, profile_for(options, path.body));
   plan.path = path.waypoints();
@@ -105,11 +105,7 @@ ExitStatus view(const ViewOptions& options) {
       tell(fmt::format("note: the {} moves were not all verified: Ctrl-C came before", report.pieces.size()));
     }
   }
-  if (options.json) {
-    print(json_report(report));
-  } else {
-    print_beside(options.trace, text_report(report));
-  }
+  print_report(options.json, json_report(report), text_report(report), options.trace);
   if (cancelled) throw Cancelled();
   if (report.verified) verification::demand_all_read(*report.verified, report.store);
   const bool reached = report.path_ended && report.result->outcome == Outcome::reached;

@@ -234,11 +234,6 @@ void check_moves(const WalkOptions& options, const OpenScene& scene, const verif
   report.verify_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 }
 
-void print_report(const WalkOptions& options, const WalkReport& report) {
-  if (options.json) return print(json_report(report));
-  print_beside(options.trace, options.stats ? text_report(report) + stats_report(report) : text_report(report));
-}
-
 ExitStatus walk(WalkOptions options) {
   check_way(options);
   if (!options.against.scenes.empty()) {
@@ -254,13 +249,13 @@ ExitStatus walk(WalkOptions options) {
   take_profile(options);
   options.settings = walker_settings(options);
   check_outputs(options);
-  if (options.route.dt < Route::shortest_step) throw UsageError("--dt: a step takes 1e-6 s at least");
+  if (options.route.dt < Route::shortest_step) throw UsageError("--dt", "a step takes 1e-6 s at least");
   const Mode mode = options.walker_mode();
   if (options.checks() && mode == Mode::ghost) {
-    throw UsageError("--verify with --mode ghost: a ghost passes through walls, so there is nothing to verify");
+    throw UsageError("--verify with --mode ghost", "a ghost passes through walls, so there is nothing to verify");
   }
   if (options.wander && mode == Mode::ghost) {
-    throw UsageError("--wander with --mode ghost: a ghost meets nothing that could turn it; give it a --path");
+    throw UsageError("--wander with --mode ghost", "a ghost meets nothing that could turn it; give it a --path");
   }
   const std::vector<Vec3> path = positions(recorded.waypoints());
   if (options.recorded) {
@@ -331,7 +326,8 @@ ExitStatus walk(WalkOptions options) {
   const auto draw_way = [&] { drawing->write(sheet(options, scene, report, recorder.record(), *seen)); };
   // After Ctrl-C the picture may take more time than there is.
   if (drawing && !report.interrupted) draw_way();
-  print_report(options, report);
+  const std::string text = text_report(report) + (options.stats ? stats_report(report) : "");
+  print_report(options.json, json_report(report), text, options.trace);
   if (drawing && report.interrupted) draw_way();
   if (report.interrupted) return failed;
   if (report.verified) {

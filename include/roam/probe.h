@@ -108,11 +108,12 @@ struct ProbeAnswer {
   std::optional<ProbeWalk> walk;  ///< if wide_enough
 };
 
-/// No body fits at an end or near it, or the end is farther from the scene than its diagonal + 100 m. what() begins
-/// with "from" or "to".
+/// No body fits at an end or near it, or the end is farther from the scene than its diagonal + 100 m. where() is the
+/// end, "from (2.00, 0.00, 1.00)" or "to (8.00, 0.00, 1.00)".
 class NoRoomAtEnd : public Error {
  public:
-  NoRoomAtEnd(const std::string& why, const std::optional<Vec3>& place) : Error(why), nearest(place) {}
+  NoRoomAtEnd(std::string_view end, std::string_view why, const std::optional<Vec3>& place)
+      : Error(end, why), nearest(place) {}
   std::optional<Vec3> nearest;  ///< nearest position with room for the smallest radius
 };
 

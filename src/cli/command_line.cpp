@@ -32,20 +32,19 @@ Arguments reversed(Arguments arguments) {
   return arguments;
 }
 
-/// Says why the program `name` fails. If JSON is wanted and nothing was printed, also as JSON.
-void tell_failure(const std::string& message, const std::string& name, const Arguments& arguments) {
-  tell(message, name);
-  if (!wants_json(arguments) || has_printed_json()) return;
+/// Says why the program `name` fails, in JSON too if that is wanted.
+void tell_failure(const Error& error, const std::string& name, const Arguments& arguments) {
+  tell(error.what(), name);
   try {
-    print(failure_report(message, arguments));
+    print_failure(error, arguments);
   } catch (const std::exception&) {
     // Standard output may be what fails.
   }
 }
 
-ExitStatus refuse(const CLI::App& app, const std::string& sentence, const Arguments& arguments) {
+ExitStatus refuse(const CLI::App& app, const Error& error, const Arguments& arguments) {
   const std::string name = full_name(app);
-  tell_failure(sentence, name, arguments);
+  tell_failure(error, name, arguments);
   std::fputs(fmt::format("`{} --help` lists what it takes.\n", name).c_str(), stderr);
   return bad_usage;
 }
@@ -57,7 +56,7 @@ ExitStatus run(CLI::App& program, const Run& chosen, const Arguments& arguments)
   } catch (const CLI::CallForHelp&) {
     // Not of a verb that there is not.
     const auto unknown = unknown_word(program);
-    if (unknown && !unknown->is_option) return refuse(*unknown->app, unknown->sentence, arguments);
+    if (unknown && !unknown->is_option) return refuse(*unknown->app, unknown->error, arguments);
     print(program.help());
     return done;
   } catch (const CLI::CallForVersion& version) {
@@ -65,23 +64,25 @@ ExitStatus run(CLI::App& program, const Run& chosen, const Arguments& arguments)
     return done;
   } catch (const CLI::ParseError& error) {
     const auto unknown = unknown_word(program);
-    if (unknown) return refuse(*unknown->app, unknown->sentence, arguments);
-    return refuse(reached(program), sentence_of(reached(program), error), arguments);
+    if (unknown) return refuse(*unknown->app, unknown->error, arguments);
+    return refuse(reached(program), usage_error(reached(program), error), arguments);
   }
   return chosen();
 }
 
-/// The message of the running exception.
-std::string message_of_exception() {
+/// The running exception as an error for the user.
+Error running_error() {
   try {
     throw;
   } catch (const Stopped& stopped) {
-    return stopped.what();
+    return Error(stopped.what());
   } catch (const std::bad_alloc&) {
-    return "out of memory; take a smaller scene or a machine with more memory";
-  } catch (const std::exception& error) {
+    return Error("out of memory; take a smaller scene or a machine with more memory");
+  } catch (const std::exception& other) {
     // Ctrl-C also reaches the reader's process; its end is then no error of the file.
-    return interrupted() ? "cancelled" : error.what();
+    if (interrupted()) return Error("cancelled");
+    const auto* error = dynamic_cast<const Error*>(&other);
+    return error != nullptr ? *error : Error(other.what());
   }
 }
 
@@ -90,12 +91,12 @@ int run_and_tell(CLI::App& program, const Run& chosen, const Arguments& argument
   try {
     return run(program, chosen, arguments);
   } catch (const UsageError& error) {
-    tell_failure(error.what(), name, arguments);
+    tell_failure(error, name, arguments);
     return bad_usage;
   } catch (const BrokenPipe&) {
     return failed;
   } catch (const std::exception&) {
-    tell_failure(message_of_exception(), name, arguments);
+    tell_failure(running_error(), name, arguments);
     return failed;
   }
 }

@@ -4,6 +4,8 @@
 
 #include <stdexcept>
 
+#include "roam/error.h"
+
 namespace roam::app {
 
 enum ExitStatus : int {
@@ -14,9 +16,10 @@ enum ExitStatus : int {
 };
 
 /// A command line that parses but makes no sense: ends with ExitStatus::bad_usage.
-class UsageError : public std::runtime_error {
+class UsageError : public Error {
  public:
-  using std::runtime_error::runtime_error;
+  using Error::Error;
+  explicit UsageError(const Error& error) : Error(error) {}
 };
 
 /// Work that a signal ended, and what is kept of it.

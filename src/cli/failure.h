@@ -6,14 +6,14 @@
 #include <string>
 
 #include "cli/report.h"
+#include "roam/error.h"
 
 namespace roam::app {
 
-/// {"error": {"message", "what", "where"}}: the whole sentence, what is wrong, and the file or option of `arguments`
-/// (or the place in it) that the sentence names; null if it names none.
-[[nodiscard]] Json failure_report(const std::string& message, std::span<const std::string> arguments);
+/// {"error": {"message", "what", "where"}}: what(), reason() and where() of the error; null if it has no place.
+[[nodiscard]] Json failure_report(const Error& error);
 
-/// Whether the arguments want JSON, though they may be wrong otherwise.
-[[nodiscard]] bool wants_json(std::span<const std::string> arguments);
+/// Prints that object if the arguments, which may be wrong otherwise, want JSON and no report was printed.
+void print_failure(const Error& error, std::span<const std::string> arguments);
 
 }  // namespace roam::app

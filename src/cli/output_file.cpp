@@ -27,15 +27,14 @@ std::optional<Obstacle> obstacle(const std::filesystem::path& file) {
 void check_output(std::span<const std::filesystem::path> scenes, const std::string& option,
                   const std::filesystem::path& file) {
   namespace fs = std::filesystem;
-  if (file.empty()) throw UsageError(option + ": a file needs a name");
-  if (is_standard(file)) throw UsageError(option + " -: standard output takes paths and traces only; name a file");
+  if (file.empty()) throw UsageError(option, "a file needs a name");
+  if (is_standard(file)) throw UsageError(option + " -", "standard output takes paths and traces only; name a file");
+  const std::string where = option + " " + file.string();
   std::error_code none;
   for (const fs::path& scene : scenes) {
-    if (fs::equivalent(scene, file, none))
-      throw UsageError(fmt::format("{} {} would overwrite the scene", option, file.string()));
+    if (fs::equivalent(scene, file, none)) throw UsageError(where, "this would overwrite the scene; name another file");
   }
-  if (const std::optional<Obstacle> found = obstacle(file))
-    throw UsageError(fmt::format("{} {}: {}; {}", option, file.string(), found->what, found->advice));
+  if (const std::optional<Obstacle> found = obstacle(file)) throw UsageError(where, found->what + "; " + found->advice);
 }
 
 }  // namespace roam::app

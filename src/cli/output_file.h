@@ -32,17 +32,17 @@ class Unwritten {
     try {
       write();
     } catch (const Error& error) {
-      if (why_.empty()) why_ = error.what();
+      if (!first_) first_ = error;
     }
   }
-  [[nodiscard]] bool any() const { return !why_.empty(); }
-  /// Call it after the result has been printed. Throws Error with the first reason.
+  [[nodiscard]] bool any() const { return first_.has_value(); }
+  /// Call it after the result has been printed. Throws the first error.
   void raise() const {
-    if (any()) throw Error(why_);
+    if (first_) throw Error(*first_);
   }
 
  private:
-  std::string why_;
+  std::optional<Error> first_;
 };
 
 }  // namespace roam::app

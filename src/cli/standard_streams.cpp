@@ -7,6 +7,7 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <sstream>
 
 #include "cli/exit_status.h"
 #include "cli/report.h"
@@ -23,11 +24,11 @@ std::string read_input(const std::filesystem::path& file, std::uint64_t limit) {
   std::array<char, 65536> piece;
   for (;;) {
     const ssize_t got = files::again([&] { return ::read(STDIN_FILENO, piece.data(), piece.size()); });
-    if (got < 0) throw Error(std::string("cannot read standard input: ") + std::strerror(errno));
+    if (got < 0) throw Error::at("-", std::string("cannot read standard input: ") + std::strerror(errno));
     if (got == 0) return text;
     text.append(piece.data(), static_cast<std::size_t>(got));
     if (text.size() > limit)
-      throw Error(fmt::format("cannot read standard input: more than {} bytes; is it the right file?", limit));
+      throw Error::at("-", fmt::format("cannot read standard input: more than {} bytes; is it the right file?", limit));
   }
 }
 
@@ -35,19 +36,29 @@ void write_output(std::string_view text) {
   while (!text.empty()) {
     const ssize_t put = files::again([&] { return ::write(STDOUT_FILENO, text.data(), text.size()); });
     if (put < 0 && errno == EPIPE) throw BrokenPipe();
-    if (put < 0) throw Error(std::string("cannot write standard output: ") + std::strerror(errno));
+    if (put < 0) throw Error::at("-", std::string("cannot write standard output: ") + std::strerror(errno));
     text.remove_prefix(static_cast<std::size_t>(put));
   }
 }
 
-void print_beside(const std::filesystem::path& file, const std::string& report) {
-  if (!is_standard(file)) return print(report);
-  std::fputs(printable_lines(report).c_str(), stderr);
+void print_report(bool json, const Json& report, const std::string& text, const std::filesystem::path& file) {
+  const std::string printable = printable_lines(text);
+  if (!json && is_standard(file)) {
+    std::fputs(printable.c_str(), stderr);
+  } else if (!json) {
+    print(text);
+  } else {
+    Json whole = report;
+    std::istringstream in(printable);
+    for (std::string line; std::getline(in, line);) whole["text"].push_back(line);
+    print(whole);
+  }
 }
 
 void demand_one_output(const char* option, const std::filesystem::path& file, bool json) {
   if (json && is_standard(file))
-    throw UsageError(fmt::format("{} - and --json both write to standard output: name a file for {}", option, option));
+    throw UsageError(Error::at(
+        option, fmt::format("{} - and --json both write to standard output: name a file for {}", option, option)));
 }
 
 }  // namespace roam::app

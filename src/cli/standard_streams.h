@@ -7,6 +7,8 @@
 #include <string>
 #include <string_view>
 
+#include "cli/report.h"
+
 namespace roam::app {
 
 [[nodiscard]] inline bool is_standard(const std::filesystem::path& file) { return file == "-"; }
@@ -18,8 +20,9 @@ namespace roam::app {
 /// Writes to standard output, unbuffered. Throws BrokenPipe if nobody reads it, roam::Error if it cannot be written.
 void write_output(std::string_view text);
 
-/// Prints a report to standard output. While `file` is `-` that is taken, so the report goes to standard error.
-void print_beside(const std::filesystem::path& file, const std::string& report);
+/// Prints a report: its text; with `json` the object, with the lines of the text as its last member, "text". Standard
+/// output is taken while `file` is `-`, so the text then goes to standard error.
+void print_report(bool json, const Json& report, const std::string& text, const std::filesystem::path& file = {});
 
 /// Throws UsageError if `file` and a JSON report would both go to standard output.
 void demand_one_output(const char* option, const std::filesystem::path& file, bool json);

@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "cli/spelling.h"
+#include "roam/error.h"
 
 namespace roam::app {
 namespace {
@@ -34,13 +35,13 @@ std::string question(std::string_view word, const std::vector<std::string>& cand
   return meant.empty() ? std::string() : fmt::format(" Did you mean '{}'?", meant);
 }
 
-std::string unknown_option(const CLI::App& app, std::string_view word) {
+Error unknown_option(const CLI::App& app, std::string_view word) {
   const std::string_view name = word.substr(0, word.find('='));
   const std::string asked = question(name, option_names(app));
-  return fmt::format("unknown option '{}'{}", name, asked.empty() ? "" : "." + asked);
+  return Error::at(name, fmt::format("unknown option '{}'{}", name, asked.empty() ? "" : "." + asked));
 }
 
-std::string unknown_name(const CLI::App& app, const std::string& word) {
+Error unknown_name(const CLI::App& app, const std::string& word) {
   const std::vector<std::string> names = names_below(app);
   std::string asked = question(word, names);
   std::error_code none;
@@ -48,7 +49,7 @@ std::string unknown_name(const CLI::App& app, const std::string& word) {
   if (asked.empty() && can_view && std::filesystem::exists(word, none))
     asked = fmt::format(" Did you mean '{} view {}'?", app.get_name(), word);
   if (asked.empty()) asked = fmt::format(" There is {}.", one_of_text(names));
-  return fmt::format("there is no {} '{}'.{}", noun_below(app), word, asked);
+  return Error(fmt::format("there is no {} '{}'.{}", noun_below(app), word, asked));
 }
 
 /// The option that a message of CLI11 begins with.
@@ -69,30 +70,31 @@ std::string with_value(const CLI::Option& option) {
   return option.get_name() + (value.empty() ? "" : " " + value);
 }
 
-std::string wrong_number_of_values(const CLI::Option& option) {
+Error wrong_number_of_values(const CLI::Option& option) {
   const CLI::results_t& values = option.results();
-  if (option.get_type_size_max() == 0) return option.get_name() + " takes no value";
+  const std::string name = option.get_name();
+  if (option.get_type_size_max() == 0) return Error::at(name, name + " takes no value");
   const int expected = option.get_expected_min();
   if (expected > 1) {
-    return fmt::format("{} needs {} numbers {}; got '{}'", option.get_name(),
-                       expected == 3 ? "three" : std::to_string(expected), option.get_type_name(),
-                       fmt::join(values, ","));
+    return Error::at(
+        name, fmt::format("{} needs {} numbers {}; got '{}'", name, expected == 3 ? "three" : std::to_string(expected),
+                          option.get_type_name(), fmt::join(values, ",")));
   }
-  if (values.empty()) return fmt::format("{} needs a value: {}", option.get_name(), with_value(option));
-  return fmt::format("{} is given {} times; give it once", option.get_name(), values.size());
+  if (values.empty()) return Error::at(name, fmt::format("{} needs a value: {}", name, with_value(option)));
+  return Error::at(name, fmt::format("{} is given {} times; give it once", name, values.size()));
 }
 
-std::string wrong_value(const CLI::Option& option) {
+Error wrong_value(const CLI::Option& option) {
   if (option.get_type_size_max() == 0 || option.get_expected_min() > 1) return wrong_number_of_values(option);
-  return fmt::format("{}: '{}' is not a number", option.get_name(), fmt::join(option.results(), ","));
+  return {option.get_name(), fmt::format("'{}' is not a number", fmt::join(option.results(), ","))};
 }
 
-std::string missing(const CLI::App& app, std::string_view text) {
+Error missing(const CLI::App& app, const std::string& text) {
   const CLI::Option* option = subject(app, text);
-  if (option != nullptr) return with_value(*option) + " is missing";
+  if (option != nullptr) return Error::at(option->get_name(), with_value(*option) + " is missing");
   const std::vector<std::string> names = names_below(app);
-  if (names.empty()) return std::string(text);
-  return fmt::format("a {} is missing: {}", noun_below(app), one_of_text(names));
+  if (names.empty()) return Error(text);
+  return Error(fmt::format("a {} is missing: {}", noun_below(app), one_of_text(names)));
 }
 
 std::string replaced(std::string text, std::string_view from, std::string_view to) {
@@ -135,7 +137,8 @@ std::optional<UnknownWord> unknown_word(const CLI::App& program) {
     if (!left.empty() && !app->get_prefix_command()) {
       const std::string& word = left.front();
       if (is_option(word)) return UnknownWord{app, unknown_option(*app, word), true};
-      if (names_below(*app).empty()) return UnknownWord{app, fmt::format("unexpected argument '{}'", word), false};
+      if (names_below(*app).empty())
+        return UnknownWord{app, Error::at(word, fmt::format("unexpected argument '{}'", word)), false};
       return UnknownWord{app, unknown_name(*app, word), false};
     }
     if (app->get_subcommands().empty()) return std::nullopt;
@@ -143,18 +146,20 @@ std::optional<UnknownWord> unknown_word(const CLI::App& program) {
   }
 }
 
-std::string sentence_of(const CLI::App& app, const CLI::ParseError& error) {
+Error usage_error(const CLI::App& app, const CLI::ParseError& error) {
   const std::string text = error.what();
   if (dynamic_cast<const CLI::RequiredError*>(&error) != nullptr) return missing(app, text);
-  if (dynamic_cast<const CLI::RequiresError*>(&error) != nullptr) return replaced(text, " requires ", " needs ");
-  if (dynamic_cast<const CLI::ExcludesError*>(&error) != nullptr)
-    return replaced(text, " excludes ", " and ") + " exclude each other: leave one out";
   constexpr std::string_view conversion = "Could not convert: ";
   const CLI::Option* option = subject(app, replaced(text, conversion, ""));
+  const std::string name = option != nullptr ? option->get_name() : std::string();
+  if (dynamic_cast<const CLI::RequiresError*>(&error) != nullptr)
+    return Error::at(name, replaced(text, " requires ", " needs "));
+  if (dynamic_cast<const CLI::ExcludesError*>(&error) != nullptr)
+    return Error::at(name, replaced(text, " excludes ", " and ") + " exclude each other: leave one out");
   if (option != nullptr && dynamic_cast<const CLI::ConversionError*>(&error) != nullptr) return wrong_value(*option);
   if (option != nullptr && dynamic_cast<const CLI::ArgumentMismatch*>(&error) != nullptr)
     return wrong_number_of_values(*option);
-  return text;
+  return Error::at(name, text);
 }
 
 }  // namespace roam::app

@@ -11,6 +11,8 @@ class App;
 class ParseError;
 }
 
+#include "roam/error.h"
+
 namespace roam::app {
 
 /// The verb that the arguments reached, or the program.
@@ -26,15 +28,15 @@ namespace roam::app {
 [[nodiscard]] std::string one_of_text(const std::vector<std::string>& words);
 
 struct UnknownWord {
-  const CLI::App* app;   ///< that does not know it
-  std::string sentence;  ///< names the word, and the one that was likely meant
+  const CLI::App* app;  ///< that does not know it
+  Error error;          ///< names the word, and the one that was likely meant
   bool is_option;
 };
 /// The first word that parsing left over. Misspelt words come before all other complaints, because they often cause
 /// them.
 [[nodiscard]] std::optional<UnknownWord> unknown_word(const CLI::App& program);
 
-/// A sentence for the error of CLI11 about the arguments of `app`: "--radius: 'abc' is not a number".
-[[nodiscard]] std::string sentence_of(const CLI::App& app, const CLI::ParseError& error);
+/// The error of CLI11 about the arguments of `app`, with its option: "--radius: 'abc' is not a number".
+[[nodiscard]] Error usage_error(const CLI::App& app, const CLI::ParseError& error);
 
 }  // namespace roam::app

@@ -41,8 +41,8 @@ const char* advice(int error, bool reading) {
 
 void fail(const char* what, const std::filesystem::path& file, int error) {
   const std::string advised = advice(error, std::strcmp(what, "read") == 0);
-  throw FileError(fmt::format("cannot {} {}: {}{}{}", what, file.string(), std::strerror(error),
-                              advised.empty() ? "" : "; ", advised),
+  throw FileError(Error::at(file.string(), fmt::format("cannot {} {}: {}{}{}", what, file.string(),
+                                                       std::strerror(error), advised.empty() ? "" : "; ", advised)),
                   error);
 }
 

@@ -12,7 +12,7 @@ namespace roam::files {
 /// A file that cannot be used.
 class FileError : public Error {
  public:
-  FileError(const std::string& what, int error) : Error(what), number(error) {}
+  FileError(const Error& error, int code) : Error(error), number(code) {}
   int number;  ///< errno
 };
 

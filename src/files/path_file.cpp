@@ -32,7 +32,7 @@ struct Numbers {
 };
 
 [[noreturn]] void fail(const std::string& name, int line, const std::string& what) {
-  throw Error(fmt::format("{}:{}: {}", name, line, what));
+  throw Error(fmt::format("{}:{}", name, line), what);
 }
 
 std::string excerpt(std::string_view word) { return printable(word, longest_excerpt); }
@@ -49,9 +49,9 @@ class Lines {
     const auto bytes = static_cast<std::size_t>(in_.gcount());
     bytes_ += bytes;
     if (bytes_ > longest_path_file) {
-      throw Error(fmt::format("{}: is larger than {} MiB; is it the right file?", name_, longest_path_file >> 20));
+      throw Error(name_, fmt::format("is larger than {} MiB; is it the right file?", longest_path_file >> 20));
     }
-    if (in_.bad()) throw Error(fmt::format("{}: reading failed; check the disk and the file's permissions", name_));
+    if (in_.bad()) throw Error(name_, "reading failed; check the disk and the file's permissions");
     if (in_.fail() && bytes > 0) {
       fail(name_, number_, fmt::format("the line is longer than {} bytes; {}", longest_path_line, form));
     }
@@ -141,8 +141,8 @@ std::vector<Waypoint> read_path(std::istream& in, const std::string& name) {
     path.push_back(next);
   }
   if (path.size() < 2) {
-    throw Error(fmt::format("{}: holds {}; a path needs a start and at least one place to go to, one 'x y z' a line",
-                            name, path.empty() ? "no waypoint" : "only one waypoint"));
+    throw Error(name, fmt::format("holds {}; a path needs a start and at least one place to go to, one 'x y z' a line",
+                                  path.empty() ? "no waypoint" : "only one waypoint"));
   }
   return path;
 }
@@ -163,7 +163,8 @@ std::string body_line(const WalkerSettings& s, Mode mode) {
 void save_path(const std::filesystem::path& file, std::span<const Vec3> path, const WalkerSettings* body, Mode mode) {
   demand_name(file);
   if (path.size() < 2 || path.size() > most_waypoints)
-    throw Error(
+    throw Error::at(
+        file.string(),
         fmt::format("cannot write {}: a path needs a start and at least one place to go to, at most {} in all, "
                     "and this one has {} places",
                     file.string(), most_waypoints, path.size()));
@@ -173,7 +174,8 @@ void save_path(const std::filesystem::path& file, std::span<const Vec3> path, co
     const Vec3& p = path[i];
     for (int k = 0; k < 3; ++k) {
       if (!(std::abs(p[k]) <= largest_number))
-        throw Error(
+        throw Error::at(
+            file.string(),
             fmt::format("cannot write {}: place {} is ({:g}, {:g}, {:g}); it must be finite and within 1e9 m of "
                         "the origin",
                         file.string(), i, p.x, p.y, p.z));

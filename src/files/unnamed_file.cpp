@@ -44,9 +44,9 @@ const char* advice(int reason) {
 }
 
 Error refused(const std::string& what, const char* verb, int reason) {
-  return Error(
-      fmt::format("{}: {} cannot be {} there: {}. {} by the environment variable TMPDIR, or allow more memory.",
-                  temporary_folder(), what, verb, std::strerror(reason), advice(reason)));
+  return Error(temporary_folder(),
+               fmt::format("{} cannot be {} there: {}. {} by the environment variable TMPDIR, or allow more memory.",
+                           what, verb, std::strerror(reason), advice(reason)));
 }
 
 }  // namespace

@@ -50,13 +50,15 @@ Descriptor open_regular(int folder, const std::string& name, const fs::path& fil
       again([&] { return ::openat(folder, name.c_str(), O_RDONLY | O_NONBLOCK | O_NOFOLLOW | O_NOCTTY | O_CLOEXEC); }));
   if (!opened.is_open()) {
     if (errno != ELOOP) fail("read", file, errno);
-    throw Error(fmt::format("cannot read {}: it is a link; put the file itself there", file.string()));
+    throw Error::at(file.string(),
+                    fmt::format("cannot read {}: it is a link; put the file itself there", file.string()));
   }
   struct stat status {};
   if (::fstat(opened.number(), &status) != 0) fail("read", file, errno);
   if (S_ISDIR(status.st_mode)) fail("read", file, EISDIR);
   if (S_ISREG(status.st_mode)) return opened;
-  throw Error(fmt::format("cannot read {}: it is a pipe or a device; put a file there", file.string()));
+  throw Error::at(file.string(),
+                  fmt::format("cannot read {}: it is a pipe or a device; put a file there", file.string()));
 }
 
 std::string read_to_end(const Descriptor& opened, const fs::path& file, std::uint64_t limit) {
@@ -91,8 +93,8 @@ void WholeFile::demand_replaceable() const {
   }
   if (S_ISDIR(status.st_mode)) fail_to_write(EISDIR);
   if (S_ISREG(status.st_mode)) return;
-  throw FileError(
-      fmt::format("cannot write {}: it is a pipe or a device; name a file", (folder_path_ / name_).string()), ESPIPE);
+  const std::string file = (folder_path_ / name_).string();
+  throw FileError(Error::at(file, fmt::format("cannot write {}: it is a pipe or a device; name a file", file)), ESPIPE);
 }
 
 WholeFile::WholeFile(Descriptor folder, fs::path folder_path, std::string name, unsigned rights)

@@ -133,14 +133,16 @@ void write_stl(const Scene& scene, files::WholeFile& file, const Progress& progr
 void write_scene(const Scene& scene, const std::filesystem::path& path, const Progress& progress) {
   const std::string extension = files::lower_extension(path);
   if (extension != ".ply" && extension != ".obj" && extension != ".stl") {
-    throw Error(fmt::format("{} cannot be written: its extension must be .ply, .obj or .stl.", path.string()));
+    throw Error::at(path.string(),
+                    fmt::format("{} cannot be written: its extension must be .ply, .obj or .stl.", path.string()));
   }
   if (extension == ".stl") {
     const Box& box = scene.bounds();
     double farthest = 0.0;
     for (int k = 0; k < 3; ++k) farthest = std::max({farthest, std::fabs(box.lower[k]), std::fabs(box.upper[k])});
     if (farthest > stl_coordinate_limit) {
-      throw Error(
+      throw Error::at(
+          path.string(),
           fmt::format("{} cannot be written: STL holds floats, which are coarser than 1 mm at {:.0f} m from the "
                       "origin. Choose .ply or .obj, or an origin nearer to 0.",
                       path.string(), farthest));

@@ -76,7 +76,7 @@ Context open_window(const std::string& title, int width, int height) {
     context.abilities = ask_abilities(*context.window);
     return context;
   } catch (const Error& e) {
-    throw Error(std::string(e.what()) + ". Without a screen, roam draws by --headless");
+    throw Error::at(e.where(), std::string(e.what()) + ". Without a screen, roam draws by --headless");
   }
 }
 

@@ -138,12 +138,6 @@ void Frame::set_near(double near) {
   project();
 }
 
-void Frame::set_vertical_fov(double degrees) {
-  check_vertical_fov(degrees);
-  settings_.vertical_fov = degrees;
-  project();
-}
-
 std::string Frame::describe() const {
   const bool wished = settings_.reversed_depth;
   std::string depth = "reversed 32-bit float depth";

@@ -68,9 +68,8 @@ class Frame {
   [[nodiscard]] int width() const;   ///< pixels; follows the window
   [[nodiscard]] int height() const;  ///< pixels; follows the window
 
-  /// Takes effect with the next frame. Values as in FrameSettings; throws roam::Error.
+  /// Takes effect with the next frame. The value as in FrameSettings; throws roam::Error.
   void set_near(double near);
-  void set_vertical_fov(double degrees);
   [[nodiscard]] double near() const;
   [[nodiscard]] double vertical_fov() const;
 

@@ -47,7 +47,7 @@ class Hud {
   Hud(const Hud&) = delete;
   Hud& operator=(const Hud&) = delete;
 
-  /// Lines from top to bottom. In minimal detail only lines [0, minimal_lines) are shown.
+  /// Lines from top to bottom. In minimal detail only the first one is shown.
   void set_status(std::vector<StatusLine> lines);
   /// The message in the lower middle; empty: none. It may have several lines; long ones are broken.
   void set_message(std::string text, Tone tone = Tone::info);
@@ -62,8 +62,7 @@ class Hud {
   [[nodiscard]] bool help_shown() const;
   void set_detail(Detail detail);
   [[nodiscard]] Detail detail() const;
-  void set_minimal_lines(std::size_t lines);  ///< default 1
-  void set_crosshair(bool shown);             ///< default true
+  void set_crosshair(bool shown);  ///< default true
 
   /// All visible text, line by line: "label: value", the message, "key: effect". Empty if off.
   [[nodiscard]] std::string text() const;

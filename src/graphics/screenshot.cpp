@@ -21,7 +21,8 @@ constexpr std::chrono::seconds frame_patience{10};
 void check_extension(const fs::path& path) {
   const std::string extension = files::lower_extension(path);
   if (extension == ".png" || extension == ".jpg" || extension == ".jpeg") return;
-  throw Error("cannot write the picture " + path.string() + ": its name must end in .png, .jpg or .jpeg");
+  throw Error::at(path.string(),
+                  "cannot write the picture " + path.string() + ": its name must end in .png, .jpg or .jpeg");
 }
 
 }  // namespace
@@ -31,11 +32,12 @@ fs::path write_image(const osg::Image& image, const fs::path& path, files::Namin
   const std::string extension = files::lower_extension(path).substr(1);
   osgDB::ReaderWriter* const plugin = osgDB::Registry::instance()->getReaderWriterForExtension(extension);
   if (plugin == nullptr) {
-    throw Error("cannot write the picture " + path.string() + ": OpenSceneGraph has no plugin for this kind of file");
+    throw Error::at(path.string(), "cannot write the picture " + path.string() +
+                                       ": OpenSceneGraph has no plugin for this kind of file");
   }
   std::ostringstream bytes;
   if (!plugin->writeImage(image, bytes, nullptr).success()) {
-    throw Error("cannot write the picture " + path.string() + ": OpenSceneGraph cannot encode it");
+    throw Error::at(path.string(), "cannot write the picture " + path.string() + ": OpenSceneGraph cannot encode it");
   }
   return files::write_whole(path, bytes.str(), naming);
 }
@@ -147,7 +149,7 @@ bool Screenshot::done() const {
 void Screenshot::finish() {
   if (!state_) return;
   state_->end(frame_patience);
-  if (!state_->problem.empty()) throw Error(state_->problem);
+  if (!state_->problem.empty()) throw Error::at(state_->path.string(), state_->problem);
 }
 
 const fs::path& Screenshot::path() const {

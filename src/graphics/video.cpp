@@ -147,9 +147,10 @@ class Video::Encoder {
   void add(osg::ref_ptr<osg::Image> image, std::int64_t times) {
     if (times <= 0) return;
     if (image->s() != width_ || image->t() != height_) {
-      throw Error("a picture of " + std::to_string(image->s()) + " x " + std::to_string(image->t()) +
-                  " does not fit the film " + path_.string() + " of " + std::to_string(width_) + " x " +
-                  std::to_string(height_) + ": end the film when the window is resized");
+      throw Error::at(path_.string(), "a picture of " + std::to_string(image->s()) + " x " +
+                                          std::to_string(image->t()) + " does not fit the film " + path_.string() +
+                                          " of " + std::to_string(width_) + " x " + std::to_string(height_) +
+                                          ": end the film when the window is resized");
     }
     std::unique_lock lock(mutex_);
     changed_.wait(lock, [&] { return waiting_.size() < most_waiting || broken_; });
@@ -178,7 +179,7 @@ class Video::Encoder {
     feeder_.join();
     line_.close_ours();
     if (!process_.wait(ending_patience) || !process_.ending().is_success() || broken_) fail();
-    if (frames_ == 0) throw Error("the film " + path_.string() + " has no picture");
+    if (frames_ == 0) throw Error::at(path_.string(), "the film " + path_.string() + " has no picture");
     file_.commit();
   }
 
@@ -221,8 +222,9 @@ class Video::Encoder {
     struct statvfs disk {};
     const bool full =
         ::fstatvfs(file_.descriptor(), &disk) == 0 && std::uintmax_t{disk.f_bavail} * disk.f_frsize < full_disk;
-    throw Error("ffmpeg could not make the film " + path_.string() + (words.empty() ? "" : ": " + words) +
-                (full ? "; the disk is full: make room there or choose another place" : ""));
+    throw Error::at(path_.string(), "ffmpeg could not make the film " + path_.string() +
+                                        (words.empty() ? "" : ": " + words) +
+                                        (full ? "; the disk is full: make room there or choose another place" : ""));
   }
 
   const fs::path path_;
@@ -240,7 +242,7 @@ class Video::Encoder {
 
 Video::Video(fs::path path, int width, int height, int frames_per_second) {
   if (path.extension() != ".mp4") {
-    throw Error("cannot write the film " + path.string() + ": its name must end in .mp4");
+    throw Error::at(path.string(), "cannot write the film " + path.string() + ": its name must end in .mp4");
   }
   if (width < least_side || height < least_side || width > largest_side || height > largest_side) {
     throw Error("a film of " + std::to_string(width) + " x " + std::to_string(height) +

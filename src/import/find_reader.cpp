@@ -34,8 +34,9 @@ constexpr const char* reader_name = "roam-reader";
 using process::can_run;
 
 [[noreturn]] void refuse(const std::string& named_by, const fs::path& program) {
-  throw Error("the scene reader " + program.string() + ", named by " + named_by +
-              ", is not a program that can be run. Name the program " + reader_name + " of this installation.");
+  throw Error::at(program.string(), "the scene reader " + program.string() + ", named by " + named_by +
+                                        ", is not a program that can be run. Name the program " + reader_name +
+                                        " of this installation.");
 }
 
 }  // namespace

@@ -52,21 +52,21 @@ Error no_triangle(const fs::path& path, const ImportReport& report, const LeftOu
   const std::uint64_t bad = report.bad_triangles - before.bad;
   const std::uint64_t ignored = report.ignored_triangles - before.ignored;
   if (bad > 0) {
-    return Error(
-        fmt::format("{}: none of its {} triangles is usable: they have vertices that are not finite, lie beyond "
-                    "1e9 m, or are not there. The file is damaged, or in another unit.",
-                    path.string(), bad));
+    return Error(path.string(),
+                 fmt::format("none of its {} triangles is usable: they have vertices that are not finite, lie beyond "
+                             "1e9 m, or are not there. The file is damaged, or in another unit.",
+                             bad));
   }
   if (ignored > 0) {
-    return Error(fmt::format("{}: all of its {} triangles are in objects that are to be ignored; ignore fewer.",
-                             path.string(), ignored));
+    return Error(path.string(),
+                 fmt::format("all of its {} triangles are in objects that are to be ignored; ignore fewer.", ignored));
   }
   std::string remedy = "check that it is the right file";
   if (!report.outside_files.empty()) {
     remedy = fmt::format("it refers to {}, which lies outside of its folder; --allow lets a folder in",
                          listed(report.outside_files));
   }
-  return Error(fmt::format("{}: this gives no triangle, so there is nothing to walk on; {}.", path.string(), remedy));
+  return Error(path.string(), fmt::format("this gives no triangle, so there is nothing to walk on; {}.", remedy));
 }
 
 }  // namespace
@@ -95,11 +95,10 @@ void check(std::span<const Source> sources, const ImportOptions& options) {
     const fs::file_status status = fs::status(path, why);
     if (!fs::exists(status)) {
       const std::string reason = why && status.type() == fs::file_type::none ? " (" + why.message() + ")" : "";
-      throw Error(fmt::format("{}: there is no such file or folder{}. Check the spelling.", path.string(), reason));
+      throw Error(path.string(), fmt::format("there is no such file or folder{}. Check the spelling.", reason));
     }
     if (!fs::is_directory(status) && !fs::is_regular_file(status)) {
-      throw Error(
-          fmt::format("{}: this is neither a file nor a folder; a scene is read from one of these.", path.string()));
+      throw Error(path.string(), "this is neither a file nor a folder; a scene is read from one of these.");
     }
   }
 }

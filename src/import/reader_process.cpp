@@ -111,8 +111,9 @@ ReaderProcess::ReaderProcess(const std::filesystem::path& program, const std::ve
   try {
     child_.emplace(std::filesystem::absolute(program), arguments, settings);
   } catch (const Error& error) {
-    throw Error(std::string(error.what()) +
-                ". Install roam anew, or name the program by the environment variable ROAM_READER.");
+    throw Error::at(error.where(),
+                    std::string(error.what()) +
+                        ". Install roam anew, or name the program by the environment variable ROAM_READER.");
   }
   requests_ = std::move(requests.ours);
   stream_ = std::move(stream.ours);

@@ -142,7 +142,8 @@ Confinement confinement_of(const fs::path& program) {
     report.confinement.reset();
   }
   if (report.confinement) return *report.confinement;
-  throw Error(program.string() + " is not the roam-reader of this version, or cannot run here. Install roam anew.");
+  throw Error::at(program.string(),
+                  program.string() + " is not the roam-reader of this version, or cannot run here. Install roam anew.");
 }
 
 std::unique_ptr<ReaderProcess> start(const Reading& reading) {
@@ -153,7 +154,9 @@ std::unique_ptr<ReaderProcess> start(const Reading& reading) {
 void receive(const Reading& reading, ReaderProcess& process, StreamReceiver& receiver, ProcessorBudget budget) {
   const ImportOptions& options = *reading.options;
   const std::string path = reading.path.string();
-  const auto fail = [&](const std::string& what) -> Error { return Error(printable(path) + ": " + what + "."); };
+  const auto fail = [&](const std::string& what) -> Error {
+    return Error::at(path, printable(path) + ": " + what + ".");
+  };
 
   receiver.spell(reading.scope.scene.string(), without_slash(path));
   Clock::time_point reported = Clock::now();
@@ -219,8 +222,6 @@ void receive(const Reading& reading, ReaderProcess& process, StreamReceiver& rec
         reading.report_progress(receiver.bytes_read(), receiver.triangles());
       }
     }
-  } catch (const StreamReceiver::Failure& failure) {
-    throw Error(failure.sentence);
   } catch (const StreamReceiver::ContentTooLarge&) {
     throw fail(too_much_memory(options));
   } catch (const StreamReceiver::StreamDamaged& damage) {

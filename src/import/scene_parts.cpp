@@ -65,8 +65,8 @@ std::vector<fs::path> files_in(const fs::path& folder, const reader::SceneScope&
   fs::recursive_directory_iterator entry(folder, fs::directory_options::skip_permission_denied, none);
   while (!none && entry != fs::recursive_directory_iterator()) {
     if (entry.depth() > deepest) {
-      throw Error(fmt::format("{}: more than {} folders lie in each other there, as in no scene; remove them",
-                              folder.string(), deepest));
+      throw Error(folder.string(),
+                  fmt::format("more than {} folders lie in each other there, as in no scene; remove them", deepest));
     }
     if (!scope.find(entry->path()).empty()) files.push_back(entry->path());
     entry.increment(none);

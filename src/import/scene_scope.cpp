@@ -84,8 +84,7 @@ SceneScope scope_of(const fs::path& named, const ImportOptions& options) {
   std::error_code none;
   const fs::file_status status = options.through_link ? fs::status(path, none) : fs::symlink_status(path, none);
   if (fs::is_symlink(status)) {
-    throw Error(
-        fmt::format("{}: this is a link, which is followed only where you name it as the scene.", named.string()));
+    throw Error(named.string(), "this is a link, which is followed only where you name it as the scene.");
   }
   if (fs::is_directory(status)) {
     scope.folders.push_back(path);
@@ -103,7 +102,7 @@ SceneScope scope_of(const fs::path& named, const ImportOptions& options) {
   for (const fs::path& folder : options.allow) {
     const fs::path real = fs::canonical(folder, none);
     if (none || !fs::is_directory(real, none)) {
-      throw Error(fmt::format("{}: there is no such folder to allow. Check the spelling.", folder.string()));
+      throw Error(folder.string(), "there is no such folder to allow. Check the spelling.");
     }
     scope.folders.push_back(real);
   }

@@ -28,7 +28,9 @@
 ///     missing_page  text file
 ///     missing_texture  text file
 ///     note          text sentence
-///     failure       text sentence                                            last: the file cannot be read
+///     failure       text place; text sentence                                last: the file cannot be read; the place
+///     as
+///                                                                            of roam::Error
 ///     end           Totals; u32 n, u8 matched of each of the n ignore patterns     last: reading is complete
 ///
 /// The receiver trusts nothing. It checks the numbering and the sizes, that vertices are finite and within the limit,
@@ -46,7 +48,7 @@
 namespace roam::reader {
 
 inline constexpr int stream_fd = 3;
-inline constexpr std::uint32_t stream_version = 5;
+inline constexpr std::uint32_t stream_version = 6;
 inline constexpr std::uint32_t frame_magic = 0x31524d52;  // "RMR1"
 /// Largest payload, in bytes; a sender splits vertices and triangles accordingly.
 inline constexpr std::uint32_t payload_limit = 4u << 20;

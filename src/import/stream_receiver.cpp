@@ -111,10 +111,11 @@ void StreamReceiver::handle(const FrameHeader& header, std::span<const std::byte
       break;
     }
     case FrameKind::failure: {
-      Failure failure{printable(spelt(fields.take_text()), longest_sentence)};
+      const std::string place = spelt(fields.take_text());
+      const std::string sentence = printable(spelt(fields.take_text()), longest_sentence);
       if (!fields.complete()) break;
       ended_ = true;
-      throw failure;
+      throw Error::at(place, sentence);
     }
     case FrameKind::end:
       take_end(fields);

@@ -29,8 +29,8 @@ class StreamReceiver {
 
   /// The buffer for the next bytes of the stream.
   [[nodiscard]] std::span<std::byte> room();
-  /// Takes the first `count` bytes of room(). Throws StreamDamaged, ContentTooLarge, Failure, or exceptions of derived
-  /// classes.
+  /// Takes the first `count` bytes of room(). Throws StreamDamaged, ContentTooLarge, exceptions of derived
+  /// classes, or roam::Error: the reader's own about what is wrong with the file.
   void take(std::size_t count);
 
   /// Whether the reader has sent its last frame. Nothing may follow.
@@ -49,10 +49,6 @@ class StreamReceiver {
   };
   /// More than content_bytes arrived.
   struct ContentTooLarge {};
-  /// The reader's own message about what is wrong with the file.
-  struct Failure {
-    std::string sentence;
-  };
 
  protected:
   /// Takes a frame of content. Throws StreamDamaged for kinds that do not belong to this reading.

@@ -210,7 +210,7 @@ void Controls::rebind(std::string_view lines) {
   split(lines, '\n', [&](std::string_view line) {
     ++number;
     const auto refuse = [&](const std::string& why) {
-      throw roam::Error("line " + std::to_string(number) + " of the keys: " + why);
+      throw roam::Error("line " + std::to_string(number) + " of the keys", why);
     };
     const std::string_view content = trimmed(line.substr(0, line.find('#')));
     if (content.empty()) return;

@@ -194,8 +194,9 @@ struct Harvester::State {
       ++stats.files;
     }
     if (parts(harvest).size() != place.parts.size()) {
-      throw roam::Error(place.trail->file +
-                        " does not hold what it held when it was first read; start anew to take it");
+      throw roam::Error::at(
+          place.trail->file,
+          place.trail->file + " does not hold what it held when it was first read; start anew to take it");
     }
   }
 

@@ -67,7 +67,9 @@ bool has_ended(pid_t child) {
 
 Child::Child(const std::filesystem::path& program, const std::vector<std::string>& arguments,
              const ChildSettings& settings) {
-  const auto refuse = [&](int error) { throw Error("cannot start " + program.string() + ": " + std::strerror(error)); };
+  const auto refuse = [&](int error) {
+    throw Error::at(program.string(), "cannot start " + program.string() + ": " + std::strerror(error));
+  };
   std::vector<std::string> command{program.string()};
   command.insert(command.end(), arguments.begin(), arguments.end());
 

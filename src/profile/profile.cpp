@@ -211,7 +211,9 @@ std::filesystem::path named(const std::filesystem::path& scene) {
   if (!last.empty() && last != "." && last != "..") return path;
   std::error_code error;
   const std::filesystem::path whole = std::filesystem::absolute(path, error);
-  if (error) throw Error(fmt::format("cannot tell where {} is: {}; name the scene", path.string(), error.message()));
+  if (error)
+    throw Error::at(path.string(),
+                    fmt::format("cannot tell where {} is: {}; name the scene", path.string(), error.message()));
   return trimmed(whole);
 }
 
@@ -277,7 +279,7 @@ Profile load_profile(const std::filesystem::path& file) {
     check(profile);
     return profile;
   } catch (const Error& error) {
-    throw Error(fmt::format("{}: {}; correct the file, or delete it and train again", file.string(), error.what()));
+    throw Error(file.string(), fmt::format("{}; correct the file, or delete it and train again", error.what()));
   }
 }
 
@@ -286,9 +288,10 @@ void save_profile(const Profile& profile, const std::filesystem::path& file) {
     check(profile);
   } catch (const Error& error) {
     const bool unknown = profile.scene.hash.empty() && profile.scene.geometry_hash.empty();
-    throw Error(fmt::format("cannot write {}: {}; {}", file.string(), error.what(),
-                            unknown ? "set Profile::scene to identity_of the meshes or the store it was trained on"
-                                    : "correct the profile"));
+    throw Error::at(file.string(),
+                    fmt::format("cannot write {}: {}; {}", file.string(), error.what(),
+                                unknown ? "set Profile::scene to identity_of the meshes or the store it was trained on"
+                                        : "correct the profile"));
   }
   // Names of objects come from files and may hold any bytes.
   files::write_whole(file, json_of(profile).dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
@@ -312,7 +315,8 @@ std::optional<Profile> find_profile(const std::filesystem::path& scene, const Sc
 std::optional<Profile> find_profile(std::span<const std::filesystem::path> scenes, const SceneIdentity& identity) {
   std::optional<Profile> profile = find_profile(scenes);
   if (profile && !profile->belongs_to(identity)) {
-    throw Error(
+    throw Error::at(
+        profile_path(scenes).string(),
         fmt::format("{} is of another scene, or of this one before it changed or read in another way (up, unit "
                     "or ignore): train again, or delete the file",
                     profile_path(scenes).string()));

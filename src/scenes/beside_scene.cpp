@@ -18,7 +18,8 @@ std::filesystem::path store_beside(const std::filesystem::path& scene) {
 void demand_no_link(const std::filesystem::path& store) {
   std::error_code none;
   if (!std::filesystem::is_symlink(std::filesystem::symlink_status(store, none))) return;
-  throw Error(
+  throw Error::at(
+      store.string(),
       fmt::format("{} is a link, and a store that lies beside its scene may be none: name the store that is meant, or "
                   "delete the link",
                   store.string()));

@@ -49,8 +49,10 @@ std::shared_ptr<const Store> open_store(const SceneOptions& options, std::uint64
     throw UsageError("a store is a scene of its own: build one store of all that is to be one scene (roam build)");
   }
   if (options.says_how_to_read()) {
-    throw UsageError(options.scenes.front().string() +
-                     " is a store: --up, --unit, --ignore and --lossless are said when it is built (roam build)");
+    throw UsageError(
+        Error::at(options.scenes.front().string(),
+                  options.scenes.front().string() +
+                      " is a store: --up, --unit, --ignore and --lossless are said when it is built (roam build)"));
   }
   return Store::open(options.scenes.front(), memory);
 }
@@ -58,12 +60,12 @@ std::shared_ptr<const Store> open_store(const SceneOptions& options, std::uint64
 std::unique_ptr<Pager> make_pager(const std::shared_ptr<const Store>& store, std::uint64_t memory) {
   const auto said = [&] { return "--memory " + short_count(static_cast<double>(memory)) + "B"; };
   if (memory < Pager::least_memory) {
-    throw UsageError(fmt::format("{}: a store is walked in {} MiB at least", said(), Pager::least_memory >> 20));
+    throw UsageError(said(), fmt::format("a store is walked in {} MiB at least", Pager::least_memory >> 20));
   }
   try {
     return std::make_unique<Pager>(store, PagerOptions{.memory = memory});
   } catch (const std::bad_alloc&) {
-    throw Error(said() + " is more than this machine gives; a store is walked in less, e.g. --memory 64M");
+    throw Error::at(said(), said() + " is more than this machine gives; a store is walked in less, e.g. --memory 64M");
   }
 }
 

@@ -22,17 +22,6 @@ std::optional<Mode> parse_mode(const std::string& text) {
   return std::nullopt;
 }
 
-WalkerSettings settings_of(const RecordedBody& body) {
-  WalkerSettings settings;
-  settings.radius = body.radius;
-  settings.height = body.height;
-  settings.eye = body.eye;
-  settings.step = body.step;
-  settings.slope_degrees = body.slope_degrees;
-  settings.support_radius = body.support_radius;
-  return settings;
-}
-
 std::string describe(double radius, double height) {
   return height > 2.0 * radius ? fmt::format("radius {:g} m, height {:g} m", radius, height)
                                : fmt::format("a sphere of radius {:g} m", radius);
@@ -50,26 +39,29 @@ std::optional<RecordedBody> recorded_body(const std::string& text, const std::st
     words >> word;
     const std::optional<Mode> mode = parse_mode(word);
     RecordedBody read;
+    WalkerSettings& s = read.settings;
     bool good = mode.has_value();
     while (good && words >> word) {
-      double* const value = word == "radius"    ? &read.radius
-                            : word == "height"  ? &read.height
-                            : word == "eye"     ? &read.eye
-                            : word == "step"    ? &read.step
-                            : word == "slope"   ? &read.slope_degrees
-                            : word == "support" ? &read.support_radius
+      double* const value = word == "radius"    ? &s.radius
+                            : word == "height"  ? &s.height
+                            : word == "eye"     ? &s.eye
+                            : word == "step"    ? &s.step
+                            : word == "slope"   ? &s.slope_degrees
+                            : word == "support" ? &s.support_radius
                                                 : nullptr;
       good = value != nullptr && words >> *value;
     }
     if (!good) {
-      throw Error(fmt::format("{}:{}: '{}' does not say a body as in '{}'; correct or remove the line", name_of_file,
-                              number, printable(line), body_line({}, Mode::walk)));
+      throw Error(fmt::format("{}:{}", name_of_file, number),
+                  fmt::format("'{}' does not say a body as in '{}'; correct or remove the line", printable(line),
+                              body_line({}, Mode::walk)));
     }
     if (!body) {
       try {
-        check(settings_of(read));
+        check(s);
       } catch (const Error& error) {
-        throw Error(fmt::format("{}:{}: {}; correct or remove the line", name_of_file, number, error.what()));
+        throw Error(fmt::format("{}:{}", name_of_file, number),
+                    fmt::format("{}; correct or remove the line", error.what()));
       }
       body = read;
       body->mode = *mode;
@@ -95,26 +87,27 @@ RecordedPath load_recorded_path(const std::filesystem::path& file) {
     path.places = read_path(in, name);
     path.body = recorded_body(text, name);
   } catch (const Error& error) {
-    path.problem = error.what();
+    path.problem = error;
   }
   return path;
 }
 
 std::string compare(const RecordedBody& recorded, const WalkerSettings& settings, Mode mode) {
   if (recorded.ghost) return "the path was recorded, in part, by a ghost: walls may stand in its way";
-  if (recorded.radius != settings.radius || recorded.height != settings.height) {
-    return fmt::format("the path was recorded by another body: {}; this is {}",
-                       describe(recorded.radius, recorded.height), describe(settings.radius, settings.height));
+  const WalkerSettings& body = recorded.settings;
+  if (body.radius != settings.radius || body.height != settings.height) {
+    return fmt::format("the path was recorded by another body: {}; this is {}", describe(body.radius, body.height),
+                       describe(settings.radius, settings.height));
   }
-  if (mode == Mode::walk && (recorded.step != settings.step || recorded.slope_degrees != settings.slope_degrees)) {
+  if (mode == Mode::walk && (body.step != settings.step || body.slope_degrees != settings.slope_degrees)) {
     return fmt::format(
         "the path was recorded by a body that steps {:g} m and climbs {:g} degrees; this one {:g} m and "
         "{:g} degrees",
-        recorded.step, recorded.slope_degrees, settings.step, settings.slope_degrees);
+        body.step, body.slope_degrees, settings.step, settings.slope_degrees);
   }
-  if (mode == Mode::walk && recorded.support_radius != settings.support_radius) {
+  if (mode == Mode::walk && body.support_radius != settings.support_radius) {
     return fmt::format("the path was recorded by a body with a support radius of {:g} m; this one has {:g} m",
-                       recorded.support_radius, settings.support_radius);
+                       body.support_radius, settings.support_radius);
   }
   if (recorded.mode == mode) return {};
   return fmt::format("the path was recorded in mode {}; this is mode {}", to_string(recorded.mode), to_string(mode));

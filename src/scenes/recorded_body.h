@@ -22,9 +22,8 @@ namespace roam::app {
 struct RecordedBody {
   Mode mode = Mode::walk;  ///< walk if all of the way was walked, else fly
   bool ghost = false;      ///< a ghost moved along part of the way, so walls may stand in it
-  double radius = 0.3, height = 1.8, eye = 1.6, step = 0.3;  ///< metres
-  double slope_degrees = 45.0;
-  double support_radius = 0.0;  ///< metres; 0: no support disc, and the line does not mention one
+  /// Radius, height, eye, step, slope and support disc; the rest has its default.
+  WalkerSettings settings{};
 };
 
 /// A further line; the first is body_line() of path_file.h.
@@ -34,12 +33,12 @@ struct RecordedBody {
 struct RecordedPath {
   std::vector<Waypoint> places;
   std::optional<RecordedBody> body;
-  std::string problem;  ///< why there are no places
+  std::optional<Error> problem;  ///< why there are no places
 
   /// The places; call it after invalid options are refused. Throws roam::Error as load_path does. It also throws, with
   /// file and line, for a line that begins like those above but continues differently.
   [[nodiscard]] const std::vector<Waypoint>& waypoints() const {
-    if (!problem.empty()) throw Error(problem);
+    if (problem) throw Error(*problem);
     return places;
   }
 };

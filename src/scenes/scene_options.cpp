@@ -114,11 +114,11 @@ void SceneOptions::check_there() const {
   for (const auto& scene : scenes) {
     if (!std::filesystem::exists(scene, none)) {
       if (none && none != std::errc::no_such_file_or_directory && none != std::errc::not_a_directory) {
-        throw Error(scene.string() + ": cannot be looked at: " + none.message());
+        throw Error(scene.string(), "cannot be looked at: " + none.message());
       }
       const std::filesystem::path target = std::filesystem::read_symlink(scene, none);
-      throw Error(scene.string() + (target.empty() ? ": there is no such file or folder. Check the spelling."
-                                                   : ": is a link to " + target.string() + ", which is not there."));
+      throw Error(scene.string(), target.empty() ? "there is no such file or folder. Check the spelling."
+                                                 : "is a link to " + target.string() + ", which is not there.");
     }
     // A store that is not complete, or whose CURRENT is gone, is no folder of photogrammetry: opening it says which.
     int folders_of_stores = 0;

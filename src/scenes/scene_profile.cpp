@@ -19,24 +19,26 @@ std::optional<SceneProfile> find_scene_profile(const SceneOptions& scene, Mode m
   try {
     profile = find_profile(scene.scenes);
   } catch (const Error& error) {
-    throw Error(std::string(error.what()) + "; --no-profile does without it");
+    throw Error::at(error.where(), std::string(error.what()) + "; --no-profile does without it");
   }
   if (!profile) return std::nullopt;
   if (profile->mode == Mode::fly && mode == Mode::walk) {
     tell(fmt::format("note: {} was trained for flying: it is not used on foot", file.string()));
     return std::nullopt;
   }
-  const bool same =
-      !recorded ||
-      (recorded->radius == profile->radius && recorded->height == profile->height && recorded->step == profile->step &&
-       recorded->slope_degrees == profile->slope_degrees && recorded->support_radius == profile->support_radius);
-  if (!same) return std::nullopt;
+  if (recorded) {
+    const WalkerSettings& body = recorded->settings;
+    const bool same = body.radius == profile->radius && body.height == profile->height && body.step == profile->step &&
+                      body.slope_degrees == profile->slope_degrees && body.support_radius == profile->support_radius;
+    if (!same) return std::nullopt;
+  }
   return SceneProfile{file, std::move(*profile)};
 }
 
 void demand_belongs(const SceneProfile& profile, const SceneIdentity& scene, const std::string& scene_name) {
   if (profile.profile.belongs_to(scene)) return;
-  throw Error(
+  throw Error::at(
+      profile.file.string(),
       fmt::format("{} is not of {}: it was trained on another scene, or on this one before it changed or read in "
                   "another way (--up, --unit, --ignore). Train again (roam train {}), delete the file, or say "
                   "--no-profile",

@@ -40,10 +40,10 @@ std::vector<Mesh> read_store(const Store& store, std::vector<TriangleId>& number
   const auto free = free_memory();
   if (free && needed > *free) {
     throw Error(
-        fmt::format("{}: its {} triangles take about {}B when they are surveyed, and {}B are free; survey the "
-                    "part of the scene that matters, or take a machine with more memory",
-                    store.name(), info.triangles, short_count(static_cast<double>(needed)),
-                    short_count(static_cast<double>(*free))));
+        store.name(),
+        fmt::format("its {} triangles take about {}B when they are surveyed, and {}B are free; survey the part of the "
+                    "scene that matters, or take a machine with more memory",
+                    info.triangles, short_count(static_cast<double>(needed)), short_count(static_cast<double>(*free))));
   }
   Mesh mesh;
   mesh.vertices.reserve(3 * info.triangles);
@@ -57,8 +57,9 @@ std::vector<Mesh> read_store(const Store& store, std::vector<TriangleId>& number
   };
   store.for_each_triangle(info.bounds, take, [&](const std::string& what) {
     // An unknown part would look like a hole in the floor, or like a missing door.
-    throw Error(fmt::format("{}; name the scene itself, or mend the store by `roam verify {} --repair SCENE`", what,
-                            store.name()));
+    throw Error::at(store.name(),
+                    fmt::format("{}; name the scene itself, or mend the store by `roam verify {} --repair SCENE`", what,
+                                store.name()));
   });
   std::vector<Mesh> meshes;
   meshes.push_back(std::move(mesh));
@@ -123,9 +124,10 @@ void check_spacing(const Surveyed& scene, double spacing, double width) {
   const Vec3 size = bounds.size();
   const double longest = std::max({size.x, size.y, size.z});
   if (spacing > 0.5 * longest) {
-    throw UsageError(fmt::format(
-        "--spacing {:g}: the scene is {:.3g} m long, so hardly a place would be looked at; {:g} m suits most scenes",
-        spacing, longest, usual));
+    throw UsageError(
+        fmt::format("--spacing {:g}", spacing),
+        fmt::format("the scene is {:.3g} m long, so hardly a place would be looked at; {:g} m suits most scenes",
+                    longest, usual));
   }
   if (overlooked * spacing > width) {
     tell(

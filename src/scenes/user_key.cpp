@@ -37,11 +37,13 @@ struct stat status_of(const Descriptor& opened, const fs::path& path) {
 
 /// Throws if it does not belong to the user, or if others have these rights.
 void demand_own(const struct stat& status, const fs::path& path, mode_t rights) {
-  if (status.st_uid != ::geteuid()) throw Error(fmt::format("{} belongs to another user", path.string()));
+  if (status.st_uid != ::geteuid())
+    throw Error::at(path.string(), fmt::format("{} belongs to another user", path.string()));
   if ((status.st_mode & rights) == 0) return;
   const bool reading = rights == others_reading;
-  throw Error(fmt::format("others may {} {}; take that right from them: chmod go-{} {}", reading ? "read" : "write to",
-                          path.string(), reading ? "rwx" : "w", path.string()));
+  throw Error::at(path.string(),
+                  fmt::format("others may {} {}; take that right from them: chmod go-{} {}",
+                              reading ? "read" : "write to", path.string(), reading ? "rwx" : "w", path.string()));
 }
 
 /// Opens the folder that holds the folder of the key; with `makes`, makes it if there is none. Not open if it does not
@@ -61,7 +63,8 @@ Descriptor open_above(const fs::path& path, bool makes) {
   }
   const mode_t mode = status_of(above, path).st_mode;
   if ((mode & others_writing) == 0 || (mode & S_ISVTX) != 0) return above;
-  throw Error(
+  throw Error::at(
+      path.string(),
       fmt::format("others may rename folders in {0}; take that right from them: chmod go-w {0}, or, where they "
                   "may write, chmod +t {0}",
                   path.string()));
@@ -89,7 +92,8 @@ Descriptor open_folder(const fs::path& path, bool makes) {
     if (errno != ENOTDIR && errno != ELOOP) files::fail("read", path, errno);
     std::error_code error;
     const bool link = fs::is_symlink(fs::symlink_status(path, error));
-    throw Error(fmt::format("{} is {}; put the folder itself there", path.string(), link ? "a link" : "no folder"));
+    throw Error::at(path.string(),
+                    fmt::format("{} is {}; put the folder itself there", path.string(), link ? "a link" : "no folder"));
   }
   demand_own(status_of(folder, path), path, others_writing);
   return folder;
@@ -106,7 +110,8 @@ StoreKey parse(const std::string& text, const fs::path& file) {
     key.bytes[i] = std::byte{byte};
   }
   if (good) return key;
-  throw Error(
+  throw Error::at(
+      file.string(),
       fmt::format("{} is damaged; put a copy of it back, or remove it: then stores that were built with it are "
                   "no longer known as yours",
                   file.string()));
@@ -122,7 +127,8 @@ StoreKey read(const Descriptor& folder, const fs::path& file) {
   const struct stat status = status_of(key, file);
   demand_own(status, file, others_reading);
   if (status.st_nlink > 1) {
-    throw Error(fmt::format("{} has other names, too (hard links); put a copy in its place", file.string()));
+    throw Error::at(file.string(),
+                    fmt::format("{} has other names, too (hard links); put a copy in its place", file.string()));
   }
   return parse(files::read_to_end(key, file, 4096), file);
 }
@@ -140,18 +146,18 @@ void make(const Descriptor& folder, const fs::path& file) {
 
 UserKey found(bool makes) {
   const fs::path file = key_file();
-  if (file.empty()) return {{}, "there is no folder for it: set HOME or XDG_DATA_HOME"};
+  if (file.empty()) return {{}, Error("there is no folder for it: set HOME or XDG_DATA_HOME")};
   try {
     const Descriptor folder = open_folder(file.parent_path(), makes);
     if (!folder.is_open() || !is_there(folder, file)) {
-      if (!makes) return {{}, "you have none yet, and the first `roam build` makes it"};
+      if (!makes) return {{}, Error("you have none yet, and the first `roam build` makes it")};
       // If two processes begin at once, one makes the key for both. Some file systems have no locks.
       (void)files::again([&] { return ::flock(folder.number(), LOCK_EX); });
       if (!is_there(folder, file)) make(folder, file);
     }
-    return {read(folder, file), ""};
+    return {read(folder, file)};
   } catch (const Error& error) {
-    return {{}, error.what()};
+    return {{}, error};
   }
 }
 

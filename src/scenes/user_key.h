@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include "roam/error.h"
 #include "roam/store.h"
 
 namespace roam::app {
@@ -15,7 +16,7 @@ namespace roam::app {
 
 struct UserKey {
   std::optional<StoreKey> key;
-  std::string problem;  ///< why there is none: a clause without a full stop, which names the file and what to do
+  Error problem{""};  ///< why there is none: a clause without a full stop, which names the file and what to do
 };
 
 /// The user's key. None if it does not exist, is damaged, is not the user's own, or if others may read or replace it.

@@ -102,14 +102,15 @@ std::vector<std::byte> read_file(const Folder& store, const std::string& name, s
   if (::fstat(file.number(), &status) != 0) fail("read", store, name, errno);
   const std::string path = (store / name).string();
   if (static_cast<std::uint64_t>(status.st_size) > limit) {
-    throw FileError(
-        fmt::format("cannot read {}: it has {} bytes, more than any file of its kind", path, status.st_size), EFBIG);
+    throw FileError(Error::at(path, fmt::format("cannot read {}: it has {} bytes, more than any file of its kind", path,
+                                                status.st_size)),
+                    EFBIG);
   }
   std::vector<std::byte> bytes(static_cast<std::size_t>(status.st_size));
   for (std::size_t done = 0; done < bytes.size();) {
     const ssize_t got = again([&] { return ::read(file.number(), bytes.data() + done, bytes.size() - done); });
     if (got < 0) fail("read", store, name, errno);
-    if (got == 0) throw Error(fmt::format("cannot read {}: it became shorter while it was read", path));
+    if (got == 0) throw Error::at(path, fmt::format("cannot read {}: it became shorter while it was read", path));
     done += static_cast<std::size_t>(got);
   }
   return bytes;
@@ -184,14 +185,14 @@ bool has_ended(const std::string& process) {
   return (::kill(static_cast<pid_t>(number), 0) != 0 && errno == ESRCH) || is_dead(number);
 }
 
-std::string held_by(const Folder& store, const std::string& process, bool ended) {
+std::string held_by(const std::string& process, bool ended) {
   if (ended) {
     return fmt::format(
-        "{} is still locked, though process {}, which built it, has ended here; it may run on another machine or in a "
+        "it is still locked, though process {}, which built it, has ended here; it may run on another machine or in a "
         "container: wait for it, or end it; what it has done is kept",
-        store.string(), process);
+        process);
   }
-  return fmt::format("{} is being built by {}: wait for it, or end it; what it has done is kept", store.string(),
+  return fmt::format("it is being built by {}: wait for it, or end it; what it has done is kept",
                      process.empty() ? "another process" : "process " + process);
 }
 
@@ -205,17 +206,18 @@ BuildLock::BuildLock(const Folder& store) {
   if (again([&] { return ::flock(lock.number(), LOCK_EX | LOCK_NB); }) != 0) {
     if (errno != EWOULDBLOCK) fail("lock", store, name, errno);
     const bool ended = has_ended(process.value_or(""));
-    throw LockedError(held_by(store, process.value_or(""), ended), ended);
+    throw LockedError(store.string(), held_by(process.value_or(""), ended), ended);
   }
   struct stat status {};
   if (::fstat(lock.number(), &status) != 0 || status.st_nlink == 0) {
-    throw LockedError(fmt::format("{} was given up by another build just now; build again", store.string()), false);
+    throw LockedError(store.string(), "another build has just given it up; build again", false);
   }
   // The lock is the only file written in place, so it must have no other name.
   if (status.st_nlink > 1 || !process) {
-    throw Error(fmt::format("cannot lock {}: {}; remove it", (store / name).string(),
-                            process ? "other names, perhaps outside of the store, lead to the same file"
-                                    : "it is not what a build leaves there"));
+    throw Error::at((store / name).string(),
+                    fmt::format("cannot lock {}: {}; remove it", (store / name).string(),
+                                process ? "other names, perhaps outside of the store, lead to the same file"
+                                        : "it is not what a build leaves there"));
   }
   const std::string own = std::to_string(::getpid()) + "\n";
   // Only for messages and has_ended, in the next process that tries.

@@ -90,7 +90,8 @@ inline constexpr std::uint64_t pack_header_bytes = 64;
 /// Thrown when another process holds the lock of a store.
 class LockedError : public Error {
  public:
-  LockedError(const std::string& what, bool ended) : Error(what), holder_ended(ended) {}
+  LockedError(const std::string& store, const std::string& what, bool ended)
+      : Error(store, what), holder_ended(ended) {}
   bool holder_ended;  ///< the process named in the lock no longer runs on this machine
 };
 

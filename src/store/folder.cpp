@@ -193,22 +193,22 @@ bool Folder::is_in_place() const noexcept {
 
 void fail(const char* what, const Folder& store, const std::string& name, int error) {
   const fs::path file = name.empty() ? store.path() : store / name;
+  const auto refuse = [&](const std::string& why) {
+    throw FileError(Error::at(file.string(), fmt::format("cannot {} {}: {}", what, file.string(), why)), error);
+  };
   if (error == is_a_link) {
-    throw FileError(fmt::format("cannot {} {}: {} is a symbolic link, and what a store consists of lies in its own "
-                                "folder; remove the link, and put there what it leads to",
-                                what, file.string(), in_the_way(store, name).string()),
-                    error);
+    refuse(
+        fmt::format("{} is a symbolic link, and what a store consists of lies in its own folder; remove the link, "
+                    "and put there what it leads to",
+                    in_the_way(store, name).string()));
   }
   if (is_foreign(error)) {
-    throw FileError(fmt::format("cannot {} {}: it is {}, which no store has there; remove it", what, file.string(),
-                                error == is_a_folder ? "a folder" : "no ordinary file"),
-                    error);
+    refuse(fmt::format("it is {}, which no store has there; remove it",
+                       error == is_a_folder ? "a folder" : "no ordinary file"));
   }
   if (error == ENOSPC || error == EDQUOT) {
-    throw FileError(fmt::format("cannot {} {}: {}; make room there or choose another output, and start again: what is "
-                                "complete is kept",
-                                what, file.string(), std::strerror(error)),
-                    error);
+    refuse(fmt::format("{}; make room there or choose another output, and start again: what is complete is kept",
+                       std::strerror(error)));
   }
   files::fail(what, file, error);
 }

@@ -115,9 +115,10 @@ std::size_t longest_token(std::string_view text) {
 }  // namespace
 
 TooLarge::TooLarge(const std::string& name, std::uint64_t memory)
-    : Error(fmt::format("{} takes more than the {:.5g} MiB of memory that it may take; where there is --memory, give "
-                        "more",
-                        name, std::ldexp(double(memory), -20))) {}
+    : Error(
+          at(name, fmt::format("{} takes more than the {:.5g} MiB of memory that it may take; where there is --memory, "
+                               "give more",
+                               name, std::ldexp(double(memory), -20)))) {}
 
 void JsonReader::read(std::string_view text) {
   if (longest_token(text) > most_token) refuse("a text or a number in it is longer than any of its kind");
@@ -156,7 +157,7 @@ void JsonReader::keep(std::uint64_t bytes) {
 }
 
 void JsonReader::refuse(const std::string& what) const {
-  throw Error(fmt::format("{} is damaged: {}; verify the store, and repair it from its scene", name_, what));
+  throw Error::at(name_, fmt::format("{} is damaged: {}; verify the store, and repair it from its scene", name_, what));
 }
 
 bool JsonMembers::is(const char* name, std::string_view tail, std::uint64_t part, int parts) {

@@ -45,8 +45,8 @@ std::string named_by(const std::string& current, const std::string& store) {
 }  // namespace
 
 RootDamage::RootDamage(const std::string& store, std::string damaged, std::string reason)
-    : Error(fmt::format("{0} is damaged: {1}: {2}; `roam build` with its scene and `-o {0}` mends it", store, damaged,
-                        reason)),
+    : Error(at(store, fmt::format("{0} is damaged: {1}: {2}; `roam build` with its scene and `-o {0}` mends it", store,
+                                  damaged, reason))),
       what_is_damaged(std::move(damaged)),
       why(std::move(reason)) {}
 
@@ -59,18 +59,18 @@ void refuse_to_open(const Folder& store) {
   const std::string name = store.string();
   std::error_code none;
   if (!store.open().is_open() && !fs::exists(store.path(), none)) {
-    throw Error(fmt::format("{} is not there{}; make a store with roam build", name,
-                            fs::is_symlink(store.path(), none) ? ": it is a link that leads nowhere" : ""));
+    throw Error::at(name, fmt::format("{} is not there{}; make a store with roam build", name,
+                                      fs::is_symlink(store.path(), none) ? ": it is a link that leads nowhere" : ""));
   }
-  if (!holds_store(store)) throw Error(fmt::format("{} is no store; make one with roam build", name));
+  if (!holds_store(store)) throw Error::at(name, fmt::format("{} is no store; make one with roam build", name));
   const unsigned current = type_of(store, current_file);
   if (current == S_IFLNK) throw RootDamage(name, current_file, "it is a symbolic link, which no store has");
   if (current != 0) throw RootDamage(name, current_file, "it is no file");
   const bool has_manifest = type_of(store, "manifests") == S_IFDIR && !names_in(store, "manifests").empty();
   // A build killed just before it writes CURRENT has written its manifest and still has its plan.
   if (type_of(store, "scratch/plan.json") != 0 || (!has_manifest && type_of(store, "scratch") == S_IFDIR)) {
-    throw NotComplete(fmt::format(
-        "{} is a store that is not complete: `roam build` with its scene, and -o, goes on where it stopped", name));
+    throw NotComplete(name,
+                      "this store is not complete: `roam build` with its scene, and -o, goes on where it stopped");
   }
   throw RootDamage(name, current_file, "it is not there");
 }

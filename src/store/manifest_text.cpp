@@ -247,10 +247,10 @@ class ManifestText : public JsonReader {
 
 void check_format(std::uint32_t version, const std::string& name) {
   if (version > format_version) {
-    throw NewerFormat(
-        fmt::format("{} is written in version {} of the format, and this roam reads versions up to {}: use a "
-                    "newer roam",
-                    name, version, format_version));
+    throw NewerFormat(name,
+                      fmt::format("it is written in version {} of the format, and this roam reads versions up to {}: "
+                                  "use a newer roam",
+                                  version, format_version));
   }
 }
 

@@ -167,7 +167,7 @@ std::size_t pack(std::span<const std::byte> content, std::span<std::byte> place,
 }  // namespace
 
 PartDamage::PartDamage(const std::string& file, const char* why)
-    : Error(fmt::format("{} is damaged: {}; verify the store, and repair it from its scene", file, why)) {}
+    : Error(at(file, fmt::format("{} is damaged: {}; verify the store, and repair it from its scene", file, why))) {}
 
 const std::string& PartFile::object(std::uint64_t triangle) const {
   static const std::string none;

@@ -27,7 +27,7 @@ class PartBytes {
     out = out.first(static_cast<std::size_t>(std::min<std::uint64_t>(out.size(), part_.bytes - at_)));
     if (out.empty()) return 0;
     if (const char* problem = store_.bytes->read(file_, at_, out)) {
-      throw Error(fmt::format("{}/{} cannot be used: {}", store_.name, file_, problem));
+      throw Error::at(name(), fmt::format("{} cannot be used: {}", name(), problem));
     }
     hash_.add(out);
     at_ += out.size();

@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "roam/error.h"
 #include "store/opened.h"
 #include "store/part.h"
 #include "store/tile_reader.h"
@@ -86,7 +87,7 @@ struct Store::State::Recent {
     std::uint64_t first = 0, end = std::numeric_limits<std::uint64_t>::max();  ///< range of their triangles
     store::PartFile names;
     std::size_t bytes = 0;
-    std::string damage;  ///< why the part is damaged; then there are no names
+    std::optional<Error> damage;  ///< why the part is damaged; then there are no names
   };
   /// The name of the object of a part's triangle, if it is kept. Throws roam::Error if the part is known to be damaged.
   [[nodiscard]] std::optional<std::string> object(std::uint32_t part, std::uint64_t triangle) const;

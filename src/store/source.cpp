@@ -1,6 +1,7 @@
 // The source of a store's triangle: part, object and number in the scene.
 #include <fmt/format.h>
 
+#include <cstring>
 #include <functional>
 #include <mutex>
 #include <optional>
@@ -27,7 +28,8 @@ Source source_of(const Store::State& s, TriangleId triangle) {
   const auto tile = static_cast<std::uint32_t>(triangle >> store::triangle_bits & ((1U << store::tile_bits) - 1));
   const auto number = static_cast<std::uint32_t>(triangle & ((1U << store::triangle_bits) - 1));
   const auto no_such = [&] {
-    return Error(fmt::format("{} has no triangle {}: it must come from an answer of this store", s.name, triangle));
+    return Error::at(s.name,
+                     fmt::format("{} has no triangle {}: it must come from an answer of this store", s.name, triangle));
   };
   if (page >= s.pages.size()) throw no_such();
   const auto& numbers = s.recent->numbers_of(page, tile, no_such);
@@ -35,10 +37,9 @@ Source source_of(const Store::State& s, TriangleId triangle) {
   const store::SourceNumber from = numbers[number];
   const auto part = s.part_of.find(from.part);
   if (part == s.part_of.end() || from.number >= s.manifest.parts[part->second].triangles) {
-    throw Error(
-        fmt::format("{}: triangle {} comes from a part of the scene that the manifest does not name: the store "
-                    "is damaged; verify it, and repair it from its scene",
-                    s.name, triangle));
+    throw Error(s.name, fmt::format("triangle {} comes from a part of the scene that the manifest does not name: the "
+                                    "store is damaged; verify it, and repair it from its scene",
+                                    triangle));
   }
   return {part->second, from.number};
 }
@@ -77,8 +78,8 @@ Store::State::Recent::Objects read_objects(const Store::State& s, std::uint32_t 
   } catch (const store::PartDamage& damage) {
     read = {};
     read.part = part;
-    read.damage = damage.what();
-    read.bytes = read.damage.size();
+    read.damage = damage;
+    read.bytes = damage.where().size() + std::strlen(damage.what());
   }
   read.bytes *= 2;  // a vector that grows takes up to twice its elements
   return read;
@@ -89,7 +90,7 @@ Store::State::Recent::Objects read_objects(const Store::State& s, std::uint32_t 
 std::optional<std::string> Store::State::Recent::object(std::uint32_t part, std::uint64_t triangle) const {
   for (const Objects& o : objects) {
     if (o.part != part || triangle < o.first || triangle >= o.end) continue;
-    if (!o.damage.empty()) throw Error(o.damage);
+    if (o.damage) throw *o.damage;
     return o.names.object(triangle);
   }
   return {};
@@ -102,7 +103,7 @@ SourceTriangle store::find_source(const Store::State& s, TriangleId triangle, co
   if (!object) {
     lock.unlock();
     Store::State::Recent::Objects read = read_objects(s, part, number, check);
-    if (read.damage.empty()) object = read.names.object(number);
+    if (!read.damage) object = read.names.object(number);
     lock.lock();
     s.recent->keep(std::move(read));
     if (!object) object = s.recent->object(part, number);  // throws

@@ -26,7 +26,8 @@ std::shared_ptr<const Store> store::open_store(const Folder& folder, std::uint64
   } catch (const RootDamage& damage) {
     // Other programs also have files called CURRENT.
     if (holds_store(folder) || damage.what_is_damaged != current_file) throw;
-    throw Error(fmt::format("{} is no store: its file CURRENT is none of a store", folder.string()));
+    throw Error::at(folder.string(),
+                    fmt::format("{} is no store: its file CURRENT is none of a store", folder.string()));
   }
 }
 

@@ -26,7 +26,7 @@ std::string place(const Box& box) {
 }  // namespace
 
 Unusable::Unusable(const std::string& store, const std::string& what, const char* reason)
-    : Error(fmt::format("{}: {} cannot be used: {}", store, what, reason)), why(reason) {}
+    : Error(store, fmt::format("{} cannot be used: {}", what, reason)), why(reason) {}
 
 std::string name_of(std::uint64_t page, std::uint32_t tile, const Box& box) {
   return fmt::format("tile {} of page {} {}", tile, page, place(box));

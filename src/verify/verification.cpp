@@ -233,7 +233,8 @@ std::vector<std::string> remarks(const Verification& found) {
 void demand_all_read(const Verification& found, const std::string& store, const std::string& besides) {
   if (found.unread.empty()) return;
   const std::size_t more = found.unread.size() - 1;
-  throw Error(
+  throw Error::at(
+      store,
       fmt::format("the way could not be verified everywhere: {}{}; {}mend the store by `roam verify {} --repair SCENE`",
                   found.unread.front(), more > 0 ? fmt::format(", nor could {} more", more) : "",
                   besides.empty() ? "" : besides + ", or ", store));

@@ -210,7 +210,7 @@ bool is_taken(const std::string& stream, std::uint64_t memory) {
     }
   } catch (const StreamReceiver::StreamDamaged&) {
   } catch (const StreamReceiver::ContentTooLarge&) {
-  } catch (const StreamReceiver::Failure&) {
+  } catch (const Error&) {
     return false;
   }
   return receiver.ended();

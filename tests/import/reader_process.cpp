@@ -110,9 +110,8 @@ TEST_F(ImportReaderProcess, EndsAReaderThatHangs) {
 }
 
 TEST_F(ImportReaderProcess, PassesOnWhatTheReaderSaysIsWrong) {
-  EXPECT_EQ(
-      error_of_stream(Stream().hello().frame(FrameKind::failure, PayloadWriter().add_text("scene.obj:7: so")).bytes()),
-      "scene.obj:7: so");
+  const auto failure = PayloadWriter().add_text("scene.obj:7").add_text("scene.obj:7: so");
+  EXPECT_EQ(error_of_stream(Stream().hello().frame(FrameKind::failure, failure).bytes()), "scene.obj:7: so");
 }
 
 TEST_F(ImportReaderProcess, RefusesADamagedStream) {

@@ -123,7 +123,8 @@ TEST_F(ViewObjects, StoreBuildingHandsOverThePager) {
 }
 
 TEST_F(ViewObjects, StoreBuildingSaysWhyItFailed) {
-  const std::string failing = folder_.write("roam", "#!/bin/sh\necho 'roam: the disk is full' >&2\nexit 1\n");
+  const std::string failing = folder_.write(
+      "roam", "#!/bin/sh\necho '{\"error\": {\"message\": \"the disk is full\", \"where\": null}}'\nexit 1\n");
   std::filesystem::permissions(failing, std::filesystem::perms::owner_all);
   for (const auto& [program, why] :
        {std::pair(failing, "the store could not be built: the disk is full"),

@@ -302,7 +302,7 @@ TEST(Status, TellsHowLoadingGoesOn) {
   state.seconds_left = 8.0;
   EXPECT_EQ(load_text("collision", state), "collision 81 %: 1.20 M triangles, 8.0 s left");
   state.phase = LoadState::Phase::failed;
-  state.error = "mine.dae: is no Collada";
+  state.error = Error("mine.dae", "is no Collada");
   EXPECT_EQ(load_text("collision", state), "collision failed: mine.dae: is no Collada");
   state.phase = LoadState::Phase::done;
   EXPECT_EQ(load_text("collision", state), "");

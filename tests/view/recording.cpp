@@ -102,15 +102,15 @@ TEST(PathRecorder, SaysTheBodyAndItsModes) {
   };
   const RecordedBody walked = record({Mode::walk, Mode::walk});
   EXPECT_EQ(walked.mode, Mode::walk);
-  EXPECT_EQ(walked.radius, 0.25);
-  EXPECT_EQ(walked.height, 1.7);
-  EXPECT_EQ(walked.eye, 1.4);
-  EXPECT_EQ(walked.step, 0.2);
-  EXPECT_EQ(walked.slope_degrees, 40.0);
+  EXPECT_EQ(walked.settings.radius, 0.25);
+  EXPECT_EQ(walked.settings.height, 1.7);
+  EXPECT_EQ(walked.settings.eye, 1.4);
+  EXPECT_EQ(walked.settings.step, 0.2);
+  EXPECT_EQ(walked.settings.slope_degrees, 40.0);
   EXPECT_FALSE(walked.ghost);
   const RecordedBody mixed = record({Mode::walk, Mode::ghost, Mode::walk});
   EXPECT_EQ(mixed.mode, Mode::fly);
-  EXPECT_EQ(mixed.radius, 0.25);
+  EXPECT_EQ(mixed.settings.radius, 0.25);
   EXPECT_TRUE(mixed.ghost);
 }
 
@@ -134,7 +134,7 @@ TEST(RecordedBody, ThatClimbsOtherwiseIsAnotherOnFoot) {
   EXPECT_EQ(compare(body, settings, Mode::walk), "");
   settings.step = 0.1;
   EXPECT_TRUE(contains(compare(body, settings, Mode::walk), "steps 0.3 m and climbs 45 degrees; this one 0.1 m"));
-  settings.step = body.step;
+  settings.step = body.settings.step;
   settings.slope_degrees = 10.0;
   EXPECT_TRUE(contains(compare(body, settings, Mode::walk), "0.3 m and 10 degrees"));
   body.mode = Mode::fly;
@@ -144,9 +144,9 @@ TEST(RecordedBody, ThatClimbsOtherwiseIsAnotherOnFoot) {
 TEST(RecordedBody, IsTheBodyOfThePlanUnlessOptionsSayOtherwise) {
   RecordedBody body;
   body.mode = Mode::fly;
-  body.radius = 0.25;
-  body.height = 1.7;
-  body.slope_degrees = 30.0;
+  body.settings.radius = 0.25;
+  body.settings.height = 1.7;
+  body.settings.slope_degrees = 30.0;
   ViewOptions options;
   options.path = "tour.path";
   ViewSettings settings;
@@ -188,11 +188,13 @@ TEST(WalkLog, KeepsForVerifyingWhatABodyDidBeforeItWasHeld) {
   held.held = true;
   log.take(held, Mode::walk, 0.01);
   log.take(step(2.0, 0.0), Mode::ghost, 0.01);
-  EXPECT_EQ(log.tally().steps, 2u);
-  EXPECT_EQ(log.tally().length, 2.0);
-  EXPECT_EQ(log.tally().least_axis_clearance, 0.4);
+  ViewReport report;
+  log.fill(report);
+  EXPECT_EQ(report.steps, 2u);
+  EXPECT_EQ(report.length, 2.0);
+  EXPECT_EQ(report.least_axis_clearance, 0.4);
   int of_the_step = 0;
-  log.take_pieces().each(100, [&](std::span<const verification::Piece> pieces) {
+  report.pieces.each(100, [&](std::span<const verification::Piece> pieces) {
     for (const verification::Piece& piece : pieces) {
       EXPECT_NE(piece.step, 2u) << "nothing is promised of a ghost";
       of_the_step += piece.step == 1 ? 1 : 0;

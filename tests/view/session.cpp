@@ -59,7 +59,7 @@ TEST(Session, WalksWhileAKeyIsDownAndStopsAtTheWall) {
 
 TEST(Session, GoesToWhatIsDoubleClicked) {
   Driven d(room_obj(), {10, 0, 0.95, 0});
-  d.session->stage().draw(0.0);  // one clicks on what one sees
+  d.session->stage().draw();  // one clicks on what one sees
   d.double_click(0, 0);
   d.run(5.0);
   EXPECT_GT(d.place().x, 15.0);
@@ -251,10 +251,10 @@ TEST(Session, ShowsTheBodyAndWhatIsNear) {
   d.run(1.0);
   d.tap('v');
   const std::string shot = d.folder.file("marks.png");
-  d.session->stage().draw_picture(shot, 0.0);
+  d.session->stage().draw_picture(shot);
   const Shot marked(shot);
   d.tap('v');
-  d.session->stage().draw_picture(shot, 0.0);
+  d.session->stage().draw_picture(shot);
   const Shot plain(shot);
   int different = 0;
   for (int y = 0; y < plain.height(); ++y) {

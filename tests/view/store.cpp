@@ -219,7 +219,7 @@ TEST(ViewStore, ShowsTheTrianglesOfAStoreWhoseSceneIsGone) {
   ASSERT_TRUE(d.on_store() || d.until([&] { return d.on_store(); }));
   const std::string shot = d.folder.file("shot.png");
   d.run(0.2);
-  d.session->stage().draw_picture(shot, 0.0);
+  d.session->stage().draw_picture(shot);
   const Shot picture(shot);
   EXPECT_GT(picture.colours(), 3u);
   EXPECT_LT(picture.sky(), 0.01);  // one is in a room

@@ -40,8 +40,8 @@ std::vector<ProbedSize> parse_sizes(const std::string& text, const std::string& 
     size.height = 2.0 * size.radius;
     if (good && cross != std::string::npos) good = is_number(item.substr(cross + 1), size.height);
     if (!good)
-      throw UsageError(fmt::format("{}: '{}' is no size: R or RxH, in metres, e.g. 0.3x1.9", where,
-                                   printable(item, longest_excerpt)));
+      throw UsageError(
+          where, fmt::format("'{}' is no size: R or RxH, in metres, e.g. 0.3x1.9", printable(item, longest_excerpt)));
     sizes.push_back(size);
     i = end;
   }

@@ -77,12 +77,13 @@ bool Arrival::receive(const Seen& seen) {
   return true;
 }
 
-void Arrival::place_ghost(const Seen& seen, const std::string& why) {
+void Arrival::place_ghost(const Seen& seen, const Error& why) {
   if (needs_collision_) {
-    throw Error(fmt::format("the collision could not be loaded: {}{}", why,
-                            loader_.wants_store() ? "; a store of it (roam build) takes little memory" : ""));
+    throw Error::at(why.where(),
+                    fmt::format("the collision could not be loaded: {}{}", why.what(),
+                                loader_.wants_store() ? "; a store of it (roam build) takes little memory" : ""));
   }
-  news_.note(fmt::format("the collision could not be loaded, so walls are passed through: {}", why));
+  news_.note(fmt::format("the collision could not be loaded, so walls are passed through: {}", why.what()));
   // An empty space has nothing to stand on.
   collision_keys_ = roamer_.controls().text();
   roamer_.controls().rebind("gravity =\nghost =");

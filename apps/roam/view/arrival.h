@@ -71,7 +71,7 @@ class Arrival {
   void fill(ViewReport& report);
 
  private:
-  void place_ghost(const Seen& seen, const std::string& why);
+  void place_ghost(const Seen& seen, const Error& why);
   void tell_where_put();
   [[nodiscard]] bool is_ground_below() const;
   void name_blockage(ViewReport& report) const;

@@ -17,7 +17,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 [[noreturn]] void fail(const std::filesystem::path& file, const std::string& what) {
-  throw Error(fmt::format("{}: {}; correct the file, or move it away to begin a new one", file.string(), what));
+  throw Error(file.string(), fmt::format("{}; correct the file, or move it away to begin a new one", what));
 }
 
 Json read(const std::filesystem::path& file) {

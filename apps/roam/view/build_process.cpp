@@ -57,15 +57,18 @@ StoreBuildReport report_of(const Json& json) {
   return report;
 }
 
-/// Why the child failed, in its own words if it has any.
-std::string reason(const process::Child& child) {
-  constexpr std::string_view prefix = "roam: ";
-  std::string words = child.last_words();
-  if (words.starts_with(prefix)) words.erase(0, prefix.size());
-  if (!words.empty()) return words;
+/// The error that failure_report() printed.
+Error error_of(const Json& json) {
+  const Json& where = json.at("where");
+  return Error::at(where.is_null() ? std::string() : where.get<std::string>(), json.at("message"));
+}
+
+/// For a child that ended without a report and without an error.
+Error silent_end(const process::Child& child) {
   const process::Ending& ending = child.ending();
-  return ending.signal != 0 ? fmt::format("`roam build` was ended by signal {}", ending.signal)
-                            : fmt::format("`roam build` ended with status {}", ending.exit_code);
+  const std::string words = child.last_words();
+  return Error(fmt::format("`roam build` {} {}{}", ending.signal != 0 ? "was ended by signal" : "ended with status",
+                           ending.signal != 0 ? ending.signal : ending.exit_code, words.empty() ? "" : ": " + words));
 }
 
 }  // namespace
@@ -104,6 +107,7 @@ StoreBuildReport BuildProcess::build() {
   process::Child child(program_, arguments, {.descriptors = {{lines.theirs(), STDOUT_FILENO}}});
   lines.child_has_started();
   std::optional<StoreBuildReport> report;
+  std::optional<Error> error;
   while (!lines.ended()) {
     if (!loading_.wanted()) {
       child.end();
@@ -115,12 +119,14 @@ StoreBuildReport BuildProcess::build() {
     if (json.contains("step")) {
       const LoadState state = state_of(json);
       loading_.tell(state.phase, state.share, state.triangles);
+    } else if (json.contains("error")) {
+      error = error_of(json.at("error"));
     } else {
       report = report_of(json);
     }
   }
   if (!child.wait(process::Child::usual_grace)) child.end();
-  if (!report || !child.ending().is_success()) throw Error(reason(child));
+  if (!report || !child.ending().is_success()) throw error ? *error : silent_end(child);
   return *report;
 }
 
@@ -133,8 +139,9 @@ void BuildProcess::load() {
   loading_.tell(LoadState::Phase::looking, 0.0, report.triangles);
   std::shared_ptr<const Store> store = what_.store.empty() ? open_store_beside(output_) : Store::open(output_);
   if (store->info().hash != report.store.hash) {
-    throw Error(fmt::format("{} is not what was built just now: another store has taken its place; build again",
-                            output_.string()));
+    throw Error::at(output_.string(),
+                    fmt::format("{} is not what was built just now: another store has taken its place; build again",
+                                output_.string()));
   }
   auto pager = std::make_shared<Pager>(std::move(store), PagerOptions{.memory = what_.store_memory});
   wait_at(*pager, walker_, place(), [this] { return loading_.wanted(); });

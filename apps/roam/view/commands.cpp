@@ -14,37 +14,37 @@ using osgRoam::Controls;
 using Kind = Controls::Kind;
 
 struct Line {
-  Command command;
   const char* name;
   const char* keys;
   const char* help;
 };
 
 constexpr Line lines[] = {
-    {Command::help, "help", "H", "shows or hides this help"},
-    {Command::hud, "hud", "F1", "all of the display, the least of it, none"},
-    {Command::marks, "marks", "V", "shows the body, what it touches and the nearest triangles"},
-    {Command::fullscreen, "fullscreen", "F", "fills the screen, or leaves it"},
-    {Command::bookmark, "bookmark", "B", "keeps this place as a bookmark"},
-    {Command::next_bookmark, "next_bookmark", "Tab", "goes to the next bookmark; with Shift to the one before"},
-    {Command::picture, "picture", "P, F12", "writes a picture, roam-1.png and so on, into this folder"},
-    {Command::record, "record", "R", "begins or ends recording the way, as roam-1.path and so on"},
-    {Command::store, "store", "O", "builds the scene's collision store in the background, or stops that"},
-    {Command::adapt, "adapt", "Y", "takes the size of the body that would get on here"},
-    {Command::quit, "quit", "F10", "ends; so does Escape when the mouse is free"},
+    {"help", "H", "shows or hides this help"},
+    {"hud", "F1", "all of the display, the least of it, none"},
+    {"marks", "V", "shows the body, what it touches and the nearest triangles"},
+    {"fullscreen", "F", "fills the screen, or leaves it"},
+    {"bookmark", "B", "keeps this place as a bookmark"},
+    {"next_bookmark", "Tab", "goes to the next bookmark; with Shift to the one before"},
+    {"picture", "P, F12", "writes a picture, roam-1.png and so on, into this folder"},
+    {"record", "R", "begins or ends recording the way, as roam-1.path and so on"},
+    {"store", "O", "builds the scene's collision store in the background, or stops that"},
+    {"adapt", "Y", "takes the size of the body that would get on here"},
+    {"quit", "F10", "ends; so does Escape when the mouse is free"},
 };
 
 /// Headings of the help, and the commands that they stand above.
 constexpr std::pair<const char*, const char*> headings[] = {{"forward", "Move"}, {"grab", "Mouse"}, {"help", "View"}};
 
-/// The keys as Controls::rebind reads them. Throws roam::Error that begins with `entry` for a name of none.
-std::vector<std::string> printed(const std::vector<std::string>& names, const std::string& entry) {
+/// The keys as Controls::rebind reads them. Throws roam::Error for a name of none.
+std::vector<std::string> printed(const std::vector<std::string>& names, const std::string& file,
+                                 const std::string& entry) {
   std::vector<std::string> keys;
   for (const std::string& name : names) {
     try {
       keys.push_back(Controls::print(Controls::parseKey(name)));
     } catch (const Error& error) {
-      throw Error(fmt::format("{}: {}", entry, error.what()));
+      throw Error(file, fmt::format("{}: {}", entry, error.what()));
     }
   }
   return keys;
@@ -69,10 +69,16 @@ const std::vector<std::string>& camera_names() {
   return names;
 }
 
-Command parse_command(const std::string& name) {
-  const auto found =
-      std::find_if(std::begin(lines), std::end(lines), [&](const Line& line) { return line.name == name; });
-  return found == std::end(lines) ? Command::none : found->command;
+bool Commands::run(const std::string& name) const {
+  if (std::none_of(std::begin(lines), std::end(lines), [&](const Line& line) { return line.name == name; }))
+    return false;
+  const auto found = deeds_.find(name);
+  try {
+    if (found != deeds_.end()) found->second();
+  } catch (const Error& error) {
+    news_.note(error.what());
+  }
+  return true;
 }
 
 void set_up(osgRoam::Controls& controls, const ViewSettings& settings) {
@@ -81,17 +87,17 @@ void set_up(osgRoam::Controls& controls, const ViewSettings& settings) {
                "other cameras, as in osgviewer; only the first meets walls", Kind::gesture);
   std::string changes;
   for (const auto& [command, keys] : settings.keys) {
-    const std::string entry = fmt::format("{}: the entry \"keys.{}\"", settings.file.string(), command);
+    const std::string file = settings.file.string(), entry = fmt::format("the entry \"keys.{}\"", command);
     const Controls::Command* const known = controls.find(command);
-    if (known == nullptr) throw Error(entry + ": there is no such command; `roam view --keys` lists them");
-    if (known->kind == Kind::gesture) throw Error(entry + " is no command that can be given another key");
-    changes += fmt::format("{} = {}\n", command, fmt::join(printed(keys, entry), ", "));
+    if (known == nullptr) throw Error(file, entry + ": there is no such command; `roam view --keys` lists them");
+    if (known->kind == Kind::gesture) throw Error(file, entry + " is no command that can be given another key");
+    changes += fmt::format("{} = {}\n", command, fmt::join(printed(keys, file, entry), ", "));
   }
   try {
     controls.rebind(changes);
     demand_free_digits(controls);
   } catch (const Error& error) {
-    throw Error(fmt::format("{}: keys: {}", settings.file.string(), error.what()));
+    throw Error(settings.file.string(), fmt::format("keys: {}", error.what()));
   }
 }
 

@@ -1,32 +1,34 @@
 #pragma once
 /// \file
-/// What keys do in `roam view` beside moving: the lines that it adds to the manipulator's table.
+/// What keys do in `roam view` beside moving: the lines that it adds to the manipulator's table, and their deeds.
 
+#include <functional>
+#include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "osgRoam/Controls.h"
+#include "view/news.h"
 #include "view/settings.h"
 
 namespace roam::app {
 
-/// The commands that are the viewer's own, by their names in the table.
-enum class Command : std::uint8_t {
-  help,
-  hud,
-  fullscreen,
-  record,
-  picture,
-  bookmark,
-  next_bookmark,
-  marks,
-  store,
-  adapt,
-  quit,
-  none,  ///< a name that is not the viewer's
-};
+/// The deeds behind the commands that are the viewer's own. The objects that do them add them; those of the body are
+/// added when it is in the scene.
+class Commands {
+ public:
+  explicit Commands(News& news) : news_(news) {}
 
-[[nodiscard]] Command parse_command(const std::string& name);
+  /// `name`: of the table.
+  void add(const std::string& name, std::function<void()> deed) { deeds_[name] = std::move(deed); }
+  /// Does what the command does now, if anything; an error is news. False if the command is not the viewer's own.
+  bool run(const std::string& name) const;
+
+ private:
+  News& news_;
+  std::map<std::string, std::function<void()>> deeds_;
+};
 
 /// Adds the viewer's commands to the manipulator's, then gives all commands the keys of the settings. Throws
 /// roam::Error, naming the settings file, for a command or key that does not exist or two commands on one key.

@@ -7,7 +7,6 @@
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 #include <osgUtil/IntersectionVisitor>
-#include <sstream>
 #include <utility>
 
 #include "osgRoam/BoxIntersector.h"
@@ -61,7 +60,7 @@ void Display::tell_news() {
   if (!display_told_ && scene_.state().phase == LoadState::Phase::failed) {
     display_told_ = true;
     news_.note(fmt::format("{} of the scene can be seen, its walls are there all the same: {}",
-                           scene_.has_pieces() ? "not all" : "nothing", scene_.state().error));
+                           scene_.has_pieces() ? "not all" : "nothing", scene_.state().error.what()));
   }
   if (!display_told_ && scene_.report()) {
     display_told_ = true;
@@ -82,7 +81,7 @@ void Display::tell_news() {
   }
 }
 
-bool Display::is_due(double now) const { return shown_at_ < 0.0 || now - shown_at_ >= period; }
+bool Display::is_due() const { return shown_at_ < 0.0 || stage_.now() - shown_at_ >= period; }
 
 Status Display::status(bool has_body) {
   Status s;
@@ -109,9 +108,9 @@ Status Display::status(bool has_body) {
   return s;
 }
 
-void Display::show(Status status, double now) {
+void Display::show(Status status) {
   shown_ = std::move(status);
-  shown_at_ = now;
+  shown_at_ = stage_.now();
   stage_.show(shown_);
 }
 
@@ -153,12 +152,6 @@ void Display::fill(ViewReport& report) {
   report.triangles = shown_.triangles;
   report.world_bytes = shown_.world_bytes;
   report.resident_bytes = resident_bytes();
-  report.frames = stage_.frame_times().count();
-  constexpr double ns_in_ms = 1e-6;
-  report.frame_ms = times(stage_.frame_times(), ns_in_ms);
-  report.renderer = stage_.frame().describe();
-  std::istringstream hud(stage_.hud().text());
-  for (std::string line; std::getline(hud, line);) report.hud.push_back(line);
   report.missing_pages = scene_.missing_pages();
   if (!scene_.report()) return;
   const DisplayReport& display = *scene_.report();

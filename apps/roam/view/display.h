@@ -20,19 +20,21 @@ class Display {
 
   /// After each step: `wish` is the velocity that was wished for (m/s).
   void watch(const StepReport& report, const Vec3& wish);
-  /// Shows or hides the body, what it touches, and the nearest triangles.
-  void toggle_marks() { marks_ = !marks_; }
+  /// Adds "marks", which shows or hides the body, what it touches, and the nearest triangles.
+  void add_to(Commands& commands) {
+    commands.add("marks", [this] { marks_ = !marks_; });
+  }
 
   /// In each frame: says what of the scene cannot be loaded, and which pictures are written.
   void tell_news();
-  /// Whether it is time to show() again. `now`: s since the session began.
-  [[nodiscard]] bool is_due(double now) const;
+  /// Whether it is time to show() again.
+  [[nodiscard]] bool is_due() const;
   /// Shows the next frame's status at once.
   void hurry() { shown_at_ = -1.0; }
   /// The part of the status that this object knows. `has_body`: a walker is in the scene.
   [[nodiscard]] Status status(bool has_body);
   /// Shows `status` until it is due again.
-  void show(Status status, double now);
+  void show(Status status);
   /// The status shown last.
   [[nodiscard]] const Status& shown() const { return shown_; }
 

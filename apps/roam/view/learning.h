@@ -8,6 +8,7 @@
 
 #include "osgRoam/Manipulator.h"
 #include "roam/size_learner.h"
+#include "view/commands.h"
 #include "view/news.h"
 #include "view/options.h"
 #include "view/status.h"
@@ -25,8 +26,10 @@ class Learning {
 
   /// After each step, see SizeLearner::watch.
   void watch(const Vec3& wish, double seconds);
-  /// The person accepts the present offer, if there is one.
-  void accept() { accepted_ = true; }
+  /// Adds "adapt", which accepts the present offer, if there is one.
+  void add_to(Commands& commands) {
+    commands.add("adapt", [this] { accepted_ = true; });
+  }
   /// Between two frames: gives the walker what is accepted, and saves it.
   void update();
   /// Gives accepted sizes to a new walker.

@@ -2,7 +2,6 @@
 
 #include <exception>
 #include <new>
-#include <string>
 #include <utility>
 
 #include "roam/error.h"
@@ -36,16 +35,18 @@ void Loading::tell(LoadState::Phase phase, double share, std::uint64_t triangles
 }
 
 void Loading::run() {
-  std::string error;
+  Error error("");
   try {
     load_();
     return;
   } catch (const Cancelled&) {
-    error = "cancelled";
+    error = Error("cancelled");
   } catch (const std::bad_alloc&) {
-    error = "out of memory; build a store of it, which takes little (roam build), or take a smaller scene";
+    error = Error("out of memory; build a store of it, which takes little (roam build), or take a smaller scene");
+  } catch (const Error& e) {
+    error = e;
   } catch (const std::exception& e) {
-    error = e.what();
+    error = Error(e.what());
   }
   with_state([&](LoadState& state) {
     state.phase = LoadState::Phase::failed;

@@ -32,8 +32,8 @@ std::array<int, 2> parse_size(const std::string& text) {
   const auto [last, second] = std::from_chars(crossed ? cross + 1 : end, end, size[1]);
   const auto fits = [](int side) { return side >= 1 && side <= largest_side; };
   if (!crossed || second != std::errc() || last != end || !fits(size[0]) || !fits(size[1])) {
-    throw UsageError(
-        fmt::format("--size {}: a picture is WIDTHxHEIGHT, e.g. 1280x720, each from 1 to {}", text, largest_side));
+    throw UsageError(fmt::format("--size {}", text),
+                     fmt::format("a picture is WIDTHxHEIGHT, e.g. 1280x720, each from 1 to {}", largest_side));
   }
   return size;
 }
@@ -63,12 +63,13 @@ WalkerSettings walker_settings(const ViewOptions& options, const ViewSettings& s
   const bool replay = !options.path.empty();
   ViewSettings known = replay ? ViewSettings{} : settings;
   if (recorded) {
-    known.radius = recorded->radius;
-    known.height = recorded->height;
-    known.eye = recorded->eye;
-    known.step = recorded->step;
-    known.slope = recorded->slope_degrees;
-    if (!options.radius) walker.support_radius = recorded->support_radius;
+    const WalkerSettings& body = recorded->settings;
+    known.radius = body.radius;
+    known.height = body.height;
+    known.eye = body.eye;
+    known.step = body.step;
+    known.slope = body.slope_degrees;
+    if (!options.radius) walker.support_radius = body.support_radius;
   }
   if (profile && !options.radius) {
     const Profile& trained = profile->profile;
@@ -121,10 +122,10 @@ bool ends_in(const std::filesystem::path& file, std::initializer_list<const char
 /// Refuses names that say no kind of picture or film that can be made.
 void check_kinds(const ViewOptions& options) {
   if (!options.screenshot.empty() && !ends_in(options.screenshot, {".png", ".jpg", ".jpeg"})) {
-    throw UsageError("--screenshot " + options.screenshot.string() + ": a picture's name ends in .png, .jpg or .jpeg");
+    throw UsageError("--screenshot " + options.screenshot.string(), "a picture's name ends in .png, .jpg or .jpeg");
   }
   if (!options.record.empty() && options.record.extension() != ".mp4") {
-    throw UsageError("--record " + options.record.string() + ": a film's name ends in .mp4");
+    throw UsageError("--record " + options.record.string(), "a film's name ends in .mp4");
   }
 }
 
@@ -142,12 +143,13 @@ void check_files(const ViewOptions& options, const ViewSettings& settings) {
                              {"--record-path", options.record_path},
                              {"--trace", options.trace}};
   if (is_standard(options.record_path))
-    throw UsageError("--record-path -: standard output does not take a path; name a file");
+    throw UsageError("--record-path -", "standard output does not take a path; name a file");
   demand_one_output("--trace", options.trace, options.json);
   for (const Written& output : outputs) {
     if (output.file.empty()) continue;
+    const std::string where = fmt::format("{} {}", output.option, output.file.string());
     const auto refuse = [&](const std::string& what) {
-      throw UsageError(fmt::format("{} {} would overwrite {}", output.option, output.file.string(), what));
+      throw UsageError(where, fmt::format("this would overwrite {}; name another file", what));
     };
     for (const auto& scene : options.scene.scenes) {
       if (same(scene, output.file)) refuse("the scene");
@@ -161,8 +163,7 @@ void check_files(const ViewOptions& options, const ViewSettings& settings) {
     const std::filesystem::path folder = output.file.parent_path();
     std::error_code none;
     if (!folder.empty() && !std::filesystem::is_directory(folder, none)) {
-      throw UsageError(fmt::format("{} {}: there is no folder {}; make it, or name another", output.option,
-                                   output.file.string(), folder.string()));
+      throw UsageError(where, fmt::format("there is no folder {}; make it, or name another", folder.string()));
     }
   }
 }
@@ -252,7 +253,7 @@ void ViewOptions::add_to(CLI::App& verb) {
 ViewPlan make_plan(const ViewOptions& options, const ViewSettings& settings,
                    const std::optional<RecordedBody>& recorded, const std::optional<SceneProfile>& profile) {
   for (const auto& scene : options.scene.scenes) {
-    if (scene.empty()) throw UsageError("view: a scene has no name: \"\"; give it a file or a folder");
+    if (scene.empty()) throw UsageError("view", "a scene has no name: \"\"; give it a file or a folder");
   }
   check_kinds(options);
   check_files(options, settings);
@@ -262,8 +263,9 @@ ViewPlan make_plan(const ViewOptions& options, const ViewSettings& settings,
   try {
     check(plan.walker);
   } catch (const Error& error) {
-    throw UsageError(settings.file.empty() ? error.what()
-                                           : fmt::format("{} (with {})", error.what(), settings.file.string()));
+    if (settings.file.empty()) throw UsageError(error);
+    throw UsageError(
+        Error::at(settings.file.string(), fmt::format("{} (with {})", error.what(), settings.file.string())));
   }
   const std::string mode = options.mode.value_or(to_string(recorded ? recorded->mode : Mode::walk));
   plan.mode = mode == "fly" ? Mode::fly : mode == "ghost" ? Mode::ghost : Mode::walk;
@@ -277,8 +279,8 @@ ViewPlan make_plan(const ViewOptions& options, const ViewSettings& settings,
   if (!options.at.empty()) {
     for (const double x : options.at) {
       if (!(std::abs(x) <= coordinate_limit)) {
-        throw UsageError(
-            fmt::format("--at: {:g} is no number from {:g} to {:g}", x, -coordinate_limit, coordinate_limit));
+        throw UsageError("--at",
+                         fmt::format("{:g} is no number from {:g} to {:g}", x, -coordinate_limit, coordinate_limit));
       }
     }
     const auto value = [&](std::size_t i) { return i < options.at.size() ? options.at[i] : 0.0; };
@@ -286,17 +288,17 @@ ViewPlan make_plan(const ViewOptions& options, const ViewSettings& settings,
   }
   if (recorded) plan.note = compare(*recorded, plan.walker, plan.mode);
   if (options.scene.memory && *options.scene.memory < Pager::least_memory) {
-    throw UsageError(fmt::format("--memory: a store needs {}M at least", Pager::least_memory >> 20));
+    throw UsageError("--memory", fmt::format("a store needs {}M at least", Pager::least_memory >> 20));
   }
   if (!options.path.empty() && plan.mode == Mode::ghost) {
-    throw UsageError("--path with --mode ghost: a ghost meets nothing on its way; take walk or fly");
+    throw UsageError("--path with --mode ghost", "a ghost meets nothing on its way; take walk or fly");
   }
   if (options.verify && plan.mode == Mode::ghost) {
-    throw UsageError("--verify with --mode ghost: a ghost passes through walls, so there is nothing to verify");
+    throw UsageError("--verify with --mode ghost", "a ghost passes through walls, so there is nothing to verify");
   }
   const bool ends = !options.path.empty() || !options.screenshot.empty() || options.time_limit > 0.0;
   if (options.headless && !ends) {
-    throw UsageError("--headless: without a screen nobody can roam; give it a --path, a --screenshot or a --time");
+    throw UsageError("--headless", "without a screen nobody can roam; give it a --path, a --screenshot or a --time");
   }
   return plan;
 }

@@ -5,7 +5,6 @@
 #include "cli/exit_status.h"
 #include "roam/error.h"
 #include "view/body.h"
-#include "view/commands.h"
 #include "view/settings.h"
 
 namespace roam::app {
@@ -25,21 +24,27 @@ Records::Records(const SceneOptions& scene, osgRoam::Manipulator& roamer, News& 
   try {
     bookmarks_.emplace(folder.empty() ? folder : folder / "bookmarks.json", scene.scenes, scene.up, scene.unit);
   } catch (const Error& error) {
-    problem_ = error.what();
-    news_.note(problem_);
+    problem_ = error;
+    news_.note(error.what());
   }
 }
 
 Pose Records::named(const std::string& name) {
-  if (!bookmarks_) throw Error(problem_);
+  if (!bookmarks_) throw Error(*problem_);
   if (const Bookmark* found = bookmarks_->find(name)) return found->pose;
-  throw UsageError(
-      fmt::format("--bookmark {}: this scene has {}", name,
-                  bookmarks_->all().empty() ? "no bookmarks" + remedy(roamer_) : "these: " + bookmarks_->names()));
+  throw UsageError(fmt::format("--bookmark {}", name),
+                   fmt::format("this scene has {}", bookmarks_->all().empty() ? "no bookmarks" + remedy(roamer_)
+                                                                              : "these: " + bookmarks_->names()));
+}
+
+void Records::add_to(Commands& commands) {
+  commands.add("bookmark", [this] { add_bookmark(); });
+  commands.add("next_bookmark", [this] { go_to_next_bookmark(roamer_.down("fast")); });
+  commands.add("record", [this] { recorder_ ? finish() : record("roam.path", files::Naming::numbered); });
 }
 
 void Records::add_bookmark() {
-  if (!bookmarks_) throw Error(problem_);
+  if (!bookmarks_) throw Error(*problem_);
   news_.tell("bookmark " + bookmarks_->add(standing_pose_of(roamer_)).name);
 }
 
@@ -55,14 +60,6 @@ void Records::go_to_next_bookmark(bool backwards) {
 
 void Records::record(const std::filesystem::path& file, files::Naming naming) {
   recorder_.emplace(file, roamer_.settings(), roamer_.mode(), naming);
-}
-
-void Records::toggle_recording() {
-  if (recorder_) {
-    finish();
-  } else {
-    record("roam.path", files::Naming::numbered);
-  }
 }
 
 void Records::add_frame(double now) {

@@ -7,8 +7,10 @@
 #include <string>
 
 #include "osgRoam/Manipulator.h"
+#include "roam/error.h"
 #include "scenes/scene_options.h"
 #include "view/bookmarks.h"
+#include "view/commands.h"
 #include "view/news.h"
 #include "view/path_recorder.h"
 #include "view/status.h"
@@ -28,11 +30,12 @@ class Records {
   void add_bookmark();
   /// Puts the body to the next bookmark, or the one before; first to the first, or the last.
   void go_to_next_bookmark(bool backwards);
+  /// Adds these two as "bookmark" and "next_bookmark"; and "record", which ends the recording, or begins one in the
+  /// current folder under a new name.
+  void add_to(Commands& commands);
 
   /// Begins to record the way. Throws roam::Error if the file cannot be written.
   void record(const std::filesystem::path& file, files::Naming naming = files::Naming::exact);
-  /// Ends the recording, or begins one in the current folder under a new name.
-  void toggle_recording();
   /// In each frame with a body. `now`: s since the session began.
   void add_frame(double now);
   /// Ends the recording, if there is one.
@@ -44,7 +47,7 @@ class Records {
   osgRoam::Manipulator& roamer_;
   News& news_;
   std::optional<Bookmarks> bookmarks_;
-  std::string problem_;  ///< why there are no bookmarks
+  std::optional<Error> problem_;  ///< why there are no bookmarks
   std::optional<PathRecorder> recorder_;
 };
 

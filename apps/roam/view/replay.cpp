@@ -27,6 +27,18 @@ Replay::Replay(Walker& walker, const std::vector<Waypoint>& path, const RouteOpt
       speed_(options.speed),
       mode_(walker.mode()) {}
 
+void Replay::lead(osgRoam::Manipulator& roamer) {
+  roamer.setPilot([this](Walker&, double) { return advance(); });
+  roamer.placed();
+  look(roamer, 0.0);
+}
+
+void Replay::look(osgRoam::Manipulator& roamer, double seconds) {
+  if (done()) return;
+  const auto [yaw, pitch] = gaze(seconds);
+  roamer.look(yaw, pitch);
+}
+
 const StepReport* Replay::advance() {
   if (walker_->mode() != mode_) left_ = true;
   return done() ? nullptr : &route_.advance();

@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "osgRoam/Manipulator.h"
 #include "roam/path_file.h"
 #include "roam/route.h"
 #include "view/view_report.h"
@@ -15,6 +16,10 @@ namespace roam::app {
 class Replay {
  public:
   Replay(Walker& walker, const std::vector<Waypoint>& path, const RouteOptions& options);
+
+  /// From now on leads the manipulator's body, and its eye when look() is called in each frame.
+  void lead(osgRoam::Manipulator& roamer);
+  void look(osgRoam::Manipulator& roamer, double seconds);
 
   /// One step; its report, or null when the path has come to its end before.
   const StepReport* advance();

@@ -2,8 +2,8 @@
 /// \file
 /// One session of `roam view`: from the empty window to the last frame.
 
-#include <chrono>
 #include <optional>
+#include <string>
 
 #include "osgRoam/Manipulator.h"
 #include "view/arrival.h"
@@ -30,9 +30,10 @@ namespace roam::app {
 ///     Learning       sizes of the body
 ///     Records        the recorded path, bookmarks
 ///     Display        what is shown beside the scene
+///     Stage          window, time, pictures and films
 ///
-/// All of them tell News. The body collides with the scene's store if there is one of this very scene, else with the
-/// scene as it was read. A store that is built meanwhile takes its place.
+/// All of them tell News, and add to Commands what their keys do. The body collides with the scene's store if there is
+/// one of this very scene, else with the scene as it was read. A store that is built meanwhile takes its place.
 ///
 /// Everything between two frames happens in the thread that calls frame(). Reading, indexing and the search for a start
 /// have threads of their own and never delay a frame.
@@ -53,10 +54,8 @@ class Session {
   /// Ends the session: writes what is still to be written.
   [[nodiscard]] ViewReport finish();
 
-  /// Does what a key of the table does; only for the viewer's own commands.
-  void run(Command command);
-  /// Escape goes down: closes the help, else frees the mouse. False if there is neither.
-  bool escape();
+  /// Commands::run; the display shows at once what it did.
+  bool run(const std::string& command);
 
   [[nodiscard]] osgRoam::Manipulator& roamer() { return *roamer_; }
   [[nodiscard]] Stage& stage() { return stage_; }
@@ -73,15 +72,15 @@ class Session {
   void see_to_store();
   void show_keys();
   void show(bool at_once);
-  void draw(bool last);
   [[nodiscard]] Vec3 place() const;
+  [[nodiscard]] bool is_replaying() const { return replay_ && !replay_->done(); }
   [[nodiscard]] bool is_at_its_end() const;
-  [[nodiscard]] bool is_watched() const;
 
   const SceneAndStore what_;
   const ViewOptions options_;
   const osg::ref_ptr<osgRoam::Manipulator> roamer_;
   News news_;
+  Commands commands_;
   Records records_;
   const ViewPlan plan_;
   WalkLog log_;
@@ -93,10 +92,7 @@ class Session {
   StoreBuilding building_;
   std::optional<Learning> learning_;
   std::optional<Replay> replay_;
-  const std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
-  double now_ = 0.0;  ///< s since then
-  double placed_at_ = 0.0;
-  bool picture_taken_ = false;
+  double placed_at_ = 0.0;  ///< s since the session began
   bool quits_ = false;
 };
 

@@ -8,7 +8,7 @@ namespace roam::app {
 
 bool SessionHandler::handle(const osgGA::GUIEventAdapter& event, osgGA::GUIActionAdapter& /*action*/) {
   if (event.getEventType() == osgGA::GUIEventAdapter::CLOSE_WINDOW) {
-    session_.run(Command::quit);
+    session_.run("quit");
     return false;
   }
   const bool down = event.getEventType() == osgGA::GUIEventAdapter::KEYDOWN;
@@ -18,8 +18,16 @@ bool SessionHandler::handle(const osgGA::GUIEventAdapter& event, osgGA::GUIActio
   if (!down || event.getHandled() || session_.roamer_leads()) return false;
   const bool ctrl = (event.getModKeyMask() & osgGA::GUIEventAdapter::MODKEY_CTRL) != 0;
   const auto* command = session_.roamer().controls().lookup(key, ctrl);
-  if (command == nullptr || parse_command(command->name) == Command::none) return false;
-  session_.run(parse_command(command->name));
+  return command != nullptr && session_.run(command->name);
+}
+
+/// Closes the help, else frees the mouse. False if there is neither.
+bool SessionHandler::step_out() {
+  graphics::Hud& hud = session_.stage().hud();
+  osgRoam::Manipulator& roamer = session_.roamer();
+  if (!hud.help_shown() && !roamer.mouseGrab()) return false;
+  if (!hud.help_shown()) roamer.setMouseGrab(false);
+  hud.show_help(false);
   return true;
 }
 
@@ -29,9 +37,9 @@ bool SessionHandler::handle_escape(bool down) {
   if (command != nullptr && command->name != "release") return false;
   if (down) {
     // A key that stays down is pressed again and again.
-    escape_spent_ |= session_.escape();
+    escape_spent_ |= step_out();
   } else if (!std::exchange(escape_spent_, false)) {
-    session_.run(Command::quit);
+    session_.run("quit");
   }
   return true;
 }

@@ -18,6 +18,7 @@ class SessionHandler : public osgGA::GUIEventHandler {
   bool handle(const osgGA::GUIEventAdapter& event, osgGA::GUIActionAdapter& action) override;
 
  private:
+  bool step_out();
   bool handle_escape(bool down);
 
   Session& session_;

@@ -28,8 +28,7 @@ class Section {
 
   [[noreturn]] void fail(const std::string& entry, const std::string& what) const {
     const std::string path = where_.empty() || entry.empty() ? where_ + entry : where_ + "." + entry;
-    throw Error(path.empty() ? fmt::format("{}: {}", file_.string(), what)
-                             : fmt::format("{}: the entry \"{}\" {}", file_.string(), printable(path), what));
+    throw Error(file_.string(), path.empty() ? what : fmt::format("the entry \"{}\" {}", printable(path), what));
   }
 
   [[nodiscard]] std::optional<json> take(const std::string& entry) {
@@ -122,7 +121,7 @@ ViewSettings read_settings(const std::filesystem::path& file) {
   try {
     document = files::parse_json(text);
   } catch (const Error& error) {
-    throw Error(fmt::format("{}: {}", file.string(), error.what()));
+    throw Error(file.string(), error.what());
   }
   // Far wider than anything sensible: what they bound exactly is for those who use them to say.
   constexpr double metres = 1000.0;

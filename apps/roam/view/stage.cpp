@@ -2,10 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <chrono>
 #include <filesystem>
+#include <sstream>
 #include <string>
 #include <system_error>
+#include <thread>
 
 #include "graphics/lettering.h"
 #include "osg_plugins/plugins.h"
@@ -14,7 +15,9 @@
 namespace roam::app {
 namespace {
 
-using Clock = std::chrono::steady_clock;
+constexpr double headless_frame = 1.0 / 60.0;  // s
+// Where nothing else keeps the frames from running free: no screen shows more.
+constexpr auto shortest_frame = std::chrono::microseconds(6900);
 
 /// Letters and pictures are all that OpenSceneGraph's plugins are wanted for in this process. After this it loads no
 /// other library, whatever it comes upon.
@@ -65,7 +68,9 @@ Stage::Stage(const ViewOptions& options, const ViewPlan& plan)
   set_hud(plan.hud);
   viewer_->realize();
   if (options.fullscreen && !context_.headless) toggle_fullscreen();
-  if (!options.record.empty()) film_.emplace(*frame_, options.record);
+  if (options.record.empty()) return;
+  film_.emplace(*frame_, options.record);
+  written_.push_back(options.record.string());
 }
 
 TextureQuality Stage::texture_quality() const {
@@ -92,6 +97,14 @@ void Stage::set_hud(HudMode mode) {
   hud_->set_detail(detail(mode));
 }
 
+void Stage::add_to(Commands& commands) {
+  commands.add("help", [this] { hud_->show_help(!hud_->help_shown()); });
+  commands.add("hud", [this] { cycle_hud(); });
+  commands.add("fullscreen", [this] { toggle_fullscreen(); });
+  commands.add("picture", [this] { pictures_.emplace_back(*frame_, "roam.png", true, files::Naming::numbered); });
+}
+
+/// From full to minimal, off, and full again.
 void Stage::cycle_hud() {
   set_hud(hud_mode_ == HudMode::full ? HudMode::minimal : hud_mode_ == HudMode::minimal ? HudMode::off : HudMode::full);
 }
@@ -117,10 +130,6 @@ void Stage::toggle_fullscreen() {
   fullscreen_ = !fullscreen_;
 }
 
-void Stage::take_picture(const std::filesystem::path& path) {
-  pictures_.emplace_back(*frame_, path, true, files::Naming::numbered);
-}
-
 std::vector<Picture> Stage::poll_pictures() {
   std::vector<Picture> told;
   std::erase_if(pictures_, [&](graphics::Screenshot& picture) {
@@ -136,19 +145,31 @@ std::vector<Picture> Stage::poll_pictures() {
   return told;
 }
 
-void Stage::see_events(double seconds) {
+double Stage::advance(bool runs) {
+  const double before = now_;
+  runs_ = runs;
+  frame_begin_ = Clock::now();
+  if (!headless()) {
+    now_ = std::chrono::duration<double>(frame_begin_ - begin_).count();
+  } else if (runs) {
+    now_ += headless_frame;
+  }
+  return now_ - before;
+}
+
+void Stage::see_events() {
   if (!headless()) {
     viewer_->advance();
     viewer_->eventTraversal();
     return;
   }
-  viewer_->advance(seconds);
+  viewer_->advance(now_);
   osgGA::EventQueue::Events events;
   viewer_->getEventQueue()->takeEvents(events);
   osg::ref_ptr<osgGA::GUIEventAdapter> tick =
       new osgGA::GUIEventAdapter(*viewer_->getEventQueue()->getCurrentEventState());
   tick->setEventType(osgGA::GUIEventAdapter::FRAME);
-  tick->setTime(seconds);
+  tick->setTime(now_);
   events.push_back(tick);
   for (const auto& event : events) {
     for (const auto& handler : viewer_->getEventHandlers()) handler->handle(event, nullptr, viewer_->getEventVisitor());
@@ -157,8 +178,8 @@ void Stage::see_events(double seconds) {
   }
 }
 
-void Stage::draw(double seconds) {
-  if (film_ && film_->is_due(seconds)) film_->before_frame(seconds);
+void Stage::draw() {
+  if (film_ && film_->is_due(now_)) film_->before_frame(now_);
   const auto begin = Clock::now();
   viewer_->updateTraversal();
   viewer_->renderingTraversals();
@@ -167,10 +188,33 @@ void Stage::draw(double seconds) {
   times_.add(ns);
 }
 
-void Stage::draw_picture(const std::filesystem::path& path, double seconds) {
+void Stage::draw_if_seen(bool wanted) {
+  if (!headless()) {
+    draw();
+    std::this_thread::sleep_until(frame_begin_ + shortest_frame);
+  } else if (wanted || (runs_ && film_ && film_->is_due(now_))) {
+    draw();
+  } else if (!runs_) {
+    // Nothing to see and nothing to do but wait for those who load.
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  }
+}
+
+void Stage::draw_picture(const std::filesystem::path& path) {
   graphics::Screenshot picture(*frame_, path, true);
-  draw(seconds);
+  draw();
   picture.finish();
+  written_.push_back(path.string());
+}
+
+void Stage::fill(ViewReport& report) const {
+  constexpr double ns_in_ms = 1e-6;
+  report.frames = times_.count();
+  report.frame_ms = times(times_, ns_in_ms);
+  report.renderer = frame_->describe();
+  std::istringstream hud(hud_->text());
+  for (std::string line; std::getline(hud, line);) report.hud.push_back(line);
+  report.written.insert(report.written.end(), written_.begin(), written_.end());
 }
 
 void Stage::finish() {

@@ -2,6 +2,7 @@
 /// \file
 /// Where a session is shown: window or none, picture, display, pictures and films of it.
 
+#include <chrono>
 #include <filesystem>
 #include <optional>
 #include <osgViewer/Viewer>
@@ -16,10 +17,12 @@
 #include "graphics/overlay.h"
 #include "graphics/shading.h"
 #include "roam/math.h"
+#include "view/commands.h"
 #include "view/display_node.h"
 #include "view/film.h"
 #include "view/options.h"
 #include "view/status.h"
+#include "view/view_report.h"
 
 namespace roam::app {
 
@@ -45,32 +48,41 @@ class Stage {
   /// Shows the lines and the message; changes nothing when they are what is shown.
   void show(const Status& status);
   void set_hud(HudMode mode);
-  /// From full to minimal, off, and full again.
-  void cycle_hud();
-  void toggle_fullscreen();
+  /// Adds "help", "hud", "fullscreen" and "picture", which writes numbered files; `poll_pictures` tells when one is
+  /// written.
+  void add_to(Commands& commands);
 
-  /// The film that --record asks for; none: nothing is filmed.
-  [[nodiscard]] const std::optional<Film>& film() const { return film_; }
-  /// Takes a picture of the next frame, to a numbered file; `poll_pictures` tells when it is written.
-  void take_picture(const std::filesystem::path& path);
   /// The pictures that are done since last asked.
   [[nodiscard]] std::vector<Picture> poll_pictures();
 
-  /// Lets all handlers see the events of a frame. Headless, the time is `seconds` since the session began, so that a
-  /// session is the same on every machine; in a window it is that of the clock.
-  void see_events(double seconds);
-  /// Updates and draws one frame. `seconds` since the session began. Events must have been seen to.
-  void draw(double seconds);
+  /// Begins a frame. Returns its seconds: in a window those of the clock; headless 1/60 if the session `runs`, else 0,
+  /// so that a session is the same on every machine.
+  double advance(bool runs);
+  /// Seconds since the session began.
+  [[nodiscard]] double now() const { return now_; }
+  /// Lets all handlers see the events of the frame.
+  void see_events();
+  /// Updates and draws the frame. Events must have been seen to.
+  void draw();
+  /// Draws the frame if somebody sees it: in a window, or in a film that is due; or if it is `wanted`. Then rests, so
+  /// that frames do not run free.
+  void draw_if_seen(bool wanted);
   /// Draws one frame into a file and waits for it. Throws roam::Error when it can not be written.
-  void draw_picture(const std::filesystem::path& path, double seconds);
+  void draw_picture(const std::filesystem::path& path);
+  /// Adds the frames, and the files that options ask for.
+  void fill(ViewReport& report) const;
   /// Ends film and pictures. Throws roam::Error when one of them could not be written.
   void finish();
 
-  [[nodiscard]] const Histogram& frame_times() const { return times_; }  ///< ns
   /// 0 until there were two: the first one sets everything up.
   [[nodiscard]] double last_frame_ms() const { return last_ms_; }
 
  private:
+  using Clock = std::chrono::steady_clock;
+
+  void cycle_hud();
+  void toggle_fullscreen();
+
   graphics::Context context_;
   osg::ref_ptr<osgViewer::Viewer> viewer_;
   std::optional<graphics::Frame> frame_;
@@ -79,7 +91,12 @@ class Stage {
   std::optional<Film> film_;
   std::vector<graphics::Screenshot> pictures_;
   HudMode hud_mode_ = HudMode::full;
-  Histogram times_;
+  std::vector<std::string> written_;  ///< film and picture
+  const Clock::time_point begin_ = Clock::now();
+  Clock::time_point frame_begin_ = begin_;
+  double now_ = 0.0;  ///< s
+  bool runs_ = false;
+  Histogram times_;  ///< ns
   double last_ms_ = 0.0;
   bool fullscreen_ = false;
   int width_ = 0, height_ = 0;  ///< pixels, of the window before it filled the screen

@@ -67,7 +67,8 @@ std::string mode_text(const Status& status) {
 
 std::string load_text(const char* what, const LoadState& state) {
   if (state.phase == Phase::done) return {};
-  if (state.phase == Phase::failed) return fmt::format("{} failed: {}", what, printable(state.error, longest_sentence));
+  if (state.phase == Phase::failed)
+    return fmt::format("{} failed: {}", what, printable(state.error.what(), longest_sentence));
   if (state.phase == Phase::comparing) return fmt::format("{}: comparing the scene with its store", what);
   if (state.phase == Phase::looking) return fmt::format("{}: looking for a place to start", what);
   std::string text = fmt::format("{} {:.0f} %", what, 100.0 * share_of(state));

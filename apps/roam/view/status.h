@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "roam/error.h"
 #include "roam/pager.h"
 #include "roam/walker.h"
 #include "view/hold.h"
@@ -21,7 +22,7 @@ struct LoadState {
   double share = 0.0;           ///< of this phase, in [0, 1]
   std::uint64_t triangles = 0;  ///< so far
   double seconds_left = -1.0;   ///< negative: cannot be told yet
-  std::string error;            ///< of a failed one
+  Error error{""};              ///< of a failed one
 };
 
 [[nodiscard]] inline bool is_over(const LoadState& state) {

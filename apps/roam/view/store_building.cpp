@@ -54,7 +54,7 @@ void StoreBuilding::follow(const Vec3& place) {
     news_.tell(fmt::format("stopped; what was done is kept in {}, and {} goes on from there", build_->output().string(),
                            key()));
   } else {
-    news_.note(fmt::format("the store could not be built: {}", state.error));
+    news_.note(fmt::format("the store could not be built: {}", state.error.what()));
   }
   build_.reset();
 }

@@ -56,7 +56,8 @@ std::string compare(const Store& store, const SceneOptions& scene, const std::op
 
 /// Why nobody knows that the user built it, as a clause for people; empty where it is certain.
 std::string not_yours(const Store& store, const UserKey& user) {
-  if (!user.key) return "it is not known whether you built it, for no key of yours can be used: " + user.problem;
+  if (!user.key)
+    return "it is not known whether you built it, for no key of yours can be used: " + std::string(user.problem.what());
   if (store.is_authentic(*user.key)) return "";
   return "it was not built with your key, and one that comes with a scene may lack a wall";
 }
@@ -67,8 +68,9 @@ SceneAndStore scene_and_store(const SceneOptions& scene, const std::filesystem::
   SceneAndStore what{scene, store, false, scene.store_memory()};
   what.scene.memory.reset();
   if (!store.empty() && !Store::is_store(store)) {
-    throw UsageError(fmt::format("--store {}: there is no store there; `roam build {} -o {}` makes it", store.string(),
-                                 scene.names(), store.string()));
+    throw UsageError(
+        fmt::format("--store {}", store.string()),
+        fmt::format("there is no store there; `roam build {} -o {}` makes it", scene.names(), store.string()));
   }
   const auto& scenes = scene.scenes;
   if (!scene.name_a_store()) {
@@ -79,8 +81,10 @@ SceneAndStore scene_and_store(const SceneOptions& scene, const std::filesystem::
     throw UsageError("a store is a scene of its own: name the scene, and the store by --store");
   }
   if (scene.says_how_to_read()) {
-    throw UsageError(scenes.front().string() +
-                     " is a store: --up, --unit, --ignore and --lossless are said when it is built (roam build)");
+    throw UsageError(
+        Error::at(scenes.front().string(),
+                  scenes.front().string() +
+                      " is a store: --up, --unit, --ignore and --lossless are said when it is built (roam build)"));
   }
   what.store = scenes.front();
   const std::filesystem::path shown = scene_beside(what.store);

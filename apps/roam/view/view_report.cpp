@@ -43,18 +43,6 @@ Times times(const Histogram& histogram, double scale) {
   return {scale * histogram.quantile(0.5), scale * histogram.quantile(0.99), scale * histogram.largest()};
 }
 
-void add_steps(ViewReport& report, WalkLog& log) {
-  const Tally& tally = log.tally();
-  report.steps = tally.steps;
-  report.simulated = tally.simulated;
-  report.length = tally.length;
-  report.throttled = tally.throttled;
-  if (tally.least_axis_clearance > 0.0) report.least_axis_clearance = tally.least_axis_clearance;
-  report.collision_ns = times(log.collision_times(), 1.0);
-  report.collision_own_ns = times(log.own_collision_times(), 1.0);
-  report.pieces = log.take_pieces();
-}
-
 void append(std::vector<std::string>& all, const std::vector<std::string>& more) {
   for (const std::string& one : more) {
     if (std::find(all.begin(), all.end(), one) == all.end()) all.push_back(one);

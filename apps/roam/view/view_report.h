@@ -12,7 +12,6 @@
 #include "roam/route.h"
 #include "verify/piece_log.h"
 #include "view/pose.h"
-#include "view/walk_log.h"
 
 namespace roam::app {
 
@@ -65,9 +64,6 @@ struct ViewReport {
   verification::PieceLog pieces;     ///< for --verify
   std::optional<verification::Verification> verified;
 };
-
-/// Adds the steps, and gives away the pieces for --verify.
-void add_steps(ViewReport& report, WalkLog& log);
 
 /// Appends the sentences of `more` that are not in `all`.
 void append(std::vector<std::string>& all, const std::vector<std::string>& more);

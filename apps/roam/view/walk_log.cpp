@@ -1,8 +1,10 @@
 #include "view/walk_log.h"
 
+#include <utility>
+
 namespace roam::app {
 
-WalkLog::WalkLog(const std::filesystem::path& trace, bool keep_pieces) : keep_pieces_(keep_pieces) {
+WalkLog::WalkLog(const std::filesystem::path& trace, bool keep_pieces) : trace_file_(trace), keep_pieces_(keep_pieces) {
   if (!trace.empty()) trace_.emplace(trace);
 }
 
@@ -20,6 +22,18 @@ void WalkLog::take(const StepReport& report, Mode mode, double seconds) {
 void WalkLog::take_frame(std::int64_t passed, std::int64_t own) {
   collision_.add(static_cast<double>(passed));
   own_collision_.add(static_cast<double>(own));
+}
+
+void WalkLog::fill(ViewReport& report) {
+  report.steps = tally_.steps;
+  report.simulated = tally_.simulated;
+  report.length = tally_.length;
+  report.throttled = tally_.throttled;
+  if (tally_.least_axis_clearance > 0.0) report.least_axis_clearance = tally_.least_axis_clearance;
+  report.collision_ns = times(collision_, 1.0);
+  report.collision_own_ns = times(own_collision_, 1.0);
+  report.pieces = std::move(pieces_);
+  if (!trace_file_.empty()) report.written.push_back(trace_file_.string());
 }
 
 void WalkLog::finish() {

@@ -11,6 +11,7 @@
 #include "roam/tally.h"
 #include "roam/walker.h"
 #include "verify/piece_log.h"
+#include "view/view_report.h"
 
 namespace roam::app {
 
@@ -31,17 +32,16 @@ class WalkLog {
 
   /// Sums over the steps and placements; a ghost has no clearance.
   [[nodiscard]] const Tally& tally() const { return tally_; }
-  /// For verify(), once.
-  [[nodiscard]] verification::PieceLog take_pieces() { return std::move(pieces_); }
-  [[nodiscard]] const Histogram& collision_times() const { return collision_; }          ///< ns a frame with steps
-  [[nodiscard]] const Histogram& own_collision_times() const { return own_collision_; }  ///< the same, the thread's own
+  /// Adds the steps and the trace, and gives away the pieces for verify().
+  void fill(ViewReport& report);
 
  private:
+  std::filesystem::path trace_file_;
   std::optional<TraceFile> trace_;
   bool keep_pieces_;
   verification::PieceLog pieces_;
-  Histogram collision_, own_collision_;
-  std::uint64_t rows_ = 0;  ///< of the trace, counted in steps and placements
+  Histogram collision_, own_collision_;  ///< ns a frame with steps: by the clock, and the thread's own
+  std::uint64_t rows_ = 0;               ///< of the trace, counted in steps and placements
   Tally tally_;
 };
 

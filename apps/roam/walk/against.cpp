@@ -12,8 +12,8 @@ namespace roam::app {
 void check_against(const SceneOptions& scene) {
   for (const auto& path : scene.scenes) {
     if (Store::is_store(path)) {
-      throw UsageError("--against " + path.string() +
-                       ": this is a store; name the scene, or say --verify to check against the store itself");
+      throw UsageError("--against " + path.string(),
+                       "this is a store; name the scene, or say --verify to check against the store itself");
     }
   }
   scene.check_there();

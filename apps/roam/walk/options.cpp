@@ -19,11 +19,11 @@ void check_output(const WalkOptions& options, const char* option, const std::fil
     return !file.empty() && std::filesystem::equivalent(file, output, none);
   };
   if (output.empty()) return;
-  const std::string what = std::string(option) + " " + output.string();
+  const std::string where = std::string(option) + " " + output.string();
   for (const auto& scene : options.scene.scenes) {
-    if (is_output(scene)) throw UsageError(what + " would overwrite the scene");
+    if (is_output(scene)) throw UsageError(where, "this would overwrite the scene; name another file");
   }
-  if (is_output(options.path)) throw UsageError(what + " would overwrite the path");
+  if (is_output(options.path)) throw UsageError(where, "this would overwrite the path; name another file");
 }
 
 }  // namespace
@@ -38,7 +38,7 @@ WalkerSettings walker_settings(const WalkOptions& options) {
   constexpr double sphere = 2.0;  // height of a sphere in radii
   WalkerSettings settings = options.settings;
   if (options.recorded && !options.radius) {
-    const RecordedBody& body = *options.recorded;
+    const WalkerSettings& body = options.recorded->settings;
     settings.radius = body.radius;
     settings.height = options.height.value_or(body.height);
     settings.eye = options.eye.value_or(std::min(body.eye, settings.height));
@@ -62,14 +62,14 @@ WalkerSettings walker_settings(const WalkOptions& options) {
   try {
     check(settings);
   } catch (const Error& error) {
-    throw UsageError(error.what());
+    throw UsageError(error);
   }
   return settings;
 }
 
 void check_way(const WalkOptions& options) {
   if (options.path.empty() && !options.wander)
-    throw UsageError("walk: where to? Give it a --path FILE, or --wander S for S seconds");
+    throw UsageError("walk", "where to? Give it a --path FILE, or --wander S for S seconds");
 }
 
 void check_outputs(const WalkOptions& options) {
@@ -80,7 +80,7 @@ void check_outputs(const WalkOptions& options) {
   std::error_code none;
   if (std::filesystem::weakly_canonical(options.picture, none) ==
       std::filesystem::weakly_canonical(options.trace, none)) {
-    throw UsageError("--picture " + options.picture.string() + " would overwrite the trace");
+    throw UsageError("--picture " + options.picture.string(), "this would overwrite the trace; name another file");
   }
 }
 

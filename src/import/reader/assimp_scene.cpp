@@ -74,7 +74,7 @@ class AssimpWalk {
   /// Walks a node with `to_world` in place of its own and its ancestors' transforms.
   void walk_in(const aiNode& node, const Matrix& to_world) {
     if (names_.size() >= depth_limit) {
-      throw Error(fmt::format("{}: its nodes are nested more than {} deep; the file is damaged.", path_, depth_limit));
+      throw Error(path_, fmt::format("its nodes are nested more than {} deep; the file is damaged.", depth_limit));
     }
     names_.push_back(name_of(node));
     for (unsigned i = 0; i < node.mNumMeshes; ++i) {
@@ -207,9 +207,8 @@ void read_assimp(const std::filesystem::path& path, const std::string& extension
   if (scene == nullptr || scene->mRootNode == nullptr) {
     if (std::strstr(importer.GetErrorString(), "bad_alloc") != nullptr) throw std::bad_alloc();
     throw Error(
-        fmt::format("{}: assimp cannot read this file ({}); it is damaged, or not of the format that its name "
-                    "says.",
-                    file, importer.GetErrorString()));
+        file, fmt::format("assimp cannot read this file ({}); it is damaged, or not of the format that its name says.",
+                          importer.GetErrorString()));
   }
   sink.count_file();
   std::optional<AssimpLooks> looks;

@@ -26,7 +26,7 @@ FileBytes::FileBytes(const std::filesystem::path& path, std::function<void(std::
   if (descriptor_ < 0 || fstat(descriptor_, &status) != 0) {
     const std::string reason = std::strerror(errno);
     if (descriptor_ >= 0) close(descriptor_);
-    throw Error(fmt::format("{}: this file cannot be opened: {}.", path_, reason));
+    throw Error(path_, fmt::format("this file cannot be opened: {}.", reason));
   }
   size_ = static_cast<std::uint64_t>(status.st_size);
   buffer_.resize(buffer_bytes);
@@ -36,8 +36,8 @@ FileBytes::~FileBytes() { close(descriptor_); }
 
 std::string_view FileBytes::refill(std::size_t wanted) {
   if (wanted > window_limit) {
-    throw Error(fmt::format("{}: from byte {} on it has no end of a line or list for {} MiB; the file is damaged.",
-                            path_, offset(), window_limit >> 20));
+    throw Error(path_, fmt::format("from byte {} on it has no end of a line or list for {} MiB; the file is damaged.",
+                                   offset(), window_limit >> 20));
   }
   if (begin_ > 0) {
     std::memmove(buffer_.data(), buffer_.data() + begin_, end_ - begin_);
@@ -49,7 +49,7 @@ std::string_view FileBytes::refill(std::size_t wanted) {
   while (!at_end_ && end_ < wanted) {
     const ssize_t n = read(descriptor_, buffer_.data() + end_, buffer_.size() - end_);
     if (n < 0 && errno == EINTR) continue;
-    if (n < 0) throw Error(fmt::format("{}: reading failed at byte {}: {}.", path_, read_, std::strerror(errno)));
+    if (n < 0) throw Error(path_, fmt::format("reading failed at byte {}: {}.", read_, std::strerror(errno)));
     at_end_ = n == 0;
     end_ += static_cast<std::size_t>(n);
     read_ += static_cast<std::uint64_t>(n);
@@ -65,7 +65,7 @@ Lines::Lines(FileBytes& bytes) : bytes_(bytes) {
   if (end != std::string_view::npos && start[end] == '\r' && !start.substr(end).starts_with("\r\n"))
     end_of_line_ = '\r';
   if (start.starts_with("\xff\xfe") || start.starts_with("\xfe\xff")) {
-    throw Error(fmt::format("{}: this is UTF-16 text; save it as UTF-8.", bytes_.path()));
+    throw Error(bytes_.path(), "this is UTF-16 text; save it as UTF-8.");
   }
   constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
   if (start.starts_with(byte_order_mark)) bytes_.skip(byte_order_mark.size());

@@ -44,6 +44,11 @@ void FrameWriter::write(std::span<const std::byte> payload) {
   gathered_.clear();
 }
 
+void FrameWriter::fail(const Error& error) {
+  send(FrameKind::failure, PayloadWriter().add_text(error.where()).add_text(error.what()));
+  flush();
+}
+
 void FrameWriter::flush() { write({}); }
 
 }  // namespace roam::reader

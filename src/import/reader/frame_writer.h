@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "import/stream.h"
+#include "roam/error.h"
 
 namespace roam::reader {
 
@@ -20,6 +21,8 @@ class FrameWriter {
   void send(FrameKind kind, const PayloadWriter& payload) { send(kind, payload.bytes()); }
   /// Begins another stream: the next frame has number 0.
   void begin_stream() { number_ = 0; }
+  /// Sends the last frame of a stream that ends with this error.
+  void fail(const Error& error);
   /// Writes the gathered frames. Ends the process if the reading end is closed.
   void flush();
 

@@ -167,33 +167,32 @@ int run(const std::vector<std::string>& arguments) {
   // Flush at once, so that a reader with a long computation does not seem to have failed to start.
   frames.flush();
   if (request.only_walls) return EXIT_SUCCESS;
-  const auto fail = [&](std::string sentence) {
+  const auto fail = [&](const Error& error) {
+    std::string sentence = error.what();
     if (files.left_any_out()) {
       sentence += fmt::format(" It refers to {}, which lies outside of its folder; --allow lets a folder in.",
                               files.first_left_out());
     }
-    frames.send(FrameKind::failure, PayloadWriter().add_text(sentence));
-    frames.flush();
+    frames.fail(Error::at(error.where(), sentence));
     return EXIT_FAILURE;
   };
   if (reads && walls.landlock == 0 && extension_of(path) == "iv") {
-    return fail(
-        fmt::format("{}: Inventor files are not read here: their library opens whatever they name, and this "
-                    "system has no Landlock to keep it to the scene. Convert the file to glTF, OBJ or PLY.",
-                    path));
+    return fail({path,
+                 "Inventor files are not read here: their library opens whatever they name, and this system has no "
+                 "Landlock to keep it to the scene. Convert the file to glTF, OBJ or PLY."});
   }
   try {
     read_path(path, files, sink, request.settings);
     sink.end();
     return EXIT_SUCCESS;
   } catch (const Error& error) {
-    return fail(error.what());
+    return fail(error);
   } catch (const std::bad_alloc&) {
     // The program makes the message, because it knows the limit. See cause_of_death.
     std::fputs("out of memory\n", stderr);
     return EXIT_FAILURE;
   } catch (const std::exception& error) {
-    return fail(fmt::format("{}: its reader gave up: {}. The file is probably damaged.", path, error.what()));
+    return fail({path, fmt::format("its reader gave up: {}. The file is probably damaged.", error.what())});
   }
 }
 

@@ -4,7 +4,6 @@
 #include <fnmatch.h>
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -19,9 +18,6 @@ constexpr std::size_t vertices_per_frame = 1u << 16;
 constexpr std::size_t triangles_per_frame = 1u << 17;
 static_assert(vertices_per_frame * sizeof(Vec3) <= payload_limit);
 static_assert(triangles_per_frame * 3 * sizeof(std::uint32_t) <= payload_limit);
-
-/// log2 of the entries of the cache of shared vertices: 3.7 MB, enough for the usual distance of neighbours in a file.
-constexpr unsigned remembered_bits = 16;
 
 constexpr auto progress_interval = std::chrono::milliseconds(100);
 /// Most different sentences that report_note_once remembers.
@@ -41,26 +37,6 @@ std::string_view unit_of(double metres) {
     if (same_unit(metres, length)) return name;
   }
   return {};
-}
-
-std::uint64_t bits_of(double x) { return std::bit_cast<std::uint64_t>(x); }
-
-bool same_bits(const Vec3& a, const Vec3& b) {
-  return bits_of(a.x) == bits_of(b.x) && bits_of(a.y) == bits_of(b.y) && bits_of(a.z) == bits_of(b.z);
-}
-
-/// Compares by value, so that a look with a NaN equals none.
-bool same(const VertexLook& a, const VertexLook& b) {
-  return a.normal == b.normal && a.texture == b.texture && a.colour == b.colour;
-}
-
-std::size_t slot_of(const Vec3& v) {
-  // Fibonacci hashing (Knuth, TAOCP 3, 6.4) of each coordinate in turn.
-  constexpr std::uint64_t golden = 0x9e3779b97f4a7c15ull;
-  std::uint64_t h = bits_of(v.x) * golden;
-  h = (std::rotl(h, 29) ^ bits_of(v.y)) * golden;
-  h = (std::rotl(h, 29) ^ bits_of(v.z)) * golden;
-  return h >> (64 - remembered_bits);
 }
 
 bool good(const Vec3& v) {
@@ -202,20 +178,9 @@ std::uint32_t MeshSink::add_vertex(const Vec3& vertex, const VertexLook& look) {
   return index;
 }
 
-MeshSink::Remembered& MeshSink::memory_of(const Vec3& vertex) {
-  if (remembered_.empty()) remembered_.resize(std::size_t{1} << remembered_bits);
-  return remembered_[slot_of(vertex)];
-}
-
-bool MeshSink::holds(const Remembered& memory, const Vec3& vertex, const VertexLook& look) const {
-  const bool seen = memory.object == object_number_ && same_bits(memory.vertex, vertex);
-  return seen && (parts_ == nullptr || same(memory.look, look));
-}
-
 std::uint32_t MeshSink::add_shared_vertex(const Vec3& vertex, const VertexLook& look) {
-  Remembered& memory = memory_of(vertex);
-  if (!holds(memory, vertex, look)) memory = {vertex, look, add_vertex(vertex, look), object_number_};
-  return memory.index;
+  return recent_.index({vertex, parts_ != nullptr ? look : VertexLook{}, object_number_},
+                       [&] { return add_vertex(vertex, look); });
 }
 
 std::uint32_t MeshSink::use_vertex(std::uint32_t index) {
@@ -236,13 +201,12 @@ void MeshSink::add_polygon(std::span<const Vec3> corners) {
   }
   // The corners are available here, so no vertex is stored.
   for (const Vec3& corner : corners) {
-    Remembered& memory = memory_of(corner);
-    if (!holds(memory, corner, {})) {
+    corners_.push_back(recent_.index({corner, {}, object_number_}, [&] {
       Vec3 place;
-      memory = {corner, {}, vertex_count_, object_number_};
+      const std::uint32_t index = vertex_count_;
       count_vertex(corner, place);
-    }
-    corners_.push_back(memory.index);
+      return index;
+    }));
   }
   for (std::size_t i = 2; i < corners.size(); ++i) {
     const std::array<std::size_t, 3> fan{0, i - 1, i};

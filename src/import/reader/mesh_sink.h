@@ -17,6 +17,7 @@
 #include "import/reader/display/part_pool.h"
 #include "import/reader/frame_writer.h"
 #include "import/reader/piece_cutter.h"
+#include "import/reader/recent_vertices.h"
 #include "roam/import.h"
 
 namespace roam::reader {
@@ -155,16 +156,7 @@ class MeshSink {
   std::vector<std::array<std::uint32_t, 3>> triangles_;
   Look look_;
 
-  /// One remembered vertex for each hash value.
-  struct Remembered {
-    Vec3 vertex{0.0};
-    VertexLook look;
-    std::uint32_t index = 0;
-    std::uint32_t object = 0;
-  };
-  Remembered& memory_of(const Vec3& vertex);
-  [[nodiscard]] bool holds(const Remembered& memory, const Vec3& vertex, const VertexLook& look) const;
-  std::vector<Remembered> remembered_;
+  RecentVertices recent_;
   std::uint32_t object_number_ = 0;
 };
 

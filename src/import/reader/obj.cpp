@@ -42,7 +42,7 @@ class ObjReader {
 
  private:
   [[noreturn]] void fail(const std::string& what) const {
-    throw Error(fmt::format("{}:{}: {}.", bytes_.path(), number_, what));
+    throw Error(fmt::format("{}:{}", bytes_.path(), number_), fmt::format("{}.", what));
   }
 
   std::string_view continued(std::string_view line) {

@@ -17,9 +17,9 @@ void read_osg(const std::filesystem::path& path, SceneFiles& files, MeshSink& si
   if (root == nullptr) {
     const std::string complaint = last_osg_complaint();
     throw Error(
-        fmt::format("{}: OpenSceneGraph cannot read this file{}; it is damaged, or not of the format that its "
-                    "name says.",
-                    path.string(), complaint.empty() ? "" : " (" + complaint + ")"));
+        path.string(),
+        fmt::format("OpenSceneGraph cannot read this file{}; it is damaged, or not of the format that its name says.",
+                    complaint.empty() ? "" : " (" + complaint + ")"));
   }
   if (sink.parts() != nullptr && refers_to_pages(*root, path, files)) {
     Pages pages(sink);

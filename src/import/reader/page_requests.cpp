@@ -51,11 +51,11 @@ void read_page(const std::string& token, SceneFiles& files, MeshSink& sink, Page
   const std::string name = page->file.string();
   const bool circle = std::find(page->above.begin(), page->above.end(), hash_of(page->file)) != page->above.end();
   if (circle || page->above.size() > nesting_limit) {
-    throw Error(name + ": this page is reached through itself, or through too many others; the scene is damaged.");
+    throw Error(name, "this page is reached through itself, or through too many others; the scene is damaged.");
   }
   prepare_osg(sink, files, true);
   const osg::ref_ptr<osg::Node> root = read_osg_file(page->file, true);
-  if (root == nullptr) throw Error(name + ": this page is absent or unreadable.");
+  if (root == nullptr) throw Error(name, "this page is absent or unreadable.");
   sink.set_offset(page->offset);
   sink.parts()->begin_page();
   PageWalk(sink, *page, states).walk(*root);
@@ -73,20 +73,16 @@ int serve_pages(FrameWriter& frames, const ReadingSettings& settings, const std:
     SceneFiles files(scope, frames);
     PartPool parts(frames, files, origin);
     MeshSink sink(frames, settings, &parts, nullptr);
-    const auto fail = [&](const std::string& sentence) {
-      frames.send(FrameKind::failure, PayloadWriter().add_text(sentence));
-      frames.flush();
-    };
     try {
       read_page(token, files, sink, states);
       sink.end();
     } catch (const Error& error) {
-      fail(error.what());
+      frames.fail(error);
     } catch (const std::bad_alloc&) {
       std::fputs("out of memory\n", stderr);
       return EXIT_FAILURE;
     } catch (const std::exception& error) {
-      fail(fmt::format("a page's reader gave up: {}. The file is probably damaged.", error.what()));
+      frames.fail(Error(fmt::format("a page's reader gave up: {}. The file is probably damaged.", error.what())));
     }
   }
   return EXIT_SUCCESS;

@@ -83,7 +83,7 @@ class BinaryValues {
  private:
   std::string_view need(std::size_t count) {
     const std::string_view window = bytes_.window(count);
-    if (window.size() < count) throw Error(where() + ": the file ends in the middle of its data; it is cut short.");
+    if (window.size() < count) throw Error(where(), "the file ends in the middle of its data; it is cut short.");
     return window;
   }
   template <class T>
@@ -105,13 +105,13 @@ class AsciiValues {
   double number(PlyType) {
     const std::string_view word = next_word();
     double value = 0.0;
-    if (!parse(word, value)) throw Error(fmt::format("{}: '{}' is no number.", where(), shown(word)));
+    if (!parse(word, value)) throw Error(where(), fmt::format("'{}' is no number.", shown(word)));
     return value;
   }
   std::int64_t integer(PlyType) {
     const std::string_view word = next_word();
     std::int64_t value = 0;
-    if (!parse(word, value)) throw Error(fmt::format("{}: '{}' is no integer.", where(), shown(word)));
+    if (!parse(word, value)) throw Error(where(), fmt::format("'{}' is no integer.", shown(word)));
     return value;
   }
   void skip(PlyType) { next_word(); }
@@ -124,7 +124,7 @@ class AsciiValues {
   std::string_view next_word() {
     std::string_view word = take_word(line_);
     while (word.empty()) {
-      if (!lines_.next(line_)) throw Error(where() + ": the file ends in the middle of its data; it is cut short.");
+      if (!lines_.next(line_)) throw Error(where(), "the file ends in the middle of its data; it is cut short.");
       word = take_word(line_);
     }
     return word;
@@ -159,7 +159,7 @@ class PlyBody {
   }
 
  private:
-  [[noreturn]] void fail(const std::string& what) const { throw Error(fmt::format("{}: {}.", values_.where(), what)); }
+  [[noreturn]] void fail(const std::string& what) const { throw Error(values_.where(), fmt::format("{}.", what)); }
 
   /// Refuses a header that promises more elements than the file can hold, before they are read.
   void check_size(const PlyElement& element) const {

@@ -65,7 +65,7 @@ class HeaderParser {
 
  private:
   [[noreturn]] void fail(const std::string& what) const {
-    throw Error(fmt::format("{}:{}: {}.", bytes_.path(), lines_.number(), what));
+    throw Error(fmt::format("{}:{}", bytes_.path(), lines_.number()), fmt::format("{}.", what));
   }
 
   std::string_view next_line() {

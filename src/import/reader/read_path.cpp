@@ -49,11 +49,10 @@ void refuse_stand_ins(const fs::path& path) {
   FileBytes bytes(path, [](std::uint64_t) {});
   constexpr std::string_view lfs_pointer = "version https://git-lfs.github.com/spec/";
   const std::string_view start = bytes.window(lfs_pointer.size());
-  if (start.empty()) throw Error(fmt::format("{}: this file is empty; copy or export it again.", path.string()));
+  if (start.empty()) throw Error(path.string(), "this file is empty; copy or export it again.");
   if (start.starts_with(lfs_pointer)) {
-    throw Error(fmt::format(
-        "{}: this is a Git LFS pointer, not the file itself; run 'git lfs pull' in the clone that it comes from.",
-        path.string()));
+    throw Error(path.string(),
+                "this is a Git LFS pointer, not the file itself; run 'git lfs pull' in the clone that it comes from.");
   }
 }
 
@@ -74,7 +73,7 @@ void read_path(const std::string& name, SceneFiles& files, MeshSink& sink, const
   const fs::path path(name);
   if (fs::is_directory(path)) return read_tiles(path, files, sink, settings);
   if (files.open(path).empty()) {
-    throw Error(fmt::format("{}: this is not a file that can be read; a scene is a file or a folder.", name));
+    throw Error(name, "this is not a file that can be read; a scene is a file or a folder.");
   }
   refuse_stand_ins(path);
   const std::string extension = extension_of(path);
@@ -97,10 +96,10 @@ void read_path(const std::string& name, SceneFiles& files, MeshSink& sink, const
     }
   }
   for (const Unsupported& format : unsupported) {
-    if (format.extension == extension) throw Error(fmt::format("{}: {}.", name, format.advice));
+    if (format.extension == extension) throw Error(name, fmt::format("{}.", format.advice));
   }
-  throw Error(fmt::format("{}: roam knows no reader for '.{}' files. It reads {}, and folders of OSGB tiles.", name,
-                          extension, known_extensions()));
+  throw Error(name, fmt::format("roam knows no reader for '.{}' files. It reads {}, and folders of OSGB tiles.",
+                                extension, known_extensions()));
 }
 
 }  // namespace roam::reader

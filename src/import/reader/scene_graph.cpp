@@ -25,8 +25,8 @@ void SceneGraphWalk::walk(osg::Node& root, const fs::path& file) {
 }
 
 void SceneGraphWalk::refuse_depth() {
-  throw Error(fmt::format("{}: its nodes are nested more than {} deep; the file is damaged.", files_.back().string(),
-                          depth_limit));
+  throw Error(files_.back().string(),
+              fmt::format("its nodes are nested more than {} deep; the file is damaged.", depth_limit));
 }
 
 void SceneGraphWalk::leave_out(const osg::Object& object) {

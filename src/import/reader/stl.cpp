@@ -52,16 +52,16 @@ bool is_binary(FileBytes& bytes) {
 void read_binary(FileBytes& bytes, const std::string& stem, MeshSink& sink) {
   const std::string_view start = bytes.window(header_bytes + count_bytes);
   if (start.size() < header_bytes + count_bytes) {
-    throw Error(fmt::format("{}: this is no STL file: it is shorter than the {} bytes of a header.", bytes.path(),
-                            header_bytes + count_bytes));
+    throw Error(bytes.path(), fmt::format("this is no STL file: it is shorter than the {} bytes of a header.",
+                                          header_bytes + count_bytes));
   }
   const std::uint64_t count = little_endian<std::uint32_t>(start.data() + header_bytes);
   const std::uint64_t held = (bytes.size() - header_bytes - count_bytes) / facet_bytes;
   if (held < count) {
     throw Error(
-        fmt::format("{}: the header says {} triangles, but the file ends after {}; it is cut short, or no STL "
-                    "file.",
-                    bytes.path(), count, held));
+        bytes.path(),
+        fmt::format("the header says {} triangles, but the file ends after {}; it is cut short, or no STL file.", count,
+                    held));
   }
   if (bytes.size() > header_bytes + count_bytes + facet_bytes * count) {
     sink.report_note(fmt::format("{}: {} bytes after the last of the {} triangles that the header says were not read.",
@@ -72,7 +72,7 @@ void read_binary(FileBytes& bytes, const std::string& stem, MeshSink& sink) {
   for (std::uint64_t i = 0; i < count; ++i) {
     const std::string_view facet = bytes.window(facet_bytes);
     if (facet.size() < facet_bytes) {
-      throw Error(fmt::format("{}: the file ends in triangle {} of {}; was it being written?", bytes.path(), i, count));
+      throw Error(bytes.path(), fmt::format("the file ends in triangle {} of {}; was it being written?", i, count));
     }
     std::array<float, 9> c;
     std::memcpy(c.data(), facet.data() + normal_bytes, sizeof(c));
@@ -99,7 +99,7 @@ class AsciiStl {
   enum class Inside { nothing, solid, facet, loop };
 
   [[noreturn]] void fail(const std::string& what) const {
-    throw Error(fmt::format("{}:{}: {}.", bytes_.path(), lines_.number(), what));
+    throw Error(fmt::format("{}:{}", bytes_.path(), lines_.number()), fmt::format("{}.", what));
   }
 
   static bool same(std::string_view word, std::string_view keyword) {

@@ -106,9 +106,10 @@ void place(const Georeference& georeference, const std::string& folder, const Re
   }
   if (settings.frame->srs != georeference.srs) {
     throw Error(
-        fmt::format("{}: its tiles are in the reference system '{}', those before in '{}'; bring them into one "
-                    "system first.",
-                    folder, georeference.srs, settings.frame->srs));
+        folder,
+        fmt::format(
+            "its tiles are in the reference system '{}', those before in '{}'; bring them into one system first.",
+            georeference.srs, settings.frame->srs));
   }
   const Vec3 offset = georeference.origin - settings.frame->origin;
   sink.set_offset(offset);
@@ -128,10 +129,8 @@ void read_tiles(const fs::path& path, SceneFiles& files, MeshSink& sink, const R
   std::size_t missing = 0;
   std::vector<fs::path> roots = tile_roots(has_data ? folder / "Data" : folder, files, missing);
   if (roots.size() == missing) {
-    throw Error(
-        fmt::format("{}: this folder holds no Data/Tile_*/Tile_*.osgb; name a folder of OSGB tiles, or the "
-                    "scene's file.",
-                    path.string()));
+    throw Error(path.string(),
+                "this folder holds no Data/Tile_*/Tile_*.osgb; name a folder of OSGB tiles, or the scene's file.");
   }
   if (const auto georeference = georeference_in(metadata, files, sink)) {
     place(*georeference, path.string(), settings, sink);

@@ -95,10 +95,9 @@ void demand_authentic(const Work& work) {
   if (there->is_authentic(*work.options.key)) return;
   if (!work.options.adopt) {
     throw NotAuthentic(
-        fmt::format("{} was not built with your key: it may have come with the scene, and lack a wall, or be a "
-                    "colleague's; if you trust whoever built it, --adopt makes it yours; else remove it, or choose "
-                    "another output",
-                    work.store.string()));
+        work.store.string(),
+        "it was not built with your key: it may have come with the scene, and lack a wall, or be a colleague's; if you "
+        "trust whoever built it, --adopt makes it yours; else remove it, or choose another output");
   }
   add_code(work.store, there->info().hash, *work.options.key);
 }
@@ -229,8 +228,8 @@ void build_shard(const StoreBuildOptions& options, std::uint64_t i, StoreBuildRe
   describe(plan, report);
   const std::vector<std::size_t> numbers = plan.to_build();
   if (i >= numbers.size()) {
-    throw Error(fmt::format("there is no shard {} in the plan of {}: they go from 0 to {}", i, work.store.string(),
-                            numbers.empty() ? 0 : numbers.size() - 1));
+    throw Error::at(work.store.string(), fmt::format("there is no shard {} in the plan of {}: they go from 0 to {}", i,
+                                                     work.store.string(), numbers.empty() ? 0 : numbers.size() - 1));
   }
   build_shards(work, plan, {numbers[static_cast<std::size_t>(i)]}, report);
 }
@@ -267,7 +266,8 @@ StoreBuildReport repair_store(const StoreBuildOptions& options) {
   const RootMending root = mend_root(store);
   if (!root.wrong.empty() && !root.mended) {
     // A repair must restore the same store, but nothing records how it was built.
-    throw Error(
+    throw Error::at(
+        options.output.string(),
         fmt::format("{0} cannot be repaired: {1}, and no copy of the manifest is whole, so nothing tells how "
                     "it was built; `roam build` with its scene, `-o {0}`, and the --up, --unit, --ignore and "
                     "--lossless that it was built with, builds it again",
@@ -304,7 +304,9 @@ StoreBuildReport repair_store(const StoreBuildOptions& options) {
   }
   if (!same) {
     remove_scratch(work.store);
-    throw Error(fmt::format("{} was not made of this scene as it is now: build it again instead", work.store.string()));
+    throw Error::at(
+        work.store.string(),
+        fmt::format("{} was not made of this scene as it is now: build it again instead", work.store.string()));
   }
   build_shards(work, *plan, plan->to_build(), report);
   merge_locked(work, *plan, report);

@@ -58,14 +58,15 @@ Descriptor open_without_links(const fs::path& real, int flags) {
 struct stat state_of(const Descriptor& file, const fs::path& name) {
   struct stat status {};
   if (!file.is_open() || ::fstat(file.number(), &status) != 0) {
-    throw Error(fmt::format("cannot read {}: {}", name.string(), std::strerror(errno)));
+    throw Error::at(name.string(), fmt::format("cannot read {}: {}", name.string(), std::strerror(errno)));
   }
-  if (!S_ISREG(status.st_mode)) throw Error(fmt::format("cannot read {}: it is no ordinary file", name.string()));
+  if (!S_ISREG(status.st_mode))
+    throw Error::at(name.string(), fmt::format("cannot read {}: it is no ordinary file", name.string()));
   return status;
 }
 
 [[noreturn]] void fail_changed(const std::string& name) {
-  throw Error(fmt::format("{} was changed while the scene was read; build again when it is finished", name));
+  throw Error::at(name, fmt::format("{} was changed while the scene was read; build again when it is finished", name));
 }
 
 /// Hashes a file's bytes. Holes are hashed without reading them.
@@ -97,7 +98,7 @@ class FileHash {
 
  private:
   [[noreturn]] void fail() const {
-    throw Error(fmt::format("cannot read {}: {}", file_.string(), std::strerror(errno)));
+    throw Error::at(file_.string(), fmt::format("cannot read {}: {}", file_.string(), std::strerror(errno)));
   }
 
   /// The start of the next data or hole. A file system without support reports data everywhere.
@@ -113,7 +114,8 @@ class FileHash {
     holes_ += bytes;
     const std::uint64_t on_disk = 512 * static_cast<std::uint64_t>(status_.st_blocks);
     if (holes_ > most_holes && (holes_ - most_holes) / holes_per_byte > on_disk) {
-      throw Error(
+      throw Error::at(
+          file_.string(),
           fmt::format("{} has {} bytes, but only {} of them are on the disk: the rest is a hole, which no scene has. "
                       "Remove it; if it is meant, copy it without holes (cp --sparse=never)",
                       file_.string(), status_.st_size, on_disk));
@@ -283,7 +285,8 @@ void Sources::look(const std::vector<ScenePart>& parts, const ImportOptions& imp
     File& file = files[i];
     // The folder may change meanwhile, so no link is followed from here on.
     file.real = file.scope->find(file.name);
-    if (file.real.empty()) throw Error(fmt::format("cannot read {}: it is no file of the scene any more", file.name));
+    if (file.real.empty())
+      throw Error::at(file.name, fmt::format("cannot read {}: it is no file of the scene any more", file.name));
     file.seen = status(file.real, &file.number);
     const auto known = known_.find(file.name);
     if (known != known_.end() && known->second.size == file.seen.size &&

@@ -39,7 +39,8 @@ std::vector<ShardInfo> collect(Work& work, const Plan& plan) {
     if (!plan.shards[i].in_force) continue;
     const auto old = before.find(plan.shards[i].key);
     if (old == before.end() || size_of(work.store, pack_file(old->second.pack)) != old->second.bytes) {
-      throw Error(fmt::format("{} has been changed since the plan was made; plan again", work.store.string()));
+      throw Error::at(work.store.string(),
+                      fmt::format("{} has been changed since the plan was made; plan again", work.store.string()));
     }
     shards[i] = old->second;
   }
@@ -67,8 +68,9 @@ std::vector<ShardInfo> collect(Work& work, const Plan& plan) {
   }
   if (count > named) list += fmt::format(", and {} more", count - named);
   if (count > 0) {
-    throw Error(fmt::format("cannot merge {}: {} (of {} to be built); build them, and merge again", work.store.string(),
-                            list, built.size()));
+    throw Error::at(work.store.string(),
+                    fmt::format("cannot merge {}: {} (of {} to be built); build them, and merge again",
+                                work.store.string(), list, built.size()));
   }
   return shards;
 }

@@ -42,8 +42,9 @@ void demand_no_other_things(const Folder& store) {
   if (is_file(store, current_file) && holds_store(store)) return;
   for (const std::string& name : names_in(store, "")) {
     if (is_ours(name)) continue;
-    throw Error(fmt::format("{} is a folder that holds other things ({}); choose another output, or empty it",
-                            store.string(), name));
+    throw Error::at(store.string(),
+                    fmt::format("{} is a folder that holds other things ({}); choose another output, or empty it",
+                                store.string(), name));
   }
 }
 

@@ -107,11 +107,14 @@ Plan read_plan(const Work& work) {
   const Folder& store = work.store;
   const std::uint64_t memory = work.options.memory;
   if (!size_of(store, plan_file)) {
-    throw Error(fmt::format("there is no plan in {}: nothing is being built there; begin with --plan", store.string()));
+    throw Error::at(
+        store.string(),
+        fmt::format("there is no plan in {}: nothing is being built there; begin with --plan", store.string()));
   }
   const std::optional<std::string> text = read_coded(store, plan_file, memory / 4, work.options.key);
   if (!text) {
-    throw Error(
+    throw Error::at(
+        store.string(),
         fmt::format("the plan in {} was not made with your key: all who build the store need the same key file; "
                     "copy it, or plan again",
                     store.string()));
@@ -143,7 +146,8 @@ Plan read_plan(const Work& work) {
     }
     return plan;
   } catch (const std::exception& e) {
-    throw Error(fmt::format("{} cannot be used ({}); plan again", (store / plan_file).string(), e.what()));
+    throw Error::at((store / plan_file).string(),
+                    fmt::format("{} cannot be used ({}); plan again", (store / plan_file).string(), e.what()));
   }
 }
 

@@ -25,7 +25,8 @@ namespace fs = std::filesystem;
 fs::path whole_path(const fs::path& path) {
   std::error_code error;
   fs::path whole = fs::weakly_canonical(path, error);
-  if (error) throw Error(fmt::format("cannot find out where {} lies: {}", path.string(), error.message()));
+  if (error)
+    throw Error::at(path.string(), fmt::format("cannot find out where {} lies: {}", path.string(), error.message()));
   return whole;
 }
 
@@ -183,13 +184,15 @@ class Planner {
       visitor.counts = [&](const PartCounts& counts) {
         bits = counts.cell_bits;
         if (counts.triangles > most_triangles - triangles) {
-          throw Error(fmt::format("{} counts more triangles than any scene has: verify the store, and repair it",
-                                  (work_.store / file).string()));
+          throw Error::at((work_.store / file).string(),
+                          fmt::format("{} counts more triangles than any scene has: verify the store, and repair it",
+                                      (work_.store / file).string()));
         }
         triangles += counts.triangles;
         if (counts.cells > most_cells_of_plan() - std::min(most_cells_of_plan(), cells.size())) {
-          throw Error(fmt::format("the parts of {} take more memory than there is to plan in; give --memory more",
-                                  work_.store.string()));
+          throw Error::at(work_.store.string(),
+                          fmt::format("the parts of {} take more memory than there is to plan in; give --memory more",
+                                      work_.store.string()));
         }
       };
       visitor.cell = [&](const Cell& cell) {
@@ -303,19 +306,21 @@ void check_output(const StoreBuildOptions& options) {
   std::error_code error;
   const fs::file_status status = fs::status(out, error);
   if (!fs::exists(status) && fs::is_symlink(out, error)) {
-    throw Error(fmt::format("{} is a link that leads nowhere; remove it, or choose another output", out.string()));
+    throw Error::at(out.string(),
+                    fmt::format("{} is a link that leads nowhere; remove it, or choose another output", out.string()));
   }
   if (fs::exists(status) && !fs::is_directory(status)) {
-    throw Error(fmt::format("{} is a file: a store is a folder; choose another output", out.string()));
+    throw Error::at(out.string(),
+                    fmt::format("{} is a file: a store is a folder; choose another output", out.string()));
   }
   for (const fs::path& path : options.scene) {
     if (fs::is_directory(path, error) && is_inside(out, path)) {
-      throw Error(
-          fmt::format("{} lies in the folder of the scene, {}; choose an output outside", out.string(), path.string()));
+      throw Error::at(out.string(), fmt::format("{} lies in the folder of the scene, {}; choose an output outside",
+                                                out.string(), path.string()));
     }
     if (fs::exists(path, error) && is_inside(path, out)) {
-      throw Error(
-          fmt::format("the scene {} lies in the output {}; choose another output", path.string(), out.string()));
+      throw Error::at(path.string(), fmt::format("the scene {} lies in the output {}; choose another output",
+                                                 path.string(), out.string()));
     }
   }
 }

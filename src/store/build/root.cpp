@@ -70,7 +70,8 @@ RootMending mend_root(const Folder& store) {
   mending.wrong = wrong_with_root(store);
   if (mending.wrong.empty()) return mending;
   if (!holds_store(store)) {
-    throw Error(
+    throw Error::at(
+        store.string(),
         fmt::format("{} is no store: its file CURRENT is none of a store; choose another output", store.string()));
   }
   for (const std::string& copy : whole_manifests(store)) {

@@ -260,8 +260,10 @@ void RunReader::get(std::uint64_t offset, std::span<std::byte> out) const {
 }
 
 void RunReader::refuse(const char* why) const {
-  throw Error(fmt::format("cannot read {}: {}; remove the folder {}, and build again: what was published before stays",
-                          file_.string(), why, file_.parent_path().parent_path().string()));
+  throw Error::at(
+      file_.string(),
+      fmt::format("cannot read {}: {}; remove the folder {}, and build again: what was published before stays",
+                  file_.string(), why, file_.parent_path().parent_path().string()));
 }
 
 }  // namespace roam::store

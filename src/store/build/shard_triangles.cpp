@@ -25,7 +25,8 @@ class Blocks {
     for (const std::uint32_t p : stretch.parts) {
       const PartRecord& record = plan_.parts[p];
       if (!record.has_runs) {
-        throw Error(fmt::format("the plan does not hold the triangles of {}; plan again", record.info.name));
+        throw Error::at(record.info.name,
+                        fmt::format("the plan does not hold the triangles of {}; plan again", record.info.name));
       }
       for (std::size_t r = 0; r < record.runs.size(); ++r) {
         if (record.runs[r].last >= first_ && record.runs[r].first <= last_) runs_.push_back({p, r});

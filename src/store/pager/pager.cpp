@@ -62,9 +62,9 @@ Plan divide(const Store::State& store, const PagerOptions& options) {
       std::max(2 * tables, tables + 4 * page + 8 * store::tile_bytes) + threads + fixed_cost + store.memory;
   if (options.memory < least) {
     throw Error(
-        fmt::format("{}: {} MiB of memory are not enough for its index and {} loading threads; give the pager "
-                    "{} MiB",
-                    store.name, options.memory >> 20, options.loaders, (least >> 20) + 1));
+        store.name,
+        fmt::format("{} MiB of memory are not enough for its index and {} loading threads; give the pager {} MiB",
+                    options.memory >> 20, options.loaders, (least >> 20) + 1));
   }
   const std::uint64_t rest = options.memory - threads - tables - fixed_cost - store.memory;
   Plan plan;

@@ -164,19 +164,19 @@ void refuse_far_end(const ProbeSearch& search, const Vec3& given, const char* en
   if (search.options.mode != Mode::fly || bounds.empty()) return;
   const double off = off_scene(search, given), most = std::max(farthest_off, glm::length(bounds.size()));
   if (off <= most) return;
-  throw NoRoomAtEnd(fmt::format("{} {}: it is {:.0f} m outside the scene, which spans {} to {}; choose a place in it, "
-                                "or at most {:.0f} m outside",
-                                end, text_of(given), off, text_of(bounds.lower), text_of(bounds.upper), most),
+  throw NoRoomAtEnd(fmt::format("{} {}", end, text_of(given)),
+                    fmt::format("it is {:.0f} m outside the scene, which spans {} to {}; choose a place in it, or at "
+                                "most {:.0f} m outside",
+                                off, text_of(bounds.lower), text_of(bounds.upper), most),
                     std::nullopt);
 }
 
 void refuse_end(const ProbeSearch& search, const Vec3& given, const char* end, double radius) {
   const Box bounds = search.survey.world().bounds();
   const bool walks = search.options.mode == Mode::walk;
+  const std::string where = fmt::format("{} {}", end, text_of(given));
   std::string why;
-  if (search.survey.triangles() == 0) {
-    throw NoRoomAtEnd(fmt::format("{} {}: the scene has no triangles", end, text_of(given)), std::nullopt);
-  }
+  if (search.survey.triangles() == 0) throw NoRoomAtEnd(where, "the scene has no triangles", std::nullopt);
   const Vec3 down(0.0, 0.0, bounds.lower.z - 1.0 - std::max(given.z, bounds.lower.z));
   if (off_scene(search, given) > 0.0) {
     why = fmt::format("it is off the scene, which spans {} to {}", text_of(bounds.lower), text_of(bounds.upper));
@@ -188,9 +188,9 @@ void refuse_end(const ProbeSearch& search, const Vec3& given, const char* end, d
   }
   const auto place = nearest_from_afar(search, given, radius);
   throw NoRoomAtEnd(
+      where,
       fmt::format(
-          "{} {}: no body with a radius of {:g} m or more can be there; {}. {}", end, text_of(given),
-          search.options.narrowest, why,
+          "no body with a radius of {:g} m or more can be there; {}. {}", search.options.narrowest, why,
           place
               ? fmt::format("The nearest place found for a radius of {:g} m is {}", radius, text_of(*place))
               : fmt::format("No place for a radius of {:g} m was found near it; choose one with free space around it{}",

@@ -120,7 +120,7 @@ void soak(const std::vector<std::filesystem::path>& scenes, double hours, bool d
     if (i == settled) before = resident_bytes();
     person.act();
     ASSERT_TRUE(session.frame());
-    if (drawn) session.stage().draw(static_cast<double>(i) / 60.0);
+    if (drawn) session.stage().draw();
   }
   const double grown = static_cast<double>(resident_bytes()) - static_cast<double>(before);
   std::cout << session.log().tally().steps << " steps, " << session.log().tally().length << " m, "
@@ -173,7 +173,7 @@ TEST(Soak, ClosedAgainAndAgainWhilePagesCome) {
     // Few enough that the pager still reads what they ask for.
     for (int i = 0; i < frames; ++i) {
       ASSERT_TRUE(session.frame());
-      session.stage().draw(static_cast<double>(i) / 60.0);
+      session.stage().draw();
     }
   }
 }
