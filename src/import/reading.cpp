@@ -6,6 +6,7 @@
 #include <chrono>
 #include <csignal>
 #include <cstring>
+#include <ctime>
 #include <optional>
 #include <string>
 #include <system_error>
@@ -26,6 +27,8 @@ constexpr int wait_milliseconds = 100;
 constexpr int ending_milliseconds = 2000;
 /// Seconds of processor time that a reader may have used while its reports are still in the pipe.
 constexpr double unheard_seconds = 2.0;
+/// Most processor seconds of this program for the files that a reader names. A path costs it microseconds.
+constexpr double most_naming_seconds = 10.0;
 /// Time for a reader without a file to start and send its greeting.
 constexpr std::chrono::seconds greeting_time{30};
 /// The rate of a slow disk, bytes a second: a silent reader gets one second more for this many bytes of files.
@@ -83,6 +86,13 @@ std::string last_words(const std::string& complaints) {
 std::string without_slash(std::string path) {
   while (path.size() > 1 && path.back() == '/') path.pop_back();
   return path;
+}
+
+/// Processor time of this thread.
+double own_seconds() {
+  timespec time{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
 }
 
 /// The reason why a reader ended early.
@@ -161,6 +171,7 @@ void receive(const Reading& reading, ReaderProcess& process, StreamReceiver& rec
   receiver.spell(reading.scope.scene.string(), without_slash(path));
   Clock::time_point reported = Clock::now();
   double waited = 0.0, heard = 0.0;  // seconds: in all, and until the last bytes arrived
+  double named = 0.0;                // processor seconds of this thread, for the files that the reader named
   try {
     while (!receiver.ended()) {
       std::size_t received = 0;
@@ -174,9 +185,14 @@ void receive(const Reading& reading, ReaderProcess& process, StreamReceiver& rec
       }
       if (arrival == ReaderProcess::Arrival::bytes) {
         receiver.take(received);
+        const double before = own_seconds();
         for (const std::string& file : receiver.take_opened()) {
           if (reading.scope.resolve(file) == fs::path(file)) budget.add_file(file);
+          if (own_seconds() - before + named > most_naming_seconds) {
+            throw fail("its reader names files over and over and was ended. The file is damaged");
+          }
         }
+        named += own_seconds() - before;
         if (receiver.triangles() > budget.triangles()) {
           throw fail(fmt::format(
               "it gives more than {} triangles from {} bytes: it repeats itself over and over. If that is meant, write "

@@ -29,6 +29,7 @@ constexpr std::size_t buffer_bytes = payload_limit + 2 * room_bytes;
 
 /// Most notes that one reader may send.
 constexpr std::size_t note_limit = 100;
+constexpr std::size_t longest_path = 4096;  ///< bytes; PATH_MAX of Linux
 
 }  // namespace
 
@@ -73,9 +74,12 @@ void StreamReceiver::handle(const FrameHeader& header, std::span<const std::byte
     case FrameKind::hello:
       take_hello(fields);
       break;
-    case FrameKind::opened:
-      opened_.push_back(fields.take_text());
+    case FrameKind::opened: {
+      std::string file = fields.take_text();
+      if (file.size() > longest_path) throw StreamDamaged{"a path that is too long"};
+      opened_.push_back(std::move(file));
       break;
+    }
     case FrameKind::outside: {
       std::string file = fields.take_text();
       ++report_.outside_references;
@@ -106,12 +110,12 @@ void StreamReceiver::handle(const FrameHeader& header, std::span<const std::byte
       break;
     }
     case FrameKind::note: {
-      std::string sentence = printable(spelt(fields.take_text()), longest_sentence);
-      if (report_.notes.size() < note_limit) report_.notes.push_back(std::move(sentence));
+      const std::string sentence = fields.take_text();
+      if (report_.notes.size() < note_limit) report_.notes.push_back(printable(spelt(sentence), longest_sentence));
       break;
     }
     case FrameKind::failure: {
-      const std::string place = spelt(fields.take_text());
+      const std::string place = printable(spelt(fields.take_text()), longest_sentence);
       const std::string sentence = printable(spelt(fields.take_text()), longest_sentence);
       if (!fields.complete()) break;
       ended_ = true;

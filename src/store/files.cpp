@@ -18,6 +18,7 @@
 #include <optional>
 #include <utility>
 
+#include "files/holes.h"
 #include "roam/error.h"
 #include "store/manifest.h"
 
@@ -37,6 +38,10 @@ std::string sha256_of_file(const Folder& store, const std::string& name,
                            const std::function<void(std::uint64_t)>& tick) {
   const Descriptor file = open_file(store, name, O_RDONLY);
   if (!file.is_open()) fail("read", store, name, errno);
+  if (files::is_mostly_holes(file.number())) {
+    const std::string path = (store / name).string();
+    throw Error::at(path, fmt::format("cannot read {}: {}", path, mostly_holes));
+  }
   Sha256 hash;
   std::vector<std::byte> piece(piece_bytes);
   for (;;) {

@@ -55,6 +55,9 @@ void write_file(const Folder& store, const std::string& name, std::string_view t
 /// The content of a file. Throws FileError if it cannot be read or is larger than `limit` (EFBIG).
 [[nodiscard]] std::vector<std::byte> read_file(const Folder& store, const std::string& name, std::uint64_t limit);
 
+/// Why a file is refused that has ranges without space on the disk.
+inline constexpr const char* mostly_holes = "most of it is holes, which take no space on the disk and which no store has";
+
 // Names of files in a store.
 inline constexpr const char* current_file = "CURRENT";
 inline constexpr const char* lock_file = "LOCK";

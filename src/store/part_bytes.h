@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -42,10 +43,11 @@ class PartBytes {
     };
     visit_part([&](std::span<std::byte> out) { return (*this)(out); }, part_.bytes, name(), visitor);
   }
-  /// Whether the file is as it was written. Reads the rest of it.
-  [[nodiscard]] bool is_whole() {
+  /// Whether the file is as it was written. Reads the rest of it; calls `check`, which may be empty or throw.
+  [[nodiscard]] bool is_whole(const std::function<void()>& check = {}) {
     std::vector<std::byte> rest(std::min<std::uint64_t>(part_.bytes - at_, 1U << 17));
     while ((*this)(rest) > 0) {
+      if (check) check();
     }
     return hash_.digits() == part_.file;
   }

@@ -91,7 +91,10 @@ struct Store::State::Recent {
   };
   /// The name of the object of a part's triangle, if it is kept. Throws roam::Error if the part is known to be damaged.
   [[nodiscard]] std::optional<std::string> object(std::uint32_t part, std::uint64_t triangle) const;
+  /// Does nothing if another thread has kept them meanwhile.
   void keep(Objects&& read) {
+    const auto is_same = [&](const Objects& o) { return o.part == read.part && o.first == read.first; };
+    if (std::any_of(objects.begin(), objects.end(), is_same)) return;
     make_room(entry_cost + read.bytes);
     objects.push_back(std::move(read));
   }

@@ -74,7 +74,7 @@ Store::State::Recent::Objects read_objects(const Store::State& s, std::uint32_t 
   store::PartBytes file(s, s.manifest.parts[part]);
   try {
     file.visit(std::move(visitor));
-    if (!file.is_whole()) throw store::PartDamage(file.name(), "it is not what it was when it was written");
+    if (!file.is_whole(check)) throw store::PartDamage(file.name(), "it is not what it was when it was written");
   } catch (const store::PartDamage& damage) {
     read = {};
     read.part = part;

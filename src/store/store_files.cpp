@@ -11,6 +11,7 @@
 #include <unordered_map>
 #include <utility>
 
+#include "files/holes.h"
 #include "store/files.h"
 
 namespace roam::store {
@@ -65,6 +66,7 @@ class Files : public StoreBytes {
     }
     Descriptor opened = open_file(folder_, file, O_RDONLY);
     if (!opened.is_open()) return reason(errno);
+    if (files::is_mostly_holes(opened.number())) return mostly_holes;
     const char* problem = fill(opened.number(), offset, out);
     keep(file, opened);
     return problem;
@@ -102,7 +104,7 @@ class Files : public StoreBytes {
   /// A repaired pack is another file of the same name. If there is none, the old file is still read.
   void open_again(const std::string& file, int kept) const {
     const Descriptor opened = open_file(folder_, file, O_RDONLY);
-    if (!opened.is_open()) return;
+    if (!opened.is_open() || files::is_mostly_holes(opened.number())) return;
     ::dup3(opened.number(), kept, O_CLOEXEC);  // atomic, so that concurrent reads of the old file are not disturbed
   }
 

@@ -153,6 +153,21 @@ TEST_F(ImportStreamFailures, RefuseADamagedStream) {
   refused(Stream().object(0).vertices(3).triangles(1).end(3, 2), "totals that are not those");
   refused(Stream().frame(FrameKind::tile, PayloadWriter().add_text("Tile_1").add(std::uint8_t{1})),
           "a frame of unknown kind");
+  refused(Stream().frame(FrameKind::opened, PayloadWriter().add_text("/" + std::string(4096, 'a'))),
+          "a path that is too long");
+}
+
+TEST_F(ImportStreamFailures, EndAReaderThatNamesFilesOverAndOver) {
+  std::string path = folder_.path().string();
+  while (path.size() < 4090) path += "/a";
+  std::string bytes;
+  {
+    Stream stream;
+    for (int i = 0; i < 20'000; ++i) stream.frame(FrameKind::opened, PayloadWriter().add_text(path));
+    bytes = stream.object(0).vertices(3).triangles(1).end(3, 1).bytes;
+  }
+  const std::string error = error_of_stream(bytes);
+  EXPECT_TRUE(contains(error, "names files over and over")) << error;
 }
 
 }  // namespace

@@ -1,4 +1,6 @@
 // Files that are whole or not there, packs, the manifest, part files: what a store is made of.
+#include "store/files.h"
+
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -9,7 +11,6 @@
 #include <random>
 
 #include "import_files.h"
-#include "store/files.h"
 #include "store/manifest.h"
 #include "store/part.h"
 
@@ -82,6 +83,23 @@ TEST(NewFile, IsNamedByItsContent) {
   EXPECT_EQ(hash, sha256(bytes_of("abc")));
   EXPECT_EQ(text_of(folder.path() / (hash + ".pack")), "abc");
   EXPECT_EQ(sha256_of_file(folder.path(), hash + ".pack"), hash);
+}
+
+TEST(StoreFiles, AreRefusedIfMostOfThemIsHoles) {
+  const TemporaryFolder folder;
+  const fs::path path = folder.write("a.pack", "abc");
+  std::filesystem::resize_file(path, std::uintmax_t{1} << 40U);
+  const std::string error = error_of([&] { static_cast<void>(sha256_of_file(folder.path(), "a.pack")); });
+  EXPECT_NE(error.find("a.pack"), std::string::npos) << error;
+  EXPECT_NE(error.find("holes"), std::string::npos) << error;
+  std::vector<std::byte> out(3);
+  const char* problem = files_of(folder.path())->read("a.pack", 0, out);
+  ASSERT_NE(problem, nullptr);
+  EXPECT_NE(std::string(problem).find("holes"), std::string::npos) << problem;
+  // A copy may have a few.
+  std::filesystem::resize_file(path, 8 << 20);
+  EXPECT_EQ(files_of(folder.path())->read("a.pack", 0, out), nullptr);
+  EXPECT_EQ(sha256_of_file(folder.path(), "a.pack").size(), 64U);
 }
 
 TEST(NewFile, SaysWhatFileItCouldNotWriteAndWhy) {

@@ -12,6 +12,7 @@
 #include "store/build/fingerprint.h"
 #include "store/made.h"
 #include "store/opened.h"
+#include "store/part_bytes.h"
 
 namespace {
 
@@ -143,6 +144,14 @@ TEST_F(HostileStore, UnpackingAPartCanBeEnded) {
   EXPECT_EQ(store::find_source(opened->state(), some, [] {}).object, "square");
   // Now it is known.
   EXPECT_EQ(store::find_source(opened->state(), some, [] { throw Cancelled(); }).object, "square");
+}
+
+TEST_F(HostileStore, HashingTheRestOfAPartCanBeEnded) {
+  const auto opened = Store::open(folder_.path());
+  const Store::State& s = opened->state();
+  EXPECT_THROW(static_cast<void>(store::PartBytes(s, s.manifest.parts[0]).is_whole([] { throw Cancelled(); })),
+               Cancelled);
+  EXPECT_TRUE(store::PartBytes(s, s.manifest.parts[0]).is_whole([] {}));
 }
 
 TEST(Recent, CountsMoreThanTheNumbersOfATile) {

@@ -5,6 +5,7 @@
 #include <future>
 #include <map>
 #include <memory>
+#include <set>
 
 #include "math/floating_point.h"
 #include "roam/store_build.h"
@@ -286,7 +287,9 @@ StoreBuildReport repair_store(const StoreBuildOptions& options) {
   Work work(as_built);
   work.store = store;
   std::set<std::string> damaged;
+  std::set<std::string> checked;
   const auto check = [&](const std::string& hash, const std::string& file) {
+    if (!checked.insert(file).second) return;
     if (!size_of(work.store, file) || sha256_of_file(work.store, file, [&](std::uint64_t) { work.tick(); }) != hash) {
       damaged.insert(hash);
     }

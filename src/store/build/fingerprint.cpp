@@ -14,6 +14,7 @@
 #include <nlohmann/json.hpp>
 #include <string_view>
 
+#include "files/holes.h"
 #include "import/scene_scope.h"
 #include "roam/error.h"
 #include "store/authentic.h"
@@ -35,10 +36,6 @@ using Json = nlohmann::ordered_json;
 constexpr std::int64_t clock_steps = 3'000'000'000;
 /// Bytes for the remembered data of files, some 100,000 of them. A larger record is ignored.
 constexpr std::uint64_t sources_memory = 128u << 20;
-
-/// Bytes of holes that a file may have, in total and for each byte on the disk. A hole costs its author nothing, but
-/// hashing it takes as long as hashing data.
-constexpr std::uint64_t most_holes = 16u << 20, holes_per_byte = 16;
 
 /// Opens the file at the end of a path without links; `flags` as of open(2). Fails if a link has appeared in the path.
 Descriptor open_without_links(const fs::path& real, int flags) {
@@ -113,7 +110,7 @@ class FileHash {
     if (bytes == 0) return;
     holes_ += bytes;
     const std::uint64_t on_disk = 512 * static_cast<std::uint64_t>(status_.st_blocks);
-    if (holes_ > most_holes && (holes_ - most_holes) / holes_per_byte > on_disk) {
+    if (holes_ > files::most_holes && (holes_ - files::most_holes) / files::holes_per_byte > on_disk) {
       throw Error::at(
           file_.string(),
           fmt::format("{} has {} bytes, but only {} of them are on the disk: the rest is a hole, which no scene has. "

@@ -74,6 +74,7 @@ void Loaders::mark(int number, Clock::time_point since) {
 
 void Loaders::run(int number) {
   for (;;) {
+    names_.serve(Names::Kind::reason, [this](TriangleId triangle) { return reason(triangle); });
     Work work;
     bool found = false;
     {
@@ -94,7 +95,8 @@ void Loaders::run(int number) {
 
 void Loaders::run_names() {
   for (;;) {
-    const bool served = names_.serve([this](TriangleId triangle) { return name(triangle); });
+    const bool served =
+        names_.serve(Names::Kind::object, [this](TriangleId triangle) { return object_name(triangle); });
     std::unique_lock lock(sleeping_);
     if (stop_ || (!served && wake_.wait_for(lock, nap, [this] { return stop_; }))) return;
   }
@@ -182,14 +184,22 @@ const char* Loaders::load_page(const Work& work, Outcome& outcome) const {
   return nullptr;
 }
 
-/// The name, or nothing if it is not available now. Never throws.
-std::optional<std::string> Loaders::name(TriangleId triangle) {
+/// Nothing if it is not available now. Never throws.
+std::optional<std::string> Loaders::object_name(TriangleId triangle) {
   try {
     const auto go_on = [this] {
       const std::lock_guard lock(sleeping_);
       if (stop_) throw Cancelled();
     };
-    if ((triangle & unknown_bit) == 0) return store::find_source(store_->state(), triangle, go_on).object;
+    return store::find_source(store_->state(), triangle, go_on).object;
+  } catch (...) {
+    return std::nullopt;
+  }
+}
+
+/// Nothing if it is not available now. Never throws.
+std::optional<std::string> Loaders::reason(TriangleId triangle) {
+  try {
     const std::lock_guard lock(planning_);
     return planner_.reason(unknown_thing(triangle));
   } catch (...) {

@@ -50,7 +50,8 @@ class Loaders {
   [[nodiscard]] const char* read(const Work& work, std::span<std::byte> out, Outcome& outcome) const;
   [[nodiscard]] const char* load_tile(const Work& work, Tools& tools, Outcome& outcome) const;
   [[nodiscard]] const char* load_page(const Work& work, Outcome& outcome) const;
-  [[nodiscard]] std::optional<std::string> name(TriangleId triangle);
+  [[nodiscard]] std::optional<std::string> object_name(TriangleId triangle);
+  [[nodiscard]] std::optional<std::string> reason(TriangleId triangle);
   void mark(int number, Clock::time_point since);
 
   std::shared_ptr<const Store> store_;

@@ -37,14 +37,18 @@ std::string Names::ask(TriangleId triangle) {
   return entry->name;
 }
 
-bool Names::serve(const std::function<std::optional<std::string>(TriangleId)>& find) {
+bool Names::serve(Kind kind, const std::function<std::optional<std::string>(TriangleId)>& find) {
   TriangleId triangle = 0;
   {
     const std::lock_guard lock(mutex_);
-    const auto at = std::find_if(entries_.begin(), entries_.end(), [](const Entry& e) { return e.wanted; });
-    if (at == entries_.end()) return false;
-    at->wanted = false;
-    triangle = at->triangle;
+    Entry* last = nullptr;
+    for (Entry& e : entries_) {
+      if (!e.wanted || ((e.triangle & unknown_bit) != 0) != (kind == Kind::reason)) continue;
+      if (last == nullptr || e.asked > last->asked) last = &e;
+    }
+    if (last == nullptr) return false;
+    last->wanted = false;
+    triangle = last->triangle;
   }
   std::optional<std::string> name = find(triangle);
   const std::lock_guard lock(mutex_);

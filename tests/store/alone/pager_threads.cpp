@@ -6,6 +6,7 @@
 #include <cerrno>
 
 #include "pager_made.h"
+#include "store/pager/names.h"
 #include "walker_scenes.h"
 
 namespace {
@@ -93,6 +94,24 @@ TEST(PagerNames, ThatCouldNotBeReadAreReadAgainWhenSomebodyAsks) {
   EXPECT_FALSE(named_within(20));
   bytes->broken = false;
   EXPECT_TRUE(named_within(3000));
+}
+
+TEST(PagerNames, AreFoundByKindAndTheLastOneFirst) {
+  paging::Names names;
+  const TriangleId place = unknown_bit | 5;
+  for (const TriangleId id : {TriangleId{1}, TriangleId{2}, place}) EXPECT_EQ(names.ask(id), "");
+  std::vector<TriangleId> found;
+  const auto find = [&](TriangleId id) -> std::optional<std::string> {
+    found.push_back(id);
+    return std::to_string(id);
+  };
+  EXPECT_TRUE(names.serve(paging::Names::Kind::reason, find));
+  EXPECT_FALSE(names.serve(paging::Names::Kind::reason, find));
+  EXPECT_TRUE(names.serve(paging::Names::Kind::object, find));
+  EXPECT_TRUE(names.serve(paging::Names::Kind::object, find));
+  EXPECT_FALSE(names.serve(paging::Names::Kind::object, find));
+  EXPECT_EQ(found, (std::vector<TriangleId>{place, 2, 1}));
+  EXPECT_EQ(names.ask(1), "1");
 }
 
 TEST(PagerNames, ThatTakeLongKeepNoTileWaiting) {

@@ -45,11 +45,11 @@ bool limit(int resource, rlim_t value) {
   return setrlimit(static_cast<__rlimit_resource_t>(resource), &both) == 0;
 }
 
-/// Whether no other thread runs, which Landlock would not confine. Also true if /proc cannot be read.
+/// Whether no other thread runs, which Landlock would not confine. False if /proc cannot be read.
 bool is_alone() {
   std::error_code none;
   std::filesystem::directory_iterator thread("/proc/self/task", none);
-  return none || std::next(thread) == std::filesystem::directory_iterator();
+  return !none && std::next(thread) == std::filesystem::directory_iterator();
 }
 
 #ifdef __linux__
