@@ -1,4 +1,6 @@
 // Files that are whole or not there, packs, the manifest, part files: what a store is made of.
+#include "store/files.h"
+
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -9,7 +11,7 @@
 #include <random>
 
 #include "import_files.h"
-#include "store/files.h"
+#include "packed_part.h"
 #include "store/manifest.h"
 #include "store/part.h"
 

@@ -8,7 +8,7 @@
 #include "memory_cost.h"
 #include "packed_part.h"
 #include "store/build/fingerprint.h"
-#include "store/made.h"
+#include "store_made.h"
 
 namespace {
 
