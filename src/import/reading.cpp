@@ -6,12 +6,8 @@
 #include <chrono>
 #include <csignal>
 #include <cstring>
-#include <optional>
-#include <string>
 #include <system_error>
 
-#include "import/processor_budget.h"
-#include "import/reader_process.h"
 #include "text/printable.h"
 
 namespace roam::reader {

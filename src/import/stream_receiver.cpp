@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <utility>
 
 #include "text/printable.h"
 
@@ -76,13 +75,10 @@ void StreamReceiver::handle(const FrameHeader& header, std::span<const std::byte
     case FrameKind::opened:
       opened_.push_back(fields.take_text());
       break;
-    case FrameKind::outside: {
-      std::string file = fields.take_text();
+    case FrameKind::outside:
       ++report_.outside_references;
-      auto& files = report_.outside_files;
-      if (files.size() < ImportReport::name_limit) files.push_back(std::move(file));
+      take_name(fields, report_.outside_files);
       break;
-    }
     case FrameKind::progress:
       bytes_read_ = fields.take<std::uint64_t>();
       break;
@@ -99,12 +95,9 @@ void StreamReceiver::handle(const FrameHeader& header, std::span<const std::byte
     case FrameKind::left_out:
       take_left_out(fields);
       break;
-    case FrameKind::missing_page: {
-      std::string file = fields.take_text();
-      auto& files = report_.missing_page_files;
-      if (files.size() < ImportReport::name_limit) files.push_back(std::move(file));
+    case FrameKind::missing_page:
+      take_name(fields, report_.missing_page_files);
       break;
-    }
     case FrameKind::note: {
       std::string sentence = printable(spelt(fields.take_text()), longest_sentence);
       if (report_.notes.size() < note_limit) report_.notes.push_back(std::move(sentence));
@@ -123,6 +116,11 @@ void StreamReceiver::handle(const FrameHeader& header, std::span<const std::byte
       return take_content(header.kind, payload);
   }
   if (!fields.complete()) throw StreamDamaged{"a frame of broken length"};
+}
+
+void StreamReceiver::take_name(PayloadReader& fields, std::vector<std::string>& names) {
+  std::string name = fields.take_text();
+  if (names.size() < ImportReport::name_limit) names.push_back(std::move(name));
 }
 
 void StreamReceiver::count_bytes(std::size_t bytes) {
