@@ -23,7 +23,6 @@ class Hud::Panels : public osg::NodeCallback {
   std::vector<HelpLine> help;
   bool help_shown = false;
   Detail detail = Detail::full;
-  std::size_t minimal_lines = 1;
   bool crosshair = true;
   bool status_changed = true, message_changed = true, help_changed = true, crosshair_changed = true;
 
@@ -40,7 +39,7 @@ class Hud::Panels : public osg::NodeCallback {
   [[nodiscard]] std::vector<StatusLine> status_shown() const {
     if (help_shown) return {};  // the help takes its place
     std::vector<StatusLine> shown = status;
-    if (detail == Detail::minimal) shown.resize(std::min(shown.size(), minimal_lines));
+    if (detail == Detail::minimal) shown.resize(std::min<std::size_t>(shown.size(), 1));
     return shown;
   }
 
@@ -134,12 +133,6 @@ void Hud::set_detail(Detail detail) {
 }
 
 Detail Hud::detail() const { return panels_->detail; }
-
-void Hud::set_minimal_lines(std::size_t lines) {
-  if (lines == panels_->minimal_lines) return;
-  panels_->minimal_lines = lines;
-  panels_->status_changed = true;
-}
 
 void Hud::set_crosshair(bool shown) {
   if (shown == panels_->crosshair) return;

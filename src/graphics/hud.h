@@ -20,7 +20,7 @@
 
 namespace roam::graphics {
 
-/// Amount of display. full: status, message, crosshair. minimal: the values of the first status lines, message,
+/// Amount of display. full: status, message, crosshair. minimal: the first status line, message,
 /// crosshair. off: nothing, not even help.
 enum class Detail : std::uint8_t { full, minimal, off };
 /// Kind of a text. A warning is amber with a bar at its side; an info is white.
@@ -47,11 +47,10 @@ class Hud {
   Hud(const Hud&) = delete;
   Hud& operator=(const Hud&) = delete;
 
-  /// Lines from top to bottom. In minimal detail only lines [0, minimal_lines) are shown.
+  /// Lines from top to bottom. In minimal detail only the first one is shown.
   void set_status(std::vector<StatusLine> lines);
   /// The message in the lower middle; empty: none. It may have several lines; long ones are broken.
   void set_message(std::string text, Tone tone = Tone::info);
-  void clear_message() { set_message({}); }
   /// A bar below the message for progress in [0, 1]; negative: none.
   void set_progress(double share);
   /// From about 480 x 360 pixels on, all lines are visible. In smaller windows only the first ones are, with a line
@@ -62,8 +61,7 @@ class Hud {
   [[nodiscard]] bool help_shown() const;
   void set_detail(Detail detail);
   [[nodiscard]] Detail detail() const;
-  void set_minimal_lines(std::size_t lines);  ///< default 1
-  void set_crosshair(bool shown);             ///< default true
+  void set_crosshair(bool shown);  ///< default true
 
   /// All visible text, line by line: "label: value", the message, "key: effect". Empty if off.
   [[nodiscard]] std::string text() const;

@@ -18,7 +18,6 @@ const osg::Vec4 held_color(1.0f, 0.66f, 0.20f, 0.95f);
 const osg::Vec4 contact_color(1.0f, 0.25f, 0.30f, 1.0f);
 const osg::Vec4 triangle_color(1.0f, 0.72f, 0.20f, 0.95f);
 const osg::Vec4 face_color(1.0f, 0.72f, 0.20f, 0.28f);
-const osg::Vec4 trail_color(0.25f, 0.95f, 0.60f, 0.95f);
 constexpr double normal_length = 0.3, cross_size = 0.05;  // metres
 constexpr int circle_corners = 48;
 constexpr double pi = 3.14159265358979323846;
@@ -144,64 +143,11 @@ void make_state(osg::StateSet& state) {
 
 }  // namespace
 
-/// A line as a number of full pieces and one that grows.
-class Overlay::Trail : public osg::Group {
- public:
-  void add(const Vec3& point) {
-    if (!points_) begin_piece();
-    if (points_->size() == piece_size) {
-      const osg::Vec3 last = points_->back();
-      begin_piece();
-      points_->push_back(last);
-    }
-    points_->push_back(to_osg(point));
-    // A strip of one point draws nothing, and OpenGL accepts it.
-    strip_->setCount(static_cast<GLsizei>(points_->size()));
-    points_->dirty();
-    geometry_->dirtyBound();
-  }
-  void end_line() {
-    points_ = nullptr;
-    strip_ = nullptr;
-    geometry_ = nullptr;
-  }
-  void clear() {
-    end_line();
-    removeChildren(0, getNumChildren());
-  }
-
- private:
-  static constexpr std::size_t piece_size = 1024;
-  void begin_piece() {
-    geometry_ = new osg::Geometry;
-    geometry_->setDataVariance(osg::Object::DYNAMIC);
-    geometry_->setUseDisplayList(false);
-    geometry_->setUseVertexBufferObjects(true);
-    points_ = new osg::Vec3Array;
-    points_->reserve(piece_size);
-    geometry_->setVertexArray(points_);
-    osg::ref_ptr<osg::Vec4Array> color = new osg::Vec4Array(1);
-    (*color)[0] = trail_color;
-    geometry_->setColorArray(color, osg::Array::BIND_OVERALL);
-    strip_ = new osg::DrawArrays(GL_LINE_STRIP, 0, 0);
-    geometry_->addPrimitiveSet(strip_);
-    addChild(geometry_);
-  }
-
-  osg::ref_ptr<osg::Geometry> geometry_;
-  osg::ref_ptr<osg::Vec3Array> points_;
-  osg::ref_ptr<osg::DrawArrays> strip_;
-};
-
-Overlay::Overlay(Frame& frame)
-    : parent_(frame.space()), group_(new osg::Group), marks_(new osg::Group), trail_(new Trail) {
+Overlay::Overlay(Frame& frame) : parent_(frame.space()), group_(new osg::Group), marks_(new osg::Group) {
   group_->setName("overlay");
-  osg::ref_ptr<osg::Group> content = new osg::Group;
-  content->addChild(marks_);
-  content->addChild(trail_);
   make_state(*group_->getOrCreateStateSet());
-  group_->addChild(make_pass(false, content));
-  group_->addChild(make_pass(true, content));
+  group_->addChild(make_pass(false, marks_));
+  group_->addChild(make_pass(true, marks_));
   parent_->addChild(group_);
 }
 
@@ -216,9 +162,5 @@ void Overlay::set_marks(const Marks& marks) {
   faces.add_to(*marks_);
   lines.add_to(*marks_);
 }
-
-void Overlay::add_to_trail(const Vec3& point) { trail_->add(point); }
-void Overlay::break_trail() { trail_->end_line(); }
-void Overlay::clear_trail() { trail_->clear(); }
 
 }  // namespace roam::graphics

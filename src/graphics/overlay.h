@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Collision data drawn in the scene: body, contacts, triangles and trail.
+/// Collision data drawn in the scene: body, contacts and triangles.
 ///
 /// Walls do not hide it completely: hidden parts are drawn faintly. All positions are in the frame of the scene graph,
 /// which is the scene minus one origin; subtract that from positions in the scene.
@@ -36,7 +36,7 @@ struct Marks {
   std::vector<std::array<Vec3, 3>> triangles{};  ///< corners, metres, scene minus origin
 };
 
-/// Draws marks and a trail in a frame. Use it from the thread that calls viewer.frame(), between frames.
+/// Draws marks in a frame. Use it from the thread that calls viewer.frame(), between frames.
 class Overlay {
  public:
   explicit Overlay(Frame& frame);
@@ -45,17 +45,9 @@ class Overlay {
   Overlay& operator=(const Overlay&) = delete;
 
   void set_marks(const Marks& marks);
-  /// Appends a point to the recorded path, in metres, scene minus origin. Points can be added at 60 Hz for hours,
-  /// because only the last piece is sent to the driver again.
-  void add_to_trail(const Vec3& point);
-  /// The next point begins a new line, for example after a teleport.
-  void break_trail();
-  void clear_trail();
 
  private:
-  class Trail;
   osg::ref_ptr<osg::Group> parent_, group_, marks_;
-  osg::ref_ptr<Trail> trail_;
 };
 
 }  // namespace roam::graphics

@@ -1,6 +1,7 @@
 // The body, its contacts and its way, drawn in the scene.
 
 #include "graphics/overlay.h"
+
 #include "graphics_stage.h"
 
 namespace roam::test {
@@ -120,37 +121,6 @@ TEST(GraphicsOverlay, ContactsAreDrawnWithTheirNormals) {
   const double scale = 90 / std::tan(0.5 * 65 * M_PI / 180) / 4;
   EXPECT_NEAR(drawn.width, (0.3 + 0.05) * scale, 3);
   EXPECT_NEAR(drawn.height, 0.1 * scale, 3);
-}
-
-TEST(GraphicsOverlay, TheTrailGrowsBreaksAndIsCleared) {
-  Stage stage(320, 180);
-  stage.add(grey_wall(20));
-  const auto without = stage.picture();
-  Overlay overlay(stage.frame);
-  // Longer than a piece, which are of 1024 points, with the longest step where pieces join: nowhere a gap.
-  for (int i = 0; i < 2048; ++i) {
-    overlay.add_to_trail({i < 1024 ? -5 + 3.0 * i / 1023 : 2 + 3.0 * (i - 1024) / 1023, 10, 0});
-    if (i % 500 == 0) stage.picture();
-  }
-  const auto with = stage.picture();
-  const auto covered = [&](const osg::Image& image, int x) {
-    int rows = 0;
-    for (int y = 80; y < 100; ++y) rows += at(*without, x, y).distance(at(image, x, y)) > 20;
-    return rows > 0;
-  };
-  for (int x = 95; x < 225; ++x) EXPECT_TRUE(covered(*with, x)) << x;
-
-  overlay.clear_trail();
-  EXPECT_EQ(difference(*without, *stage.picture()).pixels, 0);
-  overlay.add_to_trail({-5, 10, 0});
-  overlay.add_to_trail({-2, 10, 0});
-  overlay.break_trail();
-  overlay.add_to_trail({2, 10, 0});
-  overlay.add_to_trail({5, 10, 0});
-  const auto broken = stage.picture();
-  EXPECT_TRUE(covered(*broken, 110));
-  EXPECT_FALSE(covered(*broken, 160));
-  EXPECT_TRUE(covered(*broken, 210));
 }
 
 TEST(GraphicsOverlay, GoesAwayWithItsObject) {
