@@ -2,12 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <locale>
 #include <sstream>
 
 #include "cli/standard_streams.h"
-#include "roam/error.h"
 #include "text/printable.h"
 
 namespace roam::app {
@@ -20,17 +18,6 @@ std::optional<Mode> parse_mode(const std::string& text) {
     if (text == to_string(mode)) return mode;
   }
   return std::nullopt;
-}
-
-WalkerSettings settings_of(const RecordedBody& body) {
-  WalkerSettings settings;
-  settings.radius = body.radius;
-  settings.height = body.height;
-  settings.eye = body.eye;
-  settings.step = body.step;
-  settings.slope_degrees = body.slope_degrees;
-  settings.support_radius = body.support_radius;
-  return settings;
 }
 
 std::string describe(double radius, double height) {
@@ -67,7 +54,7 @@ std::optional<RecordedBody> recorded_body(const std::string& text, const std::st
     }
     if (!body) {
       try {
-        check(settings_of(read));
+        check(static_cast<const WalkerSettings&>(read));
       } catch (const Error& error) {
         throw Error(fmt::format("{}:{}: {}; correct or remove the line", name_of_file, number, error.what()));
       }

@@ -19,12 +19,10 @@
 
 namespace roam::app {
 
-struct RecordedBody {
+/// Of the settings, the line has the sizes, the step, the slope and the support disc.
+struct RecordedBody : WalkerSettings {
   Mode mode = Mode::walk;  ///< walk if all of the way was walked, else fly
   bool ghost = false;      ///< a ghost moved along part of the way, so walls may stand in it
-  double radius = 0.3, height = 1.8, eye = 1.6, step = 0.3;  ///< metres
-  double slope_degrees = 45.0;
-  double support_radius = 0.0;  ///< metres; 0: no support disc, and the line does not mention one
 };
 
 /// A further line; the first is body_line() of path_file.h.
