@@ -7,7 +7,6 @@
 #include <cstdint>
 #include <cstdio>
 #include <exception>
-#include <functional>
 #include <glm/geometric.hpp>
 #include <osg/Geode>
 #include <osg/Geometry>
@@ -35,29 +34,25 @@ osg::ref_ptr<osg::Group> graph_of(const std::vector<roam::Mesh>& meshes, std::si
   std::size_t triangles = 0, done = 0;
   for (const roam::Mesh& mesh : meshes) triangles += mesh.triangles.size();
   osg::ref_ptr<osg::Group> scene = new osg::Group;
-  osg::ref_ptr<osg::Vec3Array> vertices;
-  osg::ref_ptr<osg::DrawElementsUInt> indices;
+  roam::Mesh part;
+  const auto end_part = [&] {
+    if (!part.triangles.empty()) scene->addChild(roam::bench::to_geode(part));
+    part = {};
+  };
   for (const roam::Mesh& mesh : meshes) {
     std::uint32_t first = 0;
     for (std::size_t i = 0; i < mesh.triangles.size(); ++i, ++done) {
-      const bool next = done * geodes / triangles >= scene->getNumChildren();
-      if (next) {
-        vertices = new osg::Vec3Array;
-        indices = new osg::DrawElementsUInt(GL_TRIANGLES);
-        osg::ref_ptr<osg::Geometry> geometry = new osg::Geometry;
-        geometry->setVertexArray(vertices);
-        geometry->addPrimitiveSet(indices);
-        osg::ref_ptr<osg::Geode> geode = new osg::Geode;
-        geode->addDrawable(geometry);
-        scene->addChild(geode);
-      }
+      const bool next = done * geodes / triangles > scene->getNumChildren();
+      if (next) end_part();
       if (next || i == 0) {
-        first = static_cast<std::uint32_t>(vertices->size());
-        for (const Vec3& v : mesh.vertices) vertices->push_back(osg::Vec3(to_osg(v)));
+        first = static_cast<std::uint32_t>(part.vertices.size());
+        part.vertices.insert(part.vertices.end(), mesh.vertices.begin(), mesh.vertices.end());
       }
-      for (const std::uint32_t corner : mesh.triangles[i]) indices->push_back(first + corner);
+      const auto& t = mesh.triangles[i];
+      part.triangles.push_back({first + t[0], first + t[1], first + t[2]});
     }
   }
+  end_part();
   if (kd_tree) {
     osg::ref_ptr<osg::KdTreeBuilder> builder = new osg::KdTreeBuilder;
     scene->accept(*builder);

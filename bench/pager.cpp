@@ -5,7 +5,6 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <array>
 #include <chrono>
 #include <cstdio>
 #include <glm/geometric.hpp>
@@ -17,7 +16,7 @@
 #include "roam/world.h"
 #include "run_options.h"
 #include "scene.h"
-#include "store/made.h"
+#include "store_made.h"
 #include "timing.h"
 
 namespace {

@@ -1,9 +1,13 @@
 #include "paper_judge.h"
 
 #include <algorithm>
+#include <array>
 #include <glm/geometric.hpp>
 
 #include "judge.h"
+#include "math/boxes.h"
+#include "store/meshes.h"
+#include "text/names.h"
 
 namespace roam::bench {
 namespace {
@@ -13,36 +17,13 @@ constexpr std::size_t block_steps = 16;
 Box box_of(const Vec3& from, const Vec3& to, double radius) {
   // The reference decides about contact, so a slightly larger box is harmless.
   const Vec3 reach(radius + 1e-6);
-  Box box;
-  box.include(from - reach);
-  box.include(from + reach);
-  box.include(to - reach);
-  box.include(to + reach);
-  return box;
-}
-
-bool overlap(const Box& a, const Box& b) {
-  for (int k = 0; k < 3; ++k) {
-    if (a.lower[k] > b.upper[k] || b.lower[k] > a.upper[k]) return false;
-  }
-  return true;
+  return box_around(std::array{from, to}).grown(reach);
 }
 
 }  // namespace
 
 const char* to_string(Ending ending) {
-  switch (ending) {
-    case Ending::reached:
-      return "completed";
-    case Ending::stuck:
-      return "stuck";
-    case Ending::fell:
-      return "fell";
-    case Ending::through:
-      return "through a wall";
-    default:
-      return "not finished";
-  }
+  return name_in({"completed", "stuck", "fell", "through a wall", "not finished"}, ending);
 }
 
 void PaperJudge::watch(const Way& way, const Walked& walked) {
@@ -64,21 +45,17 @@ void PaperJudge::watch(const Way& way, const Walked& walked) {
 }
 
 void PaperJudge::add(const Mesh& mesh) {
-  Box whole;
-  for (const Vec3& v : mesh.vertices) whole.include(v);
+  const Box whole = box_around(mesh.vertices);
   std::vector<Box> near;
   for (const Block& block : blocks_) {
-    if (overlap(block.box, whole)) near.push_back(block.box);
+    if (meet(block.box, whole)) near.push_back(block.box);
   }
   if (near.empty()) return;
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
     const Triangle triangle = mesh.triangle(i);
-    Box box;
-    for (const Vec3& v : triangle) box.include(v);
-    if (std::none_of(near.begin(), near.end(), [&](const Box& block) { return overlap(block, box); })) continue;
-    const auto first = static_cast<std::uint32_t>(kept_.vertices.size());
-    kept_.vertices.insert(kept_.vertices.end(), triangle.begin(), triangle.end());
-    kept_.triangles.push_back({first, first + 1, first + 2});
+    const Box box = box_around(triangle);
+    if (std::none_of(near.begin(), near.end(), [&](const Box& block) { return meet(block, box); })) continue;
+    store::append(kept_, {&triangle, 1});
     if (kept_.triangles.size() >= most_) settle();
   }
 }
@@ -86,10 +63,9 @@ void PaperJudge::add(const Mesh& mesh) {
 void PaperJudge::settle() {
   if (kept_.triangles.empty()) return;
   const Reference reference({&kept_, 1});
-  Box whole;
-  for (const Vec3& v : kept_.vertices) whole.include(v);
+  const Box whole = box_around(kept_.vertices);
   for (const Block& block : blocks_) {
-    if (!overlap(block.box, whole)) continue;
+    if (!meet(block.box, whole)) continue;
     for (std::size_t i = block.begin; i < block.end; ++i) {
       Step& step = steps_[i];
       const Query way{{.radius = step.radius}, step.from, step.to - step.from};

@@ -63,6 +63,38 @@ Mover mover_of(const std::shared_ptr<Walk>& walk) {
   return mover;
 }
 
+/// Moves a body as far as it can go; the touch that stopped it.
+using AdvanceBy = std::function<std::optional<Touch>(double radius, Vec3& place, const Vec3& motion)>;
+
+/// Slides along what it touches, `slides` motions a step at most. A walking body also falls.
+Mover sliding(AdvanceBy advance, int slides, const Vec3& shift) {
+  struct State {
+    Way way;
+    Vec3 place{0.0};
+    double falling = 0.0;  // m/s
+  };
+  const auto state = std::make_shared<State>();
+  Mover mover;
+  mover.place = [state, shift](const Way& way) { *state = {way, way.from + shift, 0.0}; };
+  mover.step = [state, shift, slides, advance = std::move(advance)](const Vec3& velocity) {
+    Vec3 rest = velocity * dt;
+    for (int i = 0; i < slides && glm::length(rest) > 1e-9; ++i) {
+      const Vec3 before = state->place;
+      const auto touch = advance(state->way.radius, state->place, rest);
+      if (!touch) break;
+      rest -= state->place - before;
+      rest -= std::min(0.0, glm::dot(rest, touch->normal)) * touch->normal;
+      if (glm::dot(rest, velocity) <= 0.0) break;
+    }
+    if (state->way.walking) {
+      state->falling += gravity * dt;
+      if (advance(state->way.radius, state->place, {0.0, 0.0, -state->falling * dt})) state->falling = 0.0;
+    }
+    return state->place - shift;
+  };
+  return mover;
+}
+
 }  // namespace
 
 Mover roam_in_memory(const PaperScene& scene) {
@@ -90,65 +122,26 @@ Mover roam_sweep(const PaperScene& scene) {
 }
 
 Mover collide_and_slide(Sweep sweep, const Vec3& shift, double skin) {
-  struct State {
-    Way way;
-    Vec3 place{0.0};
-    double falling = 0.0;  // m/s
-  };
-  const auto state = std::make_shared<State>();
   // Moves to the contact of the sweep, less the skin.
-  const auto advance = [sweep = std::move(sweep), skin](double radius, Vec3& place, const Vec3& motion) {
-    const double length = glm::length(motion);
-    std::optional<Touch> touch;
-    if (length > 0.0) touch = sweep(radius, place, motion);
-    place += (touch ? std::max(0.0, touch->time - skin / length) : 1.0) * motion;
-    return touch;
-  };
-  Mover mover;
-  mover.place = [state, shift](const Way& way) { *state = {way, way.from + shift, 0.0}; };
-  mover.step = [state, shift, advance](const Vec3& velocity) {
-    Vec3 rest = velocity * dt;
-    for (int i = 0; i < most_slides && glm::length(rest) > 1e-9; ++i) {
-      const Vec3 before = state->place;
-      const auto touch = advance(state->way.radius, state->place, rest);
-      if (!touch) break;
-      rest -= state->place - before;
-      rest -= std::min(0.0, glm::dot(rest, touch->normal)) * touch->normal;
-      if (glm::dot(rest, velocity) <= 0.0) break;
-    }
-    if (state->way.walking) {
-      state->falling += gravity * dt;
-      if (advance(state->way.radius, state->place, {0.0, 0.0, -state->falling * dt})) state->falling = 0.0;
-    }
-    return state->place - shift;
-  };
-  return mover;
+  return sliding(
+      [sweep = std::move(sweep), skin](double radius, Vec3& place, const Vec3& motion) {
+        const double length = glm::length(motion);
+        std::optional<Touch> touch;
+        if (length > 0.0) touch = sweep(radius, place, motion);
+        place += (touch ? std::max(0.0, touch->time - skin / length) : 1.0) * motion;
+        return touch;
+      },
+      most_slides, shift);
 }
 
 Mover go_or_stay(Blocked blocked, const Vec3& shift) {
-  struct State {
-    Way way;
-    Vec3 place{0.0};
-    double falling = 0.0;  // m/s
-  };
-  const auto state = std::make_shared<State>();
-  Mover mover;
-  mover.place = [state, shift](const Way& way) { *state = {way, way.from + shift, 0.0}; };
-  mover.step = [state, shift, blocked = std::move(blocked)](const Vec3& velocity) {
-    const Vec3 motion = velocity * dt;
-    if (!blocked(state->way.radius, state->place, motion)) state->place += motion;
-    if (state->way.walking) {
-      state->falling += gravity * dt;
-      const Vec3 down{0.0, 0.0, -state->falling * dt};
-      if (blocked(state->way.radius, state->place, down)) {
-        state->falling = 0.0;
-      } else {
-        state->place += down;
-      }
-    }
-    return state->place - shift;
-  };
-  return mover;
+  return sliding(
+      [blocked = std::move(blocked)](double radius, Vec3& place, const Vec3& motion) {
+        if (blocked(radius, place, motion)) return std::optional<Touch>(Touch{});
+        place += motion;
+        return std::optional<Touch>();
+      },
+      1, shift);
 }
 
 std::vector<PaperRow> paper_rows(const std::string& wasm) {

@@ -9,6 +9,7 @@
 #include <glm/geometric.hpp>
 
 #include "cli/interrupt.h"
+#include "math/boxes.h"
 #include "roam/error.h"
 #include "roam/generate.h"
 #include "roam/import.h"
@@ -23,8 +24,7 @@ constexpr double paper_reach = 20.0;  // m from the ways: a scene without triang
 
 /// By the ball around the triangle's box.
 bool near(const std::vector<Way>& ways, const Triangle& triangle) {
-  Box box;
-  for (const Vec3& v : triangle) box.include(v);
+  const Box box = box_around(triangle);
   const Vec3 middle = box.center();
   const double reach = paper_reach + 0.5 * glm::length(box.upper - box.lower);
   return std::any_of(ways.begin(), ways.end(), [&](const Way& way) {

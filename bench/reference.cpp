@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "closed_form.h"
+#include "math/boxes.h"
 #include "verify/swept_distance.h"
 
 namespace roam::bench {
@@ -89,10 +90,9 @@ Reference::Reference(std::span<const Mesh> meshes) {
   for (const Mesh& mesh : meshes) {
     for (std::size_t i = 0; i < mesh.triangles.size(); ++i) unordered.push_back(mesh.triangle(i));
   }
-  std::vector<Box> boxes(unordered.size());
-  for (std::size_t i = 0; i < boxes.size(); ++i) {
-    for (const Vec3& corner : unordered[i]) boxes[i].include(corner);
-  }
+  std::vector<Box> boxes;
+  boxes.reserve(unordered.size());
+  for (const Triangle& triangle : unordered) boxes.push_back(box_around(triangle));
   std::vector<std::uint32_t> order(unordered.size());
   std::iota(order.begin(), order.end(), 0U);
   if (!order.empty()) split(order, boxes, 0, static_cast<std::uint32_t>(order.size()));

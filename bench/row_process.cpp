@@ -11,6 +11,7 @@
 #include <cerrno>
 #include <chrono>
 #include <csignal>
+#include <cstring>
 #include <cstdio>
 #include <exception>
 #include <fstream>
@@ -38,14 +39,17 @@ std::uint64_t peak_bytes_of_children() {
   return 1024 * static_cast<std::uint64_t>(usage.ru_maxrss);
 }
 
-/// The largest resident memory of this process so far.
-std::uint64_t peak_bytes() {
-  std::ifstream status("/proc/self/status");
-  for (std::string line; std::getline(status, line);) {
-    if (line.starts_with("VmHWM:")) return 1024 * std::stoull(line.substr(6));
+/// The bytes of a line "key: number kB" of a file of /proc; 0 if it has none.
+std::uint64_t bytes_in(const char* file, const char* key) {
+  std::ifstream lines(file);
+  for (std::string line; std::getline(lines, line);) {
+    if (line.starts_with(key)) return 1024 * std::stoull(line.substr(std::strlen(key)));
   }
   return 0;
 }
+
+/// The largest resident memory of this process so far.
+std::uint64_t peak_bytes() { return bytes_in("/proc/self/status", "VmHWM:"); }
 
 /// Numbers as text lose nothing: they are printed with all digits.
 json to_json(const Walked& walked) {
@@ -91,11 +95,8 @@ std::uint64_t bytes_now(pid_t process) {
 
 /// The default limit of memory for rows: three quarters of the machine's free memory.
 std::uint64_t memory_for_rows() {
-  std::ifstream info("/proc/meminfo");
-  for (std::string line; std::getline(info, line);) {
-    if (line.starts_with("MemAvailable:")) return 1024 * std::stoull(line.substr(13)) / 4 * 3;
-  }
-  return std::numeric_limits<std::uint64_t>::max();
+  const std::uint64_t free = bytes_in("/proc/meminfo", "MemAvailable:");
+  return free > 0 ? free / 4 * 3 : std::numeric_limits<std::uint64_t>::max();
 }
 
 /// The output of a row, and the reason if it was ended early.

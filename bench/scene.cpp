@@ -2,6 +2,7 @@
 
 #include <filesystem>
 
+#include "math/boxes.h"
 #include "roam/error.h"
 #include "roam/generate.h"
 #ifdef ROAM_BENCH_READS_FILES
@@ -24,9 +25,7 @@ std::vector<Mesh> read(const std::string& file, [[maybe_unused]] const std::func
 
 void center_at(std::vector<Mesh>& meshes, const Vec3& origin) {
   Box box;
-  for (const Mesh& mesh : meshes) {
-    for (const Vec3& v : mesh.vertices) box.include(v);
-  }
+  for (const Mesh& mesh : meshes) box.include(box_around(mesh.vertices));
   const Vec3 shift = origin - box.center();
   for (Mesh& mesh : meshes) {
     for (Vec3& v : mesh.vertices) v += shift;

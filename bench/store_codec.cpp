@@ -11,9 +11,9 @@
 #include "program.h"
 #include "roam/error.h"
 #include "scene.h"
-#include "store/codec/made_tiles.h"
 #include "store/codec/streams.h"
 #include "thread_clock.h"
+#include "tiles_made.h"
 #include "timing.h"
 
 namespace {

@@ -80,8 +80,7 @@ Summary summarize(const Times& times, const std::vector<bool>& hits) {
           .p50 = quantile(sorted, 0.5),
           .p99 = quantile(sorted, 0.99),
           .most = quantile(sorted, 1.0),
-          .hit_p50 = quantile(of_hits, 0.5),
-          .hit_share = static_cast<double>(of_hits.size()) / count};
+          .hit_p50 = quantile(of_hits, 0.5)};
 }
 
 }  // namespace roam::bench

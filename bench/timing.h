@@ -45,7 +45,6 @@ struct Summary {
   double p99 = 0;
   double most = 0;
   double hit_p50 = 0;  ///< median of the queries that hit, 0 if there are none
-  double hit_share = 0;
 };
 
 /// `hits[i]` says whether query i hits.

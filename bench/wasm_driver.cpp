@@ -4,7 +4,6 @@
 #include <unistd.h>
 
 #include <array>
-#include <cerrno>
 #include <cstdint>
 #include <filesystem>
 
@@ -73,25 +72,13 @@ void WasmDriver::ask(std::span<const double> questions, std::span<double> answer
 }
 
 void WasmDriver::send(const void* data, std::size_t bytes) {
-  const auto* from = static_cast<const char*>(data);
-  while (bytes > 0) {
-    const ssize_t put = ::write(requests_.number(), from, bytes);
-    if (put < 0 && errno == EINTR) continue;
-    if (put < 0) throw Error(name_ + " ended early; what it said is above");
-    from += put;
-    bytes -= static_cast<std::size_t>(put);
-  }
+  const std::span all(static_cast<const std::byte*>(data), bytes);
+  if (files::write_fully(requests_.number(), all) < bytes) throw Error(name_ + " ended early; what it said is above");
 }
 
 void WasmDriver::receive(void* data, std::size_t bytes) {
-  auto* to = static_cast<char*>(data);
-  while (bytes > 0) {
-    const ssize_t got = ::read(replies_.number(), to, bytes);
-    if (got < 0 && errno == EINTR) continue;
-    if (got <= 0) throw Error(name_ + " ended early; what it said is above");
-    to += got;
-    bytes -= static_cast<std::size_t>(got);
-  }
+  const std::span all(static_cast<std::byte*>(data), bytes);
+  if (files::read_fully(replies_.number(), all) < bytes) throw Error(name_ + " ended early; what it said is above");
 }
 
 }  // namespace roam::bench

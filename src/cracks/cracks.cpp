@@ -3,26 +3,16 @@
 #include <tbb/info.h>
 #include <tbb/task_arena.h>
 
-#include <algorithm>
 #include <cmath>
 
 #include "cracks/rim_edges.h"
 #include "cracks/void_measure.h"
 #include "roam/support.h"
+#include "text/names.h"
 
 namespace roam {
 
-const char* to_string(Crack::Kind kind) {
-  switch (kind) {
-    case Crack::Kind::crack:
-      return "crack";
-    case Crack::Kind::step_down:
-      return "step_down";
-    case Crack::Kind::open_drop:
-      return "open_drop";
-  }
-  return "unknown";
-}
+const char* to_string(Crack::Kind kind) { return name_in({"crack", "step_down", "open_drop"}, kind); }
 
 }  // namespace roam
 

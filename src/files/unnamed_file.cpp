@@ -55,23 +55,11 @@ UnnamedFile::UnnamedFile(std::string what) : what_(std::move(what)), file_(open_
 
 void UnnamedFile::write_at(std::uint64_t offset, std::span<const std::byte> bytes) {
   if (!file_.is_open()) throw refused(what_, "kept", why_none_);
-  for (std::size_t done = 0; done < bytes.size();) {
-    const ssize_t n = again([&] {
-      return ::pwrite(file_.number(), bytes.data() + done, bytes.size() - done, static_cast<off_t>(offset + done));
-    });
-    if (n <= 0) throw refused(what_, "kept", errno);
-    done += static_cast<std::size_t>(n);
-  }
+  if (write_fully(file_.number(), offset, bytes) < bytes.size()) throw refused(what_, "kept", errno);
 }
 
 void UnnamedFile::read_at(std::uint64_t offset, std::span<std::byte> bytes) const {
-  for (std::size_t done = 0; done < bytes.size();) {
-    const ssize_t n = again([&] {
-      return ::pread(file_.number(), bytes.data() + done, bytes.size() - done, static_cast<off_t>(offset + done));
-    });
-    if (n <= 0) throw refused(what_, "read", errno);
-    done += static_cast<std::size_t>(n);
-  }
+  if (read_fully(file_.number(), offset, bytes) < bytes.size()) throw refused(what_, "read", errno);
 }
 
 }  // namespace roam::files

@@ -129,21 +129,11 @@ WholeFile::~WholeFile() {
 void WholeFile::fail_to_write(int error) const { fail("write", folder_path_ / name_, error); }
 
 void WholeFile::write(std::span<const std::byte> bytes) {
-  while (!bytes.empty()) {
-    const ssize_t written = again([&] { return ::write(file_.number(), bytes.data(), bytes.size()); });
-    if (written < 0) fail_to_write(errno);
-    bytes = bytes.subspan(static_cast<std::size_t>(written));
-  }
+  if (write_fully(file_.number(), bytes) < bytes.size()) fail_to_write(errno);
 }
 
 void WholeFile::write_at(std::uint64_t offset, std::span<const std::byte> bytes) {
-  while (!bytes.empty()) {
-    const ssize_t written =
-        again([&] { return ::pwrite(file_.number(), bytes.data(), bytes.size(), static_cast<off_t>(offset)); });
-    if (written < 0) fail_to_write(errno);
-    bytes = bytes.subspan(static_cast<std::size_t>(written));
-    offset += static_cast<std::uint64_t>(written);
-  }
+  if (write_fully(file_.number(), offset, bytes) < bytes.size()) fail_to_write(errno);
 }
 
 void WholeFile::finish_writing() {

@@ -23,8 +23,8 @@ struct BuildingDesign {
   [[nodiscard]] double height() const;
 };
 
-/// m: the largest that design() makes.
-inline constexpr double greatest_building_width = 19.0, greatest_building_height = 40.0;
+/// m: the highest that design() makes.
+inline constexpr double greatest_building_height = 40.0;
 /// m: how far a bay overhangs the front.
 inline constexpr double overhang = 0.9;
 

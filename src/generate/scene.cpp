@@ -10,9 +10,9 @@
 namespace roam::generate {
 
 Scene::Scene(std::shared_ptr<const Plan> plan) : plan_(std::move(plan)) {}
-std::uint64_t Scene::triangles() const { return plan_->triangles; }
-std::uint64_t Scene::vertices() const { return plan_->vertices; }
-std::uint64_t Scene::objects() const { return plan_->objects; }
+std::uint64_t Scene::triangles() const { return plan_->made.triangles; }
+std::uint64_t Scene::vertices() const { return plan_->made.vertices; }
+std::uint64_t Scene::objects() const { return plan_->made.objects; }
 const Box& Scene::bounds() const { return plan_->bounds; }
 
 void Scene::stream(const Sink& sink, const Progress& progress) const {
@@ -50,21 +50,14 @@ Count count(const Scene::Plan& plan) {
       const Count c = count(part, slices);
       sum.triangles += c.triangles;
       sum.vertices += c.vertices;
+      sum.objects += c.triangles > 0;
     }
   }
   return sum;
 }
 
 Scene make_scene(Scene::Plan plan) {
-  for (std::uint64_t i = 0; i < plan.parts; ++i) {
-    const Part part = plan.part(i);
-    for (const auto& slices : slice(part)) {
-      const Count c = count(part, slices);
-      plan.triangles += c.triangles;
-      plan.vertices += c.vertices;
-      plan.objects += c.triangles > 0;
-    }
-  }
+  plan.made = count(plan);
   return Scene(std::make_shared<const Scene::Plan>(std::move(plan)));
 }
 

@@ -14,8 +14,7 @@ struct Scene::Plan {
   std::uint64_t parts = 0;
   std::function<Part(std::uint64_t)> part = {};  ///< pure: any thread may call it, in any order
   Box bounds = {};
-  // Set by make_scene:
-  std::uint64_t triangles = 0, vertices = 0, objects = 0;
+  Count made = {};  ///< set by make_scene
 };
 
 /// Counts the triangles, vertices and objects of a plan's parts.

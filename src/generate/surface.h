@@ -7,7 +7,6 @@
 
 #include <cstdint>
 #include <functional>
-#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -59,7 +58,7 @@ struct Slice {
 };
 
 struct Count {
-  std::uint64_t triangles = 0, vertices = 0;
+  std::uint64_t triangles = 0, vertices = 0, objects = 0;
 };
 
 /// Divides a part into meshes of at most piece_triangles triangles.

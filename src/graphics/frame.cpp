@@ -153,19 +153,6 @@ std::string Frame::describe() const {
   return context_.describe() + ", " + depth + ", " + smoothness;
 }
 
-Ray Frame::ray(double x, double y) const {
-  const osg::Viewport& viewport = *camera_->getViewport();
-  const osg::Matrixd& projection = camera_->getProjectionMatrix();
-  const double right = 2.0 * (x - viewport.x()) / viewport.width() - 1.0;
-  const double up = 2.0 * (y - viewport.y()) / viewport.height() - 1.0;
-  const osg::Matrixd from_eye = osg::Matrixd::inverse(camera_->getViewMatrix());
-  const osg::Vec3d in_eye(right / projection(0, 0), up / projection(1, 1), -1.0);
-  osg::Vec3d direction = osg::Matrixd::transform3x3(in_eye, from_eye);
-  direction.normalize();
-  const osg::Vec3d origin = from_eye.getTrans();
-  return {{origin.x(), origin.y(), origin.z()}, {direction.x(), direction.y(), direction.z()}};
-}
-
 void Frame::request_picture(bool with_hud, std::function<void(osg::ref_ptr<osg::Image>)> done,
                             std::function<void(const std::string&)> failed) {
   pipeline_->request(with_hud, std::move(done), std::move(failed));

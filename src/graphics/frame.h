@@ -42,13 +42,6 @@ struct FrameSettings {
 /// `radius` because the corners of the picture are farther from the eye than its centre.
 [[nodiscard]] double near_limit(double radius, double vertical_fov, double aspect);
 
-/// A line of sight in the frame of the scene graph, which is the scene minus one origin. Add that origin to `origin`
-/// for a point of the scene.
-struct Ray {
-  Vec3 origin{0.0};     ///< metres
-  Vec3 direction{0.0};  ///< length 1
-};
-
 /// Sets up `viewer` to draw to a context. All that it makes stays in the viewer, so a Frame may be destroyed before or
 /// after it. Use it from the thread that calls viewer.frame(). The viewer may have any of OpenSceneGraph's threading
 /// models.
@@ -77,10 +70,6 @@ class Frame {
   [[nodiscard]] bool reversed_depth() const;
   /// One line: renderer, depth, samples, and missing abilities.
   [[nodiscard]] std::string describe() const;
-
-  /// The line of sight through a pixel of the window, by the camera's present position. x to the right, y up, from the
-  /// lower left corner, as in osgGA's events. In the frame of the scene graph, which is the scene minus origin.
-  [[nodiscard]] Ray ray(double x, double y) const;
 
   /// Requests the picture of the next frame: RGB, 8 bit, rows from the bottom as in osg::Image. With `with_hud` it
   /// includes flat(). Either `done` or `failed` is called, once, in the drawing thread. `failed` is called if the

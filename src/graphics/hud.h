@@ -20,7 +20,7 @@
 
 namespace roam::graphics {
 
-/// Amount of display. full: status, message, crosshair. minimal: the values of the first status lines, message,
+/// Amount of display. full: status, message, crosshair. minimal: the first status line, message,
 /// crosshair. off: nothing, not even help.
 enum class Detail : std::uint8_t { full, minimal, off };
 /// Kind of a text. A warning is amber with a bar at its side; an info is white.
@@ -51,7 +51,6 @@ class Hud {
   void set_status(std::vector<StatusLine> lines);
   /// The message in the lower middle; empty: none. It may have several lines; long ones are broken.
   void set_message(std::string text, Tone tone = Tone::info);
-  void clear_message() { set_message({}); }
   /// A bar below the message for progress in [0, 1]; negative: none.
   void set_progress(double share);
   /// From about 480 x 360 pixels on, all lines are visible. In smaller windows only the first ones are, with a line

@@ -3,7 +3,6 @@
 #include <cstddef>
 #include <iterator>
 #include <optional>
-#include <span>
 #include <utility>
 
 #include "import/display.h"

@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <filesystem>
 #include <list>
-#include <memory>
 #include <mutex>
 #include <string>
 #include <vector>

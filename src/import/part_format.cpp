@@ -4,7 +4,6 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
-#include <string>
 #include <type_traits>
 
 #include "import/stream_receiver.h"
@@ -15,31 +14,14 @@ namespace {
 
 using StreamDamaged = StreamReceiver::StreamDamaged;
 
-class Writer {
+class Writer : public PayloadWriter {
  public:
-  template <class T>
-  void add(const T& value) {
-    static_assert(std::is_trivially_copyable_v<T> && !std::is_class_v<T>);
-    append(&value, sizeof(T));
-  }
-  void add(const Vec3& v) {
-    for (int k = 0; k < 3; ++k) add(v[k]);
-  }
   /// Values must have no padding.
   template <class List>
   void add_list(const List& list) {
     add(std::uint64_t{list.size()});
-    append(list.data(), list.size() * sizeof(*list.data()));
+    append(std::as_bytes(std::span(list)));
   }
-  std::vector<std::byte> take() { return std::move(bytes_); }
-
- private:
-  void append(const void* from, std::size_t size) {
-    const auto* first = static_cast<const std::byte*>(from);
-    bytes_.insert(bytes_.end(), first, first + size);
-  }
-
-  std::vector<std::byte> bytes_;
 };
 
 class Reader {
@@ -256,7 +238,7 @@ std::vector<std::byte> encode(const DisplayPart& part) {
       to.add_list(level.page);
     }
   }
-  return to.take();
+  return to.take_bytes();
 }
 
 void decode(std::span<const std::byte> bytes, DisplayPart& part) {

@@ -36,10 +36,8 @@ void PartReceiver::take_content(FrameKind kind, std::span<const std::byte> paylo
   }
   if (kind != FrameKind::missing_texture) throw StreamDamaged{"a frame of unknown kind"};
   PayloadReader fields(payload);
-  std::string file = fields.take_text();
+  take_name(fields, display_.missing_texture_files);
   if (!fields.complete()) throw StreamDamaged{"a frame of broken length"};
-  auto& files = display_.missing_texture_files;
-  if (files.size() < ImportReport::name_limit) files.push_back(std::move(file));
 }
 
 void PartReceiver::begin_part(std::span<const std::byte> payload) {

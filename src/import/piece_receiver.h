@@ -1,35 +1,28 @@
 #pragma once
 /// \file
-/// Checks of a reader's pieces on their way to a PieceSink.
+/// A reader's pieces on their way to a PieceSink.
 
-#include <cstddef>
-#include <cstdint>
-#include <span>
+#include <limits>
+#include <string>
 
-#include "import/stream_receiver.h"
+#include "import/mesh_receiver.h"
 
 namespace roam::reader {
 
 /// Takes the frames of one reader and passes each complete piece on.
-class PieceReceiver : public StreamReceiver {
+class PieceReceiver : public MeshReceiver {
  public:
-  PieceReceiver(ImportReport& report, std::size_t ignore_patterns, const PieceSink& sink);
-
-  [[nodiscard]] std::uint64_t triangles() const override { return triangles_; }
+  PieceReceiver(ImportReport& report, std::size_t ignore_patterns, const PieceSink& sink)
+      : MeshReceiver(report, ignore_patterns, std::numeric_limits<std::uint64_t>::max()), sink_(sink) {}
 
  private:
-  void take_content(FrameKind kind, std::span<const std::byte> payload) override;
-  void finish_content(const Totals& totals) override;
-  void begin_piece(std::span<const std::byte> payload);
-  void take_vertices(std::span<const std::byte> payload);
-  void take_triangles(std::span<const std::byte> payload);
-  void finish_piece();
+  void begin(std::string name, bool continues) override;
+  std::span<Vec3> more_vertices(std::size_t count) override;
+  std::span<Corners> more_triangles(std::size_t count) override;
+  void finish() override;
 
   const PieceSink& sink_;
-  std::uint64_t vertices_ = 0, triangles_ = 0;
-
   // The current piece; its memory is reused.
-  bool in_piece_ = false;
   bool continues_ = false;
   Mesh piece_;
 };

@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <filesystem>
 #include <set>
-#include <string>
 #include <utility>
 
 namespace roam::reader {

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <system_error>
-#include <utility>
 
 #include "import/find_reader.h"
 #include "import/report_notes.h"

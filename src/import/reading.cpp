@@ -7,12 +7,8 @@
 #include <csignal>
 #include <cstring>
 #include <ctime>
-#include <optional>
-#include <string>
 #include <system_error>
 
-#include "import/processor_budget.h"
-#include "import/reader_process.h"
 #include "text/printable.h"
 
 namespace roam::reader {

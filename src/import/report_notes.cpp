@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <string>
-
 #include "text/printable.h"
 
 namespace roam::reader {

@@ -43,6 +43,7 @@
 #include <string>
 #include <string_view>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace roam::reader {
@@ -114,18 +115,18 @@ class PayloadWriter {
   template <class T>
   PayloadWriter& add(const T& value) {
     static_assert(std::is_trivially_copyable_v<T>);
-    const auto* first = reinterpret_cast<const std::byte*>(&value);
-    bytes_.insert(bytes_.end(), first, first + sizeof(T));
-    return *this;
+    return append(std::as_bytes(std::span(&value, 1)));
   }
   PayloadWriter& add_text(std::string_view text) {
     text = text.substr(0, text_limit);
-    add(static_cast<std::uint32_t>(text.size()));
-    const auto* first = reinterpret_cast<const std::byte*>(text.data());
-    bytes_.insert(bytes_.end(), first, first + text.size());
+    return add(static_cast<std::uint32_t>(text.size())).append(std::as_bytes(std::span(text)));
+  }
+  PayloadWriter& append(std::span<const std::byte> bytes) {
+    bytes_.insert(bytes_.end(), bytes.begin(), bytes.end());
     return *this;
   }
   [[nodiscard]] std::span<const std::byte> bytes() const { return bytes_; }
+  [[nodiscard]] std::vector<std::byte> take_bytes() { return std::move(bytes_); }
 
  private:
   std::vector<std::byte> bytes_;

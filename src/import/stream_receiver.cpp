@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <utility>
 
 #include "text/printable.h"
 
@@ -80,13 +79,10 @@ void StreamReceiver::handle(const FrameHeader& header, std::span<const std::byte
       opened_.push_back(std::move(file));
       break;
     }
-    case FrameKind::outside: {
-      std::string file = fields.take_text();
+    case FrameKind::outside:
       ++report_.outside_references;
-      auto& files = report_.outside_files;
-      if (files.size() < ImportReport::name_limit) files.push_back(std::move(file));
+      take_name(fields, report_.outside_files);
       break;
-    }
     case FrameKind::progress:
       bytes_read_ = fields.take<std::uint64_t>();
       break;
@@ -103,12 +99,9 @@ void StreamReceiver::handle(const FrameHeader& header, std::span<const std::byte
     case FrameKind::left_out:
       take_left_out(fields);
       break;
-    case FrameKind::missing_page: {
-      std::string file = fields.take_text();
-      auto& files = report_.missing_page_files;
-      if (files.size() < ImportReport::name_limit) files.push_back(std::move(file));
+    case FrameKind::missing_page:
+      take_name(fields, report_.missing_page_files);
       break;
-    }
     case FrameKind::note: {
       const std::string sentence = fields.take_text();
       if (report_.notes.size() < note_limit) report_.notes.push_back(printable(spelt(sentence), longest_sentence));
@@ -128,6 +121,11 @@ void StreamReceiver::handle(const FrameHeader& header, std::span<const std::byte
       return take_content(header.kind, payload);
   }
   if (!fields.complete()) throw StreamDamaged{"a frame of broken length"};
+}
+
+void StreamReceiver::take_name(PayloadReader& fields, std::vector<std::string>& names) {
+  std::string name = fields.take_text();
+  if (names.size() < ImportReport::name_limit) names.push_back(std::move(name));
 }
 
 void StreamReceiver::count_bytes(std::size_t bytes) {

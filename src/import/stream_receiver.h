@@ -57,6 +57,8 @@ class StreamReceiver {
   virtual void finish_content(const Totals& totals) = 0;
 
   void count_bytes(std::size_t bytes);
+  /// Adds a text to the names, if there is room.
+  static void take_name(PayloadReader& fields, std::vector<std::string>& names);
   ImportReport& report_;
 
  private:

@@ -111,4 +111,14 @@ WideTree collapse(const BinaryTree& tree, double margin) {
   return wide;
 }
 
+WideTree tree_over(std::span<const StepBox> boxes) {
+  BinaryTreeOptions options;
+  options.items_per_test = 1;
+  options.fits_leaf = [](std::span<const std::uint32_t> items) { return items.size() == 1; };
+  const BinaryTree tree = build_binary_tree(boxes, options);
+  WideTree wide = collapse(tree, options.margin);
+  for (std::uint32_t& leaf : wide.leaves) leaf = tree.order[tree.nodes[leaf].begin];
+  return wide;
+}
+
 }  // namespace roam::index

@@ -3,6 +3,7 @@
 /// Collapse of a binary tree into a tree with sixteen children per node, each node one block.
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "index/binary_tree.h"
@@ -20,5 +21,8 @@ struct WideTree {
 /// compressed wide BVHs", 2017, here with sixteen children. The leaves are those of the binary tree; `margin` as in
 /// BinaryTreeOptions.
 [[nodiscard]] WideTree collapse(const BinaryTree& tree, double margin);
+
+/// The collapsed tree over boxes, each of which is a leaf. `leaves` holds their indices.
+[[nodiscard]] WideTree tree_over(std::span<const StepBox> boxes);
 
 }  // namespace roam::index

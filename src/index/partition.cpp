@@ -9,6 +9,7 @@
 
 #include "index/curve.h"
 #include "index/cutter.h"
+#include "math/boxes.h"
 #include "math/largest.h"
 
 namespace roam::index {
@@ -21,12 +22,6 @@ struct Item {
   std::uint32_t triangle;
   bool operator<(const Item& o) const { return key != o.key ? key < o.key : triangle < o.triangle; }
 };
-
-Box box_of(const Triangle& t) {
-  Box b;
-  for (const Vec3& v : t) b.include(v);
-  return b;
-}
 
 }  // namespace
 
@@ -44,7 +39,7 @@ Partition partition(const Soup& soup, bool lossless, const std::function<void(do
     const Mesh& mesh = soup.meshes()[m];
     const auto first = static_cast<std::uint32_t>(soup.first()[m]);
     tbb::parallel_for(std::size_t{0}, mesh.triangles.size(), [&](std::size_t i) {
-      const Box box = box_of(mesh.triangle(i));
+      const Box box = box_around(mesh.triangle(i));
       const double extent = largest(box.size());
       const Vec3 place = (box.center() - soup.bounds().lower) / cell;
       std::uint64_t key = std::uint64_t{size_class(extent)} << Curve::class_shift;

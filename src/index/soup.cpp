@@ -7,7 +7,6 @@
 
 #include "math/largest.h"
 #include "roam/error.h"
-#include "roam/mesh.h"
 #include "text/printable.h"
 
 namespace roam::index {

@@ -1,7 +1,6 @@
 // Following a route through a space that is loaded while the body moves. Only this part of motion reads a clock:
 // between two changes of the space, the body's motion does not depend on it.
 
-#include <algorithm>
 #include <chrono>
 #include <thread>
 

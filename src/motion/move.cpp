@@ -1,7 +1,7 @@
 #include "motion/move.h"
 
 #include <algorithm>
-#include <cmath>
+#include <array>
 #include <glm/geometric.hpp>
 
 namespace roam::walking {
@@ -43,32 +43,10 @@ constexpr std::size_t events_of_motion = 16;
 
 /// Whether an event may happen many times in one long step.
 bool is_frequent(EventKind kind) {
-  switch (kind) {
-    case EventKind::slid:
-    case EventKind::blocked:
-    case EventKind::stepped_up:
-    case EventKind::stepped_down:
-    case EventKind::jumped:
-    case EventKind::airborne:
-    case EventKind::landed:
-    case EventKind::crouched:
-    case EventKind::stood:
-    case EventKind::bridged:
-      return true;
-    case EventKind::fell:
-    case EventKind::placed:
-    case EventKind::freed:
-    case EventKind::held:
-    case EventKind::put_back:
-    case EventKind::returned:
-    case EventKind::throttled:
-    case EventKind::met_unknown:
-    case EventKind::slowed:
-    case EventKind::narrowed:
-    case EventKind::widened:
-      return false;
-  }
-  return false;
+  using enum EventKind;
+  constexpr std::array frequent{slid,     blocked, stepped_up, stepped_down, jumped,
+                                airborne, landed,  crouched,   stood,        bridged};
+  return std::find(frequent.begin(), frequent.end(), kind) != frequent.end();
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 
 #include "math/floating_point.h"
 #include "roam/walker.h"
+#include "text/names.h"
 
 namespace roam {
 namespace {
@@ -63,17 +64,7 @@ const Contact* most_against(const StepReport& report, const Vec3& way) {
   return most;
 }
 
-const char* to_string(Opening::Kind kind) {
-  switch (kind) {
-    case Opening::Kind::door:
-      return "door";
-    case Opening::Kind::lintel:
-      return "lintel";
-    case Opening::Kind::gap:
-      return "gap";
-  }
-  return "unknown";
-}
+const char* to_string(Opening::Kind kind) { return name_in({"door", "lintel", "gap"}, kind); }
 
 std::optional<Opening> measure_opening(const Walker& walker, const Vec3& ahead) {
   const DefaultFloatingPoint guard;

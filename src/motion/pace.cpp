@@ -1,7 +1,6 @@
 #include "motion/pace.h"
 
 #include <algorithm>
-#include <cmath>
 #include <glm/geometric.hpp>
 
 #include "motion/state.h"

@@ -1,7 +1,6 @@
 #include "motion/recovery.h"
 
 #include <algorithm>
-#include <array>
 #include <glm/geometric.hpp>
 
 #include "motion/move.h"

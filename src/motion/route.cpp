@@ -9,6 +9,7 @@
 #include "motion/pace.h"
 #include "roam/error.h"
 #include "roam/opening.h"
+#include "text/names.h"
 #include "text/number.h"
 
 namespace roam {
@@ -100,19 +101,7 @@ void check(const RouteOptions& options, std::span<const Vec3> waypoints, const W
 }
 
 const char* to_string(Outcome outcome) {
-  switch (outcome) {
-    case Outcome::reached:
-      return "reached";
-    case Outcome::blocked:
-      return "blocked";
-    case Outcome::left_scene:
-      return "left_scene";
-    case Outcome::fell:
-      return "fell";
-    case Outcome::held:
-      return "held";
-  }
-  return "unknown";
+  return name_in({"reached", "blocked", "left_scene", "fell", "held"}, outcome);
 }
 
 Route::Route(Walker& walker, std::span<const Vec3> waypoints, const RouteOptions& options)

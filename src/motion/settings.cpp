@@ -7,6 +7,7 @@
 #include "motion/sizes.h"
 #include "roam/error.h"
 #include "roam/walker.h"
+#include "text/names.h"
 #include "text/number.h"
 #include "text/printable.h"
 
@@ -81,64 +82,13 @@ Vec3 wish_velocity(const WalkerSettings& settings, const Vec3& direction, bool f
   return direction * (length > 1.0 ? speed / length : speed);
 }
 
-const char* to_string(Mode mode) {
-  switch (mode) {
-    case Mode::fly:
-      return "fly";
-    case Mode::walk:
-      return "walk";
-    case Mode::ghost:
-      return "ghost";
-  }
-  return "unknown";
-}
+const char* to_string(Mode mode) { return name_in({"fly", "walk", "ghost"}, mode); }
 
 const char* to_string(EventKind kind) {
-  switch (kind) {
-    case EventKind::slid:
-      return "slid";
-    case EventKind::blocked:
-      return "blocked";
-    case EventKind::stepped_up:
-      return "stepped_up";
-    case EventKind::stepped_down:
-      return "stepped_down";
-    case EventKind::jumped:
-      return "jumped";
-    case EventKind::airborne:
-      return "airborne";
-    case EventKind::landed:
-      return "landed";
-    case EventKind::fell:
-      return "fell";
-    case EventKind::crouched:
-      return "crouched";
-    case EventKind::stood:
-      return "stood";
-    case EventKind::placed:
-      return "placed";
-    case EventKind::freed:
-      return "freed";
-    case EventKind::held:
-      return "held";
-    case EventKind::put_back:
-      return "put_back";
-    case EventKind::returned:
-      return "returned";
-    case EventKind::throttled:
-      return "throttled";
-    case EventKind::met_unknown:
-      return "met_unknown";
-    case EventKind::slowed:
-      return "slowed";
-    case EventKind::narrowed:
-      return "narrowed";
-    case EventKind::widened:
-      return "widened";
-    case EventKind::bridged:
-      return "bridged";
-  }
-  return "unknown";
+  return name_in({"slid",     "blocked",   "stepped_up",  "stepped_down", "jumped",   "airborne", "landed",
+                  "fell",     "crouched",  "stood",       "placed",       "freed",    "held",     "put_back",
+                  "returned", "throttled", "met_unknown", "slowed",       "narrowed", "widened",  "bridged"},
+                 kind);
 }
 
 }  // namespace roam

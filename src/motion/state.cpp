@@ -4,7 +4,6 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <numbers>
-#include <string>
 #include <utility>
 
 #include "math/finite.h"

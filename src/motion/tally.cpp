@@ -38,7 +38,8 @@ void Tally::add_placement(const StepReport& report) {
   // A body that does not fit has no clearance and makes no move.
   if (!(report.least_axis_clearance > 0.0)) return;
   const bool first = !(least_axis_clearance > 0.0);
-  least_axis_clearance = first ? report.least_axis_clearance : std::min(least_axis_clearance, report.least_axis_clearance);
+  least_axis_clearance =
+      first ? report.least_axis_clearance : std::min(least_axis_clearance, report.least_axis_clearance);
   least_gap = first ? report.least_gap : std::min(least_gap, report.least_gap);
 }
 

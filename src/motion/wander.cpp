@@ -1,7 +1,6 @@
 #include "roam/wander.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <iterator>

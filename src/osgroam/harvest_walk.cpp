@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <set>
 
+#include "math/boxes.h"
 #include "osg_triangles/mesh_of.h"
 #include "sphere_box.h"
 
@@ -130,9 +131,7 @@ class HarvestWalk : public triangles::GraphWalk {
 
 roam::Box box_of(const std::vector<roam::Mesh>& meshes) {
   roam::Box box;
-  for (const roam::Mesh& mesh : meshes) {
-    for (const roam::Vec3& vertex : mesh.vertices) box.include(vertex);
-  }
+  for (const roam::Mesh& mesh : meshes) box.include(roam::box_around(mesh.vertices));
   return box;
 }
 

@@ -2,12 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <locale>
 #include <sstream>
 
 #include "cli/standard_streams.h"
-#include "roam/error.h"
 #include "text/printable.h"
 
 namespace roam::app {

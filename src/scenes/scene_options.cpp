@@ -11,6 +11,7 @@
 #include "cli/progress.h"
 #include "cli/tell.h"
 #include "cli/values.h"
+#include "math/boxes.h"
 #include "roam/error.h"
 #include "roam/store.h"
 #include "roam/wander.h"
@@ -167,9 +168,7 @@ LoadedScene load(const SceneOptions& options, Source source) {
   const auto indexing = std::chrono::steady_clock::now();
   loaded.world = index(options, scene);
   loaded.build_seconds = seconds_since(indexing);
-  for (const Mesh& mesh : scene.meshes) {
-    for (const Vec3& vertex : mesh.vertices) loaded.bounds.include(vertex);
-  }
+  for (const Mesh& mesh : scene.meshes) loaded.bounds.include(box_around(mesh.vertices));
   loaded.floors = floor_samples(scene.meshes);
   if (options.identify) loaded.identity = identity_of(scene.meshes);
   if (source == Source::keep) loaded.meshes = std::move(scene.meshes);

@@ -7,7 +7,6 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <array>
 #include <bit>
 #include <cerrno>
@@ -69,7 +68,7 @@ Descriptor folder_to_write(const Folder& store, const std::string& name) {
 NewFile::NewFile(const Folder& store, const std::string& name)
     : store_(store),
       name_(name),
-      file_(folder_to_write(store, name), (store / name).parent_path(), split(name).second) {}
+      file_(folder_to_write(store, name), (store / name).parent_path(), std::string(split(name).second)) {}
 
 void NewFile::write(std::span<const std::byte> bytes) {
   hash_.add(bytes);
@@ -86,7 +85,7 @@ void NewFile::commit_as(const std::string& last) {
   }
 }
 
-void NewFile::commit() { commit_as(split(name_).second); }
+void NewFile::commit() { commit_as(std::string(split(name_).second)); }
 
 std::string NewFile::commit_by_hash() {
   std::string digits = hash_.digits();
@@ -112,11 +111,9 @@ std::vector<std::byte> read_file(const Folder& store, const std::string& name, s
                     EFBIG);
   }
   std::vector<std::byte> bytes(static_cast<std::size_t>(status.st_size));
-  for (std::size_t done = 0; done < bytes.size();) {
-    const ssize_t got = again([&] { return ::read(file.number(), bytes.data() + done, bytes.size() - done); });
-    if (got < 0) fail("read", store, name, errno);
-    if (got == 0) throw Error::at(path, fmt::format("cannot read {}: it became shorter while it was read", path));
-    done += static_cast<std::size_t>(got);
+  if (files::read_fully(file.number(), bytes) < bytes.size()) {
+    if (errno != 0) fail("read", store, name, errno);
+    throw Error::at(path, fmt::format("cannot read {}: it became shorter while it was read", path));
   }
   return bytes;
 }

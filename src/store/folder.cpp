@@ -1,7 +1,6 @@
 #include "store/folder.h"
 
 #include <dirent.h>
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -10,7 +9,6 @@
 #include <array>
 #include <cerrno>
 #include <cstring>
-#include <memory>
 
 #include "store/files.h"
 
@@ -118,11 +116,10 @@ void empty(const Descriptor& folder, int depth) {
 constexpr int deepest = 2;
 
 bool remove(const Folder& store, const std::string& name, int flags) noexcept {
-  const std::size_t slash = name.rfind('/');
-  const bool nested = slash != std::string::npos;
-  const Descriptor folder = open_folder(store, std::string_view(name).substr(0, nested ? slash : 0));
+  const auto [above, own] = split(name);
+  const Descriptor folder = open_folder(store, above);
   if (!folder.is_open()) return false;
-  const Component last(std::string_view(name).substr(nested ? slash + 1 : 0));
+  const Component last(own);
   return last.fits() && ::unlinkat(folder.number(), last.get(), flags) == 0;
 }
 
@@ -224,24 +221,20 @@ Descriptor open_folder(const Folder& store, std::string_view name) noexcept {
 }
 
 Descriptor open_file(const Folder& store, std::string_view name, int flags) noexcept {
-  const std::size_t slash = name.rfind('/');
-  const bool nested = slash != std::string_view::npos;
-  const Descriptor folder = open_folder(store, name.substr(0, nested ? slash : 0));
-  if (!folder.is_open()) return Descriptor();
-  return open_component(folder.number(), name.substr(nested ? slash + 1 : 0), flags, S_IFREG);
+  const auto [above, last] = split(name);
+  const Descriptor folder = open_folder(store, above);
+  return folder.is_open() ? open_component(folder.number(), last, flags, S_IFREG) : Descriptor();
 }
 
-std::pair<std::string, std::string> split(const std::string& name) {
-  const std::size_t slash = name.rfind('/');
-  if (slash == std::string::npos) return {"", name};
-  return {name.substr(0, slash), name.substr(slash + 1)};
+std::pair<std::string_view, std::string_view> split(std::string_view name) noexcept {
+  const std::size_t slash = std::min(name.rfind('/') + 1, name.size());  // npos + 1 is 0
+  return {name.substr(0, slash > 0 ? slash - 1 : 0), name.substr(slash)};
 }
 
 unsigned type_of(const Folder& store, std::string_view name) noexcept {
-  const std::size_t slash = name.rfind('/');
-  const bool nested = slash != std::string_view::npos;
-  const Descriptor folder = open_folder(store, name.substr(0, nested ? slash : 0));
-  const Component last(name.substr(nested ? slash + 1 : 0));
+  const auto [above, own] = split(name);
+  const Descriptor folder = open_folder(store, above);
+  const Component last(own);
   struct stat status {};
   const bool there =
       folder.is_open() && last.fits() && ::fstatat(folder.number(), last.get(), &status, AT_SYMLINK_NOFOLLOW) == 0;
@@ -254,7 +247,7 @@ std::optional<std::uint64_t> size_of(const Folder& store, const std::string& nam
   const auto [folder_name, last] = split(name);
   const Descriptor folder = open_folder(store, folder_name);
   struct stat status {};
-  if (!folder.is_open() || ::fstatat(folder.number(), last.c_str(), &status, AT_SYMLINK_NOFOLLOW) != 0) {
+  if (!folder.is_open() || ::fstatat(folder.number(), last.data(), &status, AT_SYMLINK_NOFOLLOW) != 0) {
     if (errno == ENOENT) return std::nullopt;
     fail("read", store, name, errno);
   }

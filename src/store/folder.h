@@ -85,7 +85,7 @@ class Folder {
 [[nodiscard]] Descriptor open_folder(const Folder& store, std::string_view name) noexcept;
 
 /// "packs" of "packs/a.pack", and "a.pack"; "" and "CURRENT" of "CURRENT".
-[[nodiscard]] std::pair<std::string, std::string> split(const std::string& name);
+[[nodiscard]] std::pair<std::string_view, std::string_view> split(std::string_view name) noexcept;
 
 /// The type of what has this name, as S_IFMT; 0 where nothing has it. No link is followed.
 [[nodiscard]] unsigned type_of(const Folder& store, std::string_view name) noexcept;

@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <openssl/crypto.h>
 #include <openssl/evp.h>
 #include <openssl/hmac.h>
@@ -12,41 +13,24 @@
 namespace roam::store {
 namespace {
 
-std::string digits_of(std::span<const unsigned char> bytes) {
-  static constexpr char hexadecimal[] = "0123456789abcdef";
-  std::string text;
-  for (const unsigned char byte : bytes) {
-    text += hexadecimal[byte >> 4];
-    text += hexadecimal[byte & 15U];
-  }
-  return text;
-}
+std::string digits_of(std::span<const unsigned char> bytes) { return fmt::format("{:02x}", fmt::join(bytes, "")); }
 
 }  // namespace
 
-struct Sha256::Context {
-  EVP_MD_CTX* it = EVP_MD_CTX_new();
-  Context() = default;
-  Context(const Context&) = delete;
-  Context& operator=(const Context&) = delete;
-  ~Context() { EVP_MD_CTX_free(it); }
-};
-
-Sha256::Sha256() : context_(std::make_unique<Context>()) {
-  if (context_->it == nullptr || EVP_DigestInit_ex(context_->it, EVP_sha256(), nullptr) != 1) {
+Sha256::Sha256() : context_(EVP_MD_CTX_new(), EVP_MD_CTX_free) {
+  if (context_ == nullptr || EVP_DigestInit_ex(context_.get(), EVP_sha256(), nullptr) != 1) {
     throw Error("cannot compute SHA-256: the cryptographic library refuses to");
   }
 }
-Sha256::~Sha256() = default;
 
 void Sha256::add(std::span<const std::byte> bytes) {
-  if (EVP_DigestUpdate(context_->it, bytes.data(), bytes.size()) != 1) throw Error("cannot compute SHA-256");
+  if (EVP_DigestUpdate(context_.get(), bytes.data(), bytes.size()) != 1) throw Error("cannot compute SHA-256");
 }
 
 std::string Sha256::digits() {
   std::array<unsigned char, EVP_MAX_MD_SIZE> digest{};
   unsigned size = 0;
-  if (EVP_DigestFinal_ex(context_->it, digest.data(), &size) != 1) throw Error("cannot compute SHA-256");
+  if (EVP_DigestFinal_ex(context_.get(), digest.data(), &size) != 1) throw Error("cannot compute SHA-256");
   return digits_of(std::span(digest).first(size));
 }
 

@@ -1,6 +1,5 @@
 #include "store/page.h"
 
-#include <algorithm>
 #include <array>
 #include <bitset>
 #include <cmath>
@@ -44,8 +43,8 @@ const char* check_entry(const TileEntry& t, std::uint64_t pack_bytes) {
   if (!(t.error >= 0.0F && t.error <= t.step + 1e-5F) || !(t.fine_error >= 0.0F && t.fine_error <= t.error)) {
     return "a tile's error is out of range";
   }
-  if (t.triangles < 1 || t.triangles > index::most_tile_triangles || t.nodes < 1 || t.leaves < 1 || t.nodes > t.leaves ||
-      t.leaves > t.triangles || t.fine > 1 || t.zero != 0 || shape_of(t).bytes() > tile_bytes) {
+  if (t.triangles < 1 || t.triangles > index::most_tile_triangles || t.nodes < 1 || t.leaves < 1 ||
+      t.nodes > t.leaves || t.leaves > t.triangles || t.fine > 1 || t.zero != 0 || shape_of(t).bytes() > tile_bytes) {
     return "a tile's counts are out of range";
   }
   if (t.bytes > tile_bytes || t.number_bytes > most_number_bytes(t.triangles)) {
@@ -132,11 +131,7 @@ EncodedPage encode_page(std::span<const TileEntry> tiles) {
   std::vector<StepBox> boxes;
   boxes.reserve(tiles.size());
   for (const TileEntry& t : tiles) boxes.push_back(grid.steps(box_of(t)));
-  index::BinaryTreeOptions options;
-  options.items_per_test = 1;
-  options.fits_leaf = [](std::span<const std::uint32_t> items) { return items.size() == 1; };
-  const index::BinaryTree tree = index::build_binary_tree(boxes, options);
-  const index::WideTree wide = index::collapse(tree, options.margin);
+  index::WideTree wide = index::tree_over(boxes);
 
   EncodedPage page;
   Header header{};
@@ -153,10 +148,8 @@ EncodedPage encode_page(std::span<const TileEntry> tiles) {
   };
   put(&header, sizeof header);
   put(wide.nodes.data(), wide.nodes.size() * sizeof(Node));
-  for (const std::uint32_t leaf : wide.leaves) {
-    page.order.push_back(tree.order[tree.nodes[leaf].begin]);
-    put(&tiles[page.order.back()], sizeof(TileEntry));
-  }
+  for (const std::uint32_t tile : wide.leaves) put(&tiles[tile], sizeof(TileEntry));
+  page.order = std::move(wide.leaves);
   return page;
 }
 

@@ -9,7 +9,7 @@
 #include <new>
 #include <utility>
 
-#include "roam/error.h"
+#include "store/codec/frame.h"
 
 namespace roam::store {
 namespace {
@@ -27,24 +27,6 @@ struct Header {
   std::uint64_t content_bytes;  ///< before compression
 };
 static_assert(sizeof(Header) == 48);
-
-class Writer {
- public:
-  /// Seven bits per byte, low ones first; the last byte has its high bit clear.
-  void number(CurveKey value) {
-    for (; value >= 128; value >>= 7) put(static_cast<std::uint8_t>(value | 128U));
-    put(static_cast<std::uint8_t>(value));
-  }
-  void text(const std::string& value) {
-    number(value.size());
-    const auto* first = reinterpret_cast<const std::byte*>(value.data());
-    bytes.insert(bytes.end(), first, first + value.size());
-  }
-  std::vector<std::byte> bytes;
-
- private:
-  void put(std::uint8_t value) { bytes.push_back(std::byte{value}); }
-};
 
 /// Bytes. More than the names of a hundred million objects need.
 constexpr std::uint64_t most_content = 1ull << 32;
@@ -177,31 +159,33 @@ const std::string& PartFile::object(std::uint64_t triangle) const {
 }
 
 std::vector<std::byte> encode_part(const PartFile& part) {
-  Writer content;
+  std::vector<std::byte> content;
   std::uint64_t first = 0;
   for (const PartFile::Object& object : part.objects) {
-    content.number(object.first - std::exchange(first, object.first));
-    content.text(object.name);
+    append_number(content, object.first - std::exchange(first, object.first));
+    append_number(content, object.name.size());
+    const auto name = std::as_bytes(std::span(object.name));
+    content.insert(content.end(), name.begin(), name.end());
   }
   CurveKey key = 0;
   for (const Cell& cell : part.cells) {
-    content.number((cell.key - std::exchange(key, cell.key)) >> part.cell_bits);
-    content.number(cell.triangles);
+    append_number(content, (cell.key - std::exchange(key, cell.key)) >> part.cell_bits);
+    append_number(content, cell.triangles);
   }
-  if (content.bytes.size() > most_content) throw Error("the names of the objects take more than 4 GiB; leave some out");
+  if (content.size() > most_content) throw Error("the names of the objects take more than 4 GiB; leave some out");
   Header header{};
   std::memcpy(header.magic, magic_number, sizeof magic_number);
   header.triangles = part.triangles;
   header.objects = part.objects.size();
   header.cells = part.cells.size();
   header.cell_bits = static_cast<std::uint32_t>(part.cell_bits);
-  header.content_bytes = content.bytes.size();
-  std::vector<std::byte> bytes(sizeof header + ZSTD_compressBound(content.bytes.size()));
+  header.content_bytes = content.size();
+  std::vector<std::byte> bytes(sizeof header + ZSTD_compressBound(content.size()));
   std::memcpy(bytes.data(), &header, sizeof header);
   const std::span place = std::span(bytes).subspan(sizeof header);
   std::size_t size = 0;
-  if (content.bytes.size() <= small_content) size = sizeof header + pack(content.bytes, place, 0);
-  if (content.bytes.size() > most_unpacked * size) size = sizeof header + pack(content.bytes, place, small_window);
+  if (content.size() <= small_content) size = sizeof header + pack(content, place, 0);
+  if (content.size() > most_unpacked * size) size = sizeof header + pack(content, place, small_window);
   bytes.resize(size);
   return bytes;
 }
@@ -248,28 +232,6 @@ void visit_part(const std::function<std::size_t(std::span<std::byte>)>& more, st
   }
   if (content.stopped()) return;
   if (!content.complete() || sum != header.triangles) refuse("its content is not what its header says");
-}
-
-PartFile decode_part(std::span<const std::byte> bytes, const std::string& file) {
-  PartFile part;
-  const std::uint64_t all = bytes.size();
-  PartVisitor visitor;
-  visitor.counts = [&](const PartCounts& counts) {
-    part.triangles = counts.triangles;
-    part.cell_bits = counts.cell_bits;
-  };
-  visitor.object = [&](std::uint64_t first, std::string_view name) {
-    part.objects.push_back({first, std::string(name)});
-  };
-  visitor.cell = [&](const Cell& cell) { part.cells.push_back(cell); };
-  const auto more = [&](std::span<std::byte> out) {
-    const std::size_t size = std::min(out.size(), bytes.size());
-    std::memcpy(out.data(), bytes.data(), size);
-    bytes = bytes.subspan(size);
-    return size;
-  };
-  visit_part(more, all, file, visitor);
-  return part;
 }
 
 }  // namespace roam::store

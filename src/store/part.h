@@ -74,7 +74,4 @@ class PartDamage : public Error {
 void visit_part(const std::function<std::size_t(std::span<std::byte>)>& more, std::uint64_t bytes,
                 const std::string& file, const PartVisitor& visitor);
 
-/// Decodes all of it at once, for bytes known to be small.
-[[nodiscard]] PartFile decode_part(std::span<const std::byte> bytes, const std::string& file);
-
 }  // namespace roam::store

@@ -8,19 +8,19 @@
 #include <string>
 #include <string_view>
 
+struct evp_md_ctx_st;  // of OpenSSL
+
 namespace roam::store {
 
 class Sha256 {
  public:
   Sha256();
-  ~Sha256();
   void add(std::span<const std::byte> bytes);
   /// 64 hexadecimal digits of all bytes added. May be called once.
   [[nodiscard]] std::string digits();
 
  private:
-  struct Context;
-  std::unique_ptr<Context> context_;
+  std::unique_ptr<evp_md_ctx_st, void (*)(evp_md_ctx_st*)> context_;
 };
 
 /// HMAC-SHA256, 64 hexadecimal digits.

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "math/boxes.h"
 #include "math/floating_point.h"
 #include "store/authentic.h"
 #include "store/files.h"
@@ -97,12 +98,6 @@ void Store::for_each_triangle(const Box& box,
                               const std::function<void(std::span<const Triangle>, std::span<const TriangleId>)>& f,
                               const std::function<void(const std::string&)>& missing) const {
   const DefaultFloatingPoint guard;
-  const auto apart = [&](const Box& other) {
-    for (int k = 0; k < 3; ++k) {
-      if (other.upper[k] < box.lower[k] || other.lower[k] > box.upper[k]) return true;
-    }
-    return false;
-  };
   /// The result of `read`; nothing if it failed and `missing` was called.
   const auto had = [&](const auto& read) -> std::optional<decltype(read())> {
     if (!missing) return read();
@@ -117,12 +112,12 @@ void Store::for_each_triangle(const Box& box,
   std::vector<Triangle> triangles;
   std::vector<TriangleId> ids;
   for (std::uint64_t p = 0; p < state_->pages.size(); ++p) {
-    if (apart(state_->pages[p].ref.box)) continue;
+    if (!meet(box, state_->pages[p].ref.box)) continue;
     const auto page = had([&] { return reader.page(p); });
     if (!page) continue;
     for (std::uint32_t t = 0; t < page->view.tiles.size(); ++t) {
       const store::TileEntry& entry = page->view.tiles[t];
-      if (apart(store::box_of(entry))) continue;
+      if (!meet(box, store::box_of(entry))) continue;
       const auto tile = had([&] { return reader.tile(p, entry, t); });
       if (!tile) continue;
       triangles.clear();

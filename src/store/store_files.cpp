@@ -6,7 +6,6 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <cstring>
 #include <mutex>
 #include <unordered_map>
 #include <utility>
@@ -109,15 +108,8 @@ class Files : public StoreBytes {
   }
 
   static const char* fill(int descriptor, std::uint64_t offset, std::span<std::byte> out) {
-    while (!out.empty()) {
-      const ssize_t got = ::pread(descriptor, out.data(), out.size(), static_cast<off_t>(offset));
-      if (got < 0 && errno == EINTR) continue;
-      if (got < 0) return reason(errno);
-      if (got == 0) return "the file is shorter than the manifest says";
-      offset += static_cast<std::uint64_t>(got);
-      out = out.subspan(static_cast<std::size_t>(got));
-    }
-    return nullptr;
+    if (files::read_fully(descriptor, offset, out) == out.size()) return nullptr;
+    return errno == 0 ? "the file is shorter than the manifest says" : reason(errno);
   }
 
   Folder folder_;

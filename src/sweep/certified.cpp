@@ -33,10 +33,6 @@ double aim(const SupportPlane& plane, double time, double radius, const Vec3& mo
 
 }  // namespace
 
-double hit_resolution(const Body& body, const Vec3& motion, const LocalTriangle& triangle, double t_end) noexcept {
-  return hit_factor * error_bound(body, motion, triangle).at(t_end);
-}
-
 SweepResult sweep(const Body& body, const Vec3& motion, const LocalTriangle& triangle, double t_begin, double t_end,
                   double hit_tolerance) noexcept {
   Obstacle obstacle(triangle.corner, body.half_height);

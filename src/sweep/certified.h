@@ -22,10 +22,10 @@ struct LocalTriangle {
 ///
 /// `body.radius` includes any inflation. A hit is returned once the certified gap is <= hit_tolerance less the error
 /// bounds, so that the true distance at `time` is <= radius + hit_tolerance. It is also returned once rounding errors
-/// allow no further advance; then the distance is within radius + hit_resolution(). A hit_tolerance of 0 goes as close
-/// as rounding allows. The `distance` of a hit is >= 0, except for a body that touches or overlaps when t_begin is 0:
-/// then it is <= 0. The `distance` of a miss is a lower bound that costs nothing and may be 0; approach() gives a tight
-/// one.
+/// allow no further advance; then the distance is within radius + hit_factor times the error bound at t_end (see
+/// error_bound.h). A hit_tolerance of 0 goes as close as rounding allows. The `distance` of a hit is >= 0, except for a
+/// body that touches or overlaps when t_begin is 0: then it is <= 0. The `distance` of a miss is a lower bound that
+/// costs nothing and may be 0; approach() gives a tight one.
 [[nodiscard]] SweepResult sweep(const Body& body, const Vec3& motion, const LocalTriangle& triangle, double t_begin,
                                 double t_end, double hit_tolerance) noexcept;
 
@@ -49,10 +49,5 @@ struct Approach {
 
 /// Relative tightness of the result of approach().
 inline constexpr double approach_tolerance = 1e-10;
-
-/// Metres. Upper bound of the distance from the radius at which a hit of tolerance 0 may be, beyond the triangle's own
-/// corner_error: hit_factor times the error bound at t_end.
-[[nodiscard]] double hit_resolution(const Body& body, const Vec3& motion, const LocalTriangle& triangle,
-                                    double t_end) noexcept;
 
 }  // namespace roam::certified

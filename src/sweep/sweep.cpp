@@ -8,6 +8,7 @@
 #include "roam/error.h"
 #include "sweep/error_bound.h"
 #include "sweep/seen_from.h"
+#include "text/names.h"
 #include "text/number.h"
 
 namespace roam {
@@ -41,17 +42,7 @@ void check(const Body& body, const Vec3& from, const Vec3& motion, const Triangl
 
 }  // namespace
 
-const char* to_string(Feature feature) {
-  switch (feature) {
-    case Feature::face:
-      return "face";
-    case Feature::edge:
-      return "edge";
-    case Feature::vertex:
-      return "vertex";
-  }
-  return "unknown";
-}
+const char* to_string(Feature feature) { return name_in({"face", "edge", "vertex"}, feature); }
 
 SweepResult sweep(const Body& body, const Vec3& from, const Vec3& motion, const Triangle& triangle) {
   const DefaultFloatingPoint guard;

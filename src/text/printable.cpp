@@ -1,6 +1,5 @@
 #include "text/printable.h"
 
-#include <algorithm>
 #include <array>
 #include <cstdint>
 

@@ -1,8 +1,9 @@
 #include "training/crossings.h"
 
 #include <algorithm>
-#include <cmath>
 #include <glm/geometric.hpp>
+
+#include "ways/trials/on_way.h"
 
 namespace roam::training {
 
@@ -42,18 +43,9 @@ std::vector<Crossing> Crossings::on(std::span<const Vec3> way) const {
       if (glm::distance(at->rim, foot) <= reach_) found.push_back({at->crack, gone});
     }
   };
-  double gone = 0.0;
-  for (std::size_t i = 1; i < way.size(); ++i) {
-    const Vec3 along = way[i] - way[i - 1];
-    const double length = glm::length(along);
-    const int looks = std::max(1, static_cast<int>(std::ceil(length / look_every)));
-    for (int k = 0; k < looks; ++k) {
-      const double part = static_cast<double>(k) / looks;
-      const Vec3 foot = way[i - 1] + part * along;
-      if (!stands_on_floor(*survey_, foot)) add_near(foot, gone + part * length);
-    }
-    gone += length;
-  }
+  ways::for_each_station(way, look_every, [&](const Vec3& foot, const Vec3&, double gone) {
+    if (!stands_on_floor(*survey_, foot)) add_near(foot, gone);
+  });
   std::sort(found.begin(), found.end(),
             [](const Crossing& a, const Crossing& b) { return a.crack != b.crack ? a.crack < b.crack : a.at < b.at; });
   const auto same = [](const Crossing& a, const Crossing& b) { return a.crack == b.crack; };

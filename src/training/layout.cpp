@@ -3,6 +3,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -47,21 +48,9 @@ std::vector<std::optional<int>> shares(const Layout& layout, int wanted) {
 
 /// The reason why a component of that verdict is not trained.
 LeftOut why_left_out(Verdict verdict) {
-  switch (verdict) {
-    case Verdict::inside:
-      return LeftOut::much_smaller;
-    case Verdict::backs:
-      return LeftOut::backs;
-    case Verdict::on_top:
-      return LeftOut::on_top;
-    case Verdict::over_low_rooms:
-      return LeftOut::over_low_rooms;
-    case Verdict::smaller:
-      return LeftOut::small_or_open;
-    case Verdict::unfinished:
-      return LeftOut::unfinished;
-  }
-  return LeftOut::none;
+  constexpr std::array<LeftOut, 6> of{LeftOut::much_smaller, LeftOut::backs,         LeftOut::over_low_rooms,
+                                      LeftOut::on_top,       LeftOut::small_or_open, LeftOut::unfinished};
+  return of[static_cast<std::size_t>(verdict)];
 }
 
 ConnectedPart part_of(const ways::Measure& measure, const ways::WidestTree& tree, const Component& component,

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cstddef>
 #include <functional>
 #include <mutex>
 #include <utility>
@@ -15,23 +16,9 @@ namespace roam::training {
 /// The range of the whole work that a stage covers, in [0, 1]. Rough, because scenes differ. Only a complete training
 /// reaches 1.
 [[nodiscard]] constexpr std::pair<double, double> part_of_work(TrainStage stage) {
-  switch (stage) {
-    case TrainStage::places:
-      return {0.0, 0.4};
-    case TrainStage::planning:
-      return {0.4, 0.5};
-    case TrainStage::cracks:
-      return {0.5, 0.65};
-    case TrainStage::walking:
-      return {0.65, 0.8};
-    case TrainStage::beside_paths:
-      return {0.8, 0.85};
-    case TrainStage::trials:
-      return {0.85, 0.99};
-    case TrainStage::roaming_paths:
-      return {0.5, 0.99};
-  }
-  return {0.0, 1.0};
+  constexpr std::pair<double, double> parts[] = {{0.0, 0.4},  {0.4, 0.5},   {0.5, 0.65}, {0.65, 0.8},
+                                                 {0.8, 0.85}, {0.85, 0.99}, {0.5, 0.99}};
+  return parts[static_cast<std::size_t>(stage)];
 }
 
 /// Passes progress on, one thread at a time. Once the caller wants an end, every later call returns false. The reported

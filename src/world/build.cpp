@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <cmath>
 #include <cstring>
 #include <mutex>
 
@@ -75,17 +74,13 @@ void assemble(WorldData& data, std::vector<BuiltTile>& built) {
 
   std::vector<index::StepBox> boxes(built.size());
   for (std::size_t i = 0; i < built.size(); ++i) boxes[i] = data.grid.steps(grown(built[i]));
-  index::BinaryTreeOptions options;
-  options.items_per_test = 1;
-  options.fits_leaf = [](std::span<const std::uint32_t> items) { return items.size() == 1; };
-  const index::BinaryTree tree = index::build_binary_tree(boxes, options);
-  const index::WideTree top = index::collapse(tree, options.margin);
+  const index::WideTree top = index::tree_over(boxes);
 
   data.tiles.allocate(built.size());
   std::size_t blocks = top.nodes.size(), fine = 0, ids = 0;
   std::vector<BuiltTile*> source(built.size());
   for (std::size_t i = 0; i < built.size(); ++i) {
-    BuiltTile& t = built[tree.order[tree.nodes[top.leaves[i]].begin]];
+    BuiltTile& t = built[top.leaves[i]];
     source[i] = &t;
     t.tile.nodes = static_cast<std::uint32_t>(blocks);
     t.tile.leaves = static_cast<std::uint32_t>(blocks + t.nodes.size());

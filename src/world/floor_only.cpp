@@ -5,7 +5,6 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 #include <string>
-#include <utility>
 
 #include "math/finite.h"
 #include "math/largest.h"

@@ -3,7 +3,6 @@
 /// The part of a triangle that counts as floor.
 
 #include <array>
-#include <span>
 #include <utility>
 
 #include "roam/space.h"

@@ -2,7 +2,6 @@
 /// \file
 /// Queries of one world, shared by World and by spaces of many worlds. Nothing here allocates.
 
-#include <cstddef>
 #include <span>
 
 #include "index/tile_builder.h"

@@ -1,8 +1,6 @@
 #include "roam/world.h"
 
-#include <algorithm>
 #include <atomic>
-#include <string>
 
 #include "world/data.h"
 

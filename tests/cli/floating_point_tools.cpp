@@ -12,8 +12,8 @@
 #include "roam/size_learner.h"
 #include "roam/train.h"
 #include "same_bits.h"
-#include "store/made.h"
 #include "store_builds.h"
+#include "store_made.h"
 #include "words/probe.h"
 
 namespace {

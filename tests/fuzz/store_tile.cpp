@@ -7,7 +7,7 @@
 #include <cstdlib>
 
 #include "clutter.h"
-#include "store/codec/made_tiles.h"
+#include "tiles_made.h"
 
 namespace {
 

@@ -323,7 +323,7 @@ TEST(GraphicsHud, TextIsWhatIsShown) {
   EXPECT_EQ(hud.text(), "Mode: walk\nwall, Door_12\n");
   hud.show_help(true);
   EXPECT_EQ(hud.text(), "wall, Door_12\nMove\nW: forwards\n");
-  hud.clear_message();
+  hud.set_message({});
   EXPECT_EQ(hud.text(), "Move\nW: forwards\n");
   hud.set_detail(Detail::off);
   EXPECT_EQ(hud.text(), "");

@@ -14,7 +14,7 @@
 #include <thread>
 
 #include "roam/pager.h"
-#include "store/made.h"
+#include "store_made.h"
 
 namespace made {
 

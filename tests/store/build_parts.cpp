@@ -192,7 +192,7 @@ TEST(StoreRun, GivesBackEveryTriangleOfARange) {
   clutter::Random random(7);
   for (const bool floats : {false, true}) {
     const roam::Mesh mesh = clutter::make(random, {30'000, 50.0, 1e-3, 5.0, Vec3(100.0)});
-    RunContent content{1'000'000, mesh.vertices, mesh.triangles};
+    RunContent content{mesh, 1'000'000};
     if (floats) {
       for (Vec3& v : content.vertices) v = {float(v.x), float(v.y), float(v.z)};
     }

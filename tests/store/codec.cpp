@@ -9,7 +9,7 @@
 #include "clutter.h"
 #include "roam/error.h"
 #include "roam/generate.h"
-#include "store/codec/made_tiles.h"
+#include "tiles_made.h"
 
 namespace {
 

@@ -11,6 +11,8 @@
 #include <random>
 
 #include "import_files.h"
+#include "packed_part.h"
+#include "store/files.h"
 #include "store/manifest.h"
 #include "store/part.h"
 

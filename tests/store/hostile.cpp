@@ -10,9 +10,9 @@
 #include "memory_cost.h"
 #include "packed_part.h"
 #include "store/build/fingerprint.h"
-#include "store/made.h"
 #include "store/opened.h"
 #include "store/part_bytes.h"
+#include "store_made.h"
 
 namespace {
 

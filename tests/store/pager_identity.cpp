@@ -107,12 +107,8 @@ class StoredWorld final : public roam::Space {
   roam::index::WideTree tree() {
     std::vector<roam::index::StepBox> boxes;
     for (const Read& r : tiles_) boxes.push_back(data_.grid.steps(r.box));
-    roam::index::BinaryTreeOptions options;
-    options.items_per_test = 1;
-    options.fits_leaf = [](std::span<const std::uint32_t> items) { return items.size() == 1; };
-    const roam::index::BinaryTree binary = roam::index::build_binary_tree(boxes, options);
-    roam::index::WideTree top = roam::index::collapse(binary, options.margin);
-    for (const std::uint32_t leaf : top.leaves) order_.push_back(binary.order[binary.nodes[leaf].begin]);
+    roam::index::WideTree top = roam::index::tree_over(boxes);
+    order_.assign(top.leaves.begin(), top.leaves.end());
     return top;
   }
 

@@ -5,7 +5,7 @@
 #include <functional>
 #include <utility>
 
-#include "store/made.h"
+#include "store_made.h"
 
 namespace {
 

@@ -1,13 +1,16 @@
 #pragma once
-/// A part file of any content, also one that no builder writes.
+/// A part file of any content, also one that no builder writes; and all that a part file holds.
 
 #include <zstd.h>
 
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <span>
 #include <string>
 #include <vector>
+
+#include "store/part.h"
 
 namespace packed_parts {
 
@@ -35,3 +38,30 @@ inline std::vector<std::byte> packed_part(std::uint64_t triangles, std::uint64_t
 }
 
 }  // namespace packed_parts
+
+namespace roam::store {
+
+/// Decodes all of it at once.
+inline PartFile decode_part(std::span<const std::byte> bytes, const std::string& file) {
+  PartFile part;
+  const std::uint64_t all = bytes.size();
+  PartVisitor visitor;
+  visitor.counts = [&](const PartCounts& counts) {
+    part.triangles = counts.triangles;
+    part.cell_bits = counts.cell_bits;
+  };
+  visitor.object = [&](std::uint64_t first, std::string_view name) {
+    part.objects.push_back({first, std::string(name)});
+  };
+  visitor.cell = [&](const Cell& cell) { part.cells.push_back(cell); };
+  const auto more = [&](std::span<std::byte> out) {
+    const std::size_t size = std::min(out.size(), bytes.size());
+    std::memcpy(out.data(), bytes.data(), size);
+    bytes = bytes.subspan(size);
+    return size;
+  };
+  visit_part(more, all, file, visitor);
+  return part;
+}
+
+}  // namespace roam::store

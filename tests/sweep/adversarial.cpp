@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "adversarial_queries.h"
+#include "hit_resolution.h"
 #include "oracle.h"
 #include "roam/sweep.h"
 #include "sweep/certified.h"

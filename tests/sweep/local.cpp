@@ -9,6 +9,7 @@
 #include <random>
 
 #include "adversarial_queries.h"
+#include "hit_resolution.h"
 #include "oracle.h"
 #include "roam/sweep.h"
 #include "sweep/certified.h"

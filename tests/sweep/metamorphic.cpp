@@ -8,6 +8,7 @@
 #include <random>
 #include <vector>
 
+#include "hit_resolution.h"
 #include "oracle.h"
 #include "roam/sweep.h"
 #include "sweep/certified.h"

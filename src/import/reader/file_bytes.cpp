@@ -20,19 +20,15 @@ constexpr std::size_t buffer_bytes = 4u << 20;
 }  // namespace
 
 FileBytes::FileBytes(const std::filesystem::path& path, std::function<void(std::uint64_t)> progress)
-    : path_(path.string()), progress_(std::move(progress)) {
-  descriptor_ = open(path_.c_str(), O_RDONLY | O_CLOEXEC);
+    : path_(path.string()), progress_(std::move(progress)), file_(open(path_.c_str(), O_RDONLY | O_CLOEXEC)) {
   struct stat status {};
-  if (descriptor_ < 0 || fstat(descriptor_, &status) != 0) {
+  if (!file_.is_open() || fstat(file_.number(), &status) != 0) {
     const std::string reason = std::strerror(errno);
-    if (descriptor_ >= 0) close(descriptor_);
     throw Error(path_, fmt::format("this file cannot be opened: {}.", reason));
   }
   size_ = static_cast<std::uint64_t>(status.st_size);
   buffer_.resize(buffer_bytes);
 }
-
-FileBytes::~FileBytes() { close(descriptor_); }
 
 std::string_view FileBytes::refill(std::size_t wanted) {
   if (wanted > window_limit) {
@@ -47,8 +43,7 @@ std::string_view FileBytes::refill(std::size_t wanted) {
   if (wanted > buffer_.size()) buffer_.resize(std::max(wanted, std::min(2 * buffer_.size(), window_limit)));
   // Stop at `wanted` bytes even if the buffer has room: a short read is no reason to wait for more.
   while (!at_end_ && end_ < wanted) {
-    const ssize_t n = read(descriptor_, buffer_.data() + end_, buffer_.size() - end_);
-    if (n < 0 && errno == EINTR) continue;
+    const ssize_t n = files::again([&] { return read(file_.number(), buffer_.data() + end_, buffer_.size() - end_); });
     if (n < 0) throw Error(path_, fmt::format("reading failed at byte {}: {}.", read_, std::strerror(errno)));
     at_end_ = n == 0;
     end_ += static_cast<std::size_t>(n);

@@ -10,6 +10,8 @@
 #include <string_view>
 #include <vector>
 
+#include "files/descriptor.h"
+
 namespace roam::reader {
 
 /// Reads a file from its beginning to its end through one buffer.
@@ -18,9 +20,6 @@ class FileBytes {
   /// Calls `progress` with the bytes read so far whenever the buffer is filled. Throws roam::Error if the file cannot
   /// be opened.
   FileBytes(const std::filesystem::path& path, std::function<void(std::uint64_t)> progress);
-  ~FileBytes();
-  FileBytes(const FileBytes&) = delete;
-  FileBytes& operator=(const FileBytes&) = delete;
 
   /// The bytes from offset() on: at least `wanted`, fewer only at the end of the file. Valid until the next call of
   /// window. Throws roam::Error if `wanted` exceeds window_limit.
@@ -44,7 +43,7 @@ class FileBytes {
 
   std::string path_;
   std::function<void(std::uint64_t)> progress_;
-  int descriptor_ = -1;
+  files::Descriptor file_;
   std::uint64_t size_ = 0, read_ = 0;
   bool at_end_ = false;
   std::vector<char> buffer_;

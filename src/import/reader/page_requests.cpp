@@ -4,7 +4,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
@@ -12,6 +11,7 @@
 #include <new>
 #include <string>
 
+#include "files/descriptor.h"
 #include "import/display_part.h"
 #include "import/reader/display/pages.h"
 #include "import/reader/display/part_pool.h"
@@ -27,15 +27,7 @@ constexpr std::size_t nesting_limit = 64;
 
 /// Reads `size` bytes. False at the end of the input.
 bool take(void* to, std::size_t size) {
-  auto* at = static_cast<char*>(to);
-  while (size > 0) {
-    const ssize_t n = read(STDIN_FILENO, at, size);
-    if (n < 0 && errno == EINTR) continue;
-    if (n <= 0) return false;
-    at += n;
-    size -= static_cast<std::size_t>(n);
-  }
-  return true;
+  return files::read_fully(STDIN_FILENO, {static_cast<std::byte*>(to), size}) == size;
 }
 
 bool take_request(std::string& token) {

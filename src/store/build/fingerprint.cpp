@@ -11,8 +11,6 @@
 #include <cstring>
 #include <ctime>
 #include <limits>
-#include <nlohmann/json.hpp>
-#include <string_view>
 
 #include "files/holes.h"
 #include "import/scene_scope.h"
@@ -29,8 +27,6 @@ namespace roam::store {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
-
 /// Nanoseconds. Two changes of a file within the resolution of the file system's clock (2 s on FAT) have the same time,
 /// but different content.
 constexpr std::int64_t clock_steps = 3'000'000'000;
@@ -167,57 +163,35 @@ std::string text_of(const ImportOptions& options) {
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
-namespace {
-
-/// Reads the text of text_of. It is lenient; read_as compares the result with the text.
-class OptionsText : public JsonReader {
- public:
-  OptionsText() : JsonReader("the options", most) {}
-
-  void value(const JsonPlace& at, JsonValue value) override {
-    if (auto* const* text = std::get_if<std::string*>(&value)) {
-      keep(3 * sizeof(std::string) + (*text)->size());
-      if (at.path == "up") up = **text;
-      if (at.path == "ignore/*") ignore.push_back(**text);
-      if (at.path == "allow/*") allow.push_back(**text);
-    }
-    if (const double* number = std::get_if<double>(&value); number && at.path == "metres_per_unit") metres = *number;
-  }
-  void list_begins(const JsonPlace&) override {}
-  void object_begins(const JsonPlace&) override {}
-  void object_ends(const JsonPlace&) override {}
-
-  std::string up;
-  double metres = 0.0;
-  std::vector<std::string> ignore, allow;
-
- private:
-  /// Bytes. A pattern of one character takes four bytes in the text.
-  static constexpr std::uint64_t most = 32 * longest_options;
-};
-
-}  // namespace
-
+// Lenient: the result is compared with the text.
 void read_as(const std::string& text, ImportOptions& options) {
-  ImportOptions read = options;
-  OptionsText now, then;
+  /// Bytes. A pattern of one character takes four bytes in the text.
+  constexpr std::uint64_t most = 64 * longest_options;
+  const auto now = Json::parse(text_of(options));
+  Json then;
   bool known = text.size() <= longest_options;
   try {
-    now.read(text_of(options));
-    if (known) then.read(text);
+    if (known) then = parse_json(text, "the options", most);
   } catch (const Error&) {
     known = false;
   }
+  const auto member = [](const Json& json, const char* name) {
+    return json.is_object() ? json.value(name, Json()) : Json();
+  };
+  ImportOptions read = options;
   read.up.reset();
   for (const UpAxis up : {UpAxis::x, UpAxis::y, UpAxis::z, UpAxis::minus_x, UpAxis::minus_y, UpAxis::minus_z}) {
-    if (then.up == to_string(up)) read.up = up;
+    if (member(then, "up") == Json(to_string(up))) read.up = up;
   }
   for (const LengthUnit unit : {LengthUnit::m, LengthUnit::cm, LengthUnit::mm, LengthUnit::ft, LengthUnit::in}) {
-    if (then.metres == metres_per(unit)) read.unit = unit;
+    if (member(then, "metres_per_unit") == Json(metres_per(unit))) read.unit = unit;
   }
-  read.ignore = then.ignore;
+  read.ignore.clear();
+  for (const Json& pattern : member(then, "ignore")) {
+    if (pattern.is_string()) read.ignore.push_back(pattern.get<std::string>());
+  }
   // Only the user decides which folders a scene may refer to, never a store.
-  if (known && then.allow != now.allow) {
+  if (known && member(then, "allow") != member(now, "allow")) {
     throw Error("the store was built with other folders allowed (--allow): repair it with the same");
   }
   if (!known || text_of(read) != text) {
@@ -232,12 +206,12 @@ Sources::Sources(Folder store, const std::optional<StoreKey>& key) : store_(std:
   if (*size_of(store_, sources_file) > sources_memory / 4) return;
   const std::optional<std::string> text = read_coded(store_, sources_file, sources_memory / 4, key_);
   if (!text) return;
+  Json json;
   try {
-    check_json(*text, sources_file, sources_memory);
+    json = parse_json(*text, sources_file, sources_memory);
   } catch (const Error&) {
     return;
   }
-  const Json json = Json::parse(*text, nullptr, false);
   if (!json.is_object()) return;
   for (const auto& [name, item] : json.items()) {
     if (!item.is_array() || item.size() != 3 || !item[0].is_number_unsigned() || !item[1].is_number_integer() ||

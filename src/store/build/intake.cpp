@@ -4,8 +4,6 @@
 
 #include <algorithm>
 #include <future>
-#include <nlohmann/json.hpp>
-#include <string_view>
 #include <utility>
 
 #include "store/authentic.h"
@@ -13,14 +11,11 @@
 #include "store/build/layout.h"
 #include "store/build/run.h"
 #include "store/files.h"
-#include "store/json_reader.h"
 
 namespace roam::store {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
-
 /// Bytes. A record has a line for each half a million triangles.
 constexpr std::uint64_t record_memory = 64u << 20;
 
@@ -99,22 +94,6 @@ class Intake {
   std::future<void> sorting_;
 };
 
-std::string to_text(const PartRecord& record) {
-  Json runs = Json::array();
-  for (const auto& run : record.runs) runs.push_back({key_text(run.first), key_text(run.last)});
-  return Json{{"scratch_version", scratch_version},
-              {"name", record.info.name},
-              {"fingerprint", record.info.fingerprint},
-              {"file", record.info.file},
-              {"bytes", record.info.bytes},
-              {"triangles", record.info.triangles},
-              {"objects", record.info.objects},
-              {"runs", std::move(runs)},
-              {"notes", record.notes}}
-             .dump(1) +
-         "\n";
-}
-
 /// A note of the import that begins with the name of the part and is independent of the scene's folder.
 std::string note_of(const ScenePart& part, std::string note) {
   const fs::path whole = fs::absolute(part.path).lexically_normal();
@@ -143,6 +122,35 @@ CurveKey parse_key(const std::string& text) {
   return CurveKey{std::stoull(text.substr(0, 16), nullptr, 16)} << 64 | std::stoull(text.substr(16), nullptr, 16);
 }
 
+Json json_of(const PartRecord& record) {
+  Json runs = Json::array();
+  for (const auto& run : record.runs) runs.push_back({key_text(run.first), key_text(run.last)});
+  return {{"name", record.info.name},
+          {"fingerprint", record.info.fingerprint},
+          {"file", record.info.file},
+          {"bytes", record.info.bytes},
+          {"triangles", record.info.triangles},
+          {"objects", record.info.objects},
+          {"runs", std::move(runs)},
+          {"notes", record.notes}};
+}
+
+PartRecord record_of(const Json& json) {
+  PartRecord record;
+  record.info.name = json.at("name").get<std::string>();
+  record.info.fingerprint = json.at("fingerprint").get<std::string>();
+  record.info.file = json.at("file").get<std::string>();
+  if (!is_digits(record.info.file, 64)) throw std::runtime_error("the name of a file is not what it should be");
+  record.info.bytes = json.at("bytes").get<std::uint64_t>();
+  record.info.triangles = json.at("triangles").get<std::uint64_t>();
+  record.info.objects = json.at("objects").get<std::uint64_t>();
+  for (const Json& run : json.at("runs")) {
+    record.runs.push_back({parse_key(run.at(0).get<std::string>()), parse_key(run.at(1).get<std::string>())});
+  }
+  record.notes = json.at("notes").get<std::vector<std::string>>();
+  return record;
+}
+
 std::string record_id(const std::string& name, const std::string& fingerprint) {
   const std::string text = name + "\n" + fingerprint;
   return sha256(std::as_bytes(std::span(text))).substr(0, record_digits);
@@ -154,22 +162,10 @@ std::optional<PartRecord> find_record(const Work& work, const std::string& id) {
   const std::optional<std::string> text = read_coded(store, file, record_memory, work.options.key);
   if (!text) return {};
   PartRecord record;
-  record.id = id;
   try {
-    check_json(*text, file, record_memory);
-    const Json json = Json::parse(*text);
+    const Json json = parse_json(*text, file, record_memory);
     if (json.at("scratch_version").get<int>() != scratch_version) return {};
-    record.info.name = json.at("name").get<std::string>();
-    record.info.fingerprint = json.at("fingerprint").get<std::string>();
-    record.info.file = json.at("file").get<std::string>();
-    if (!is_digits(record.info.file, 64)) return {};
-    record.info.bytes = json.at("bytes").get<std::uint64_t>();
-    record.info.triangles = json.at("triangles").get<std::uint64_t>();
-    record.info.objects = json.at("objects").get<std::uint64_t>();
-    for (const Json& run : json.at("runs")) {
-      record.runs.push_back({parse_key(run.at(0).get<std::string>()), parse_key(run.at(1).get<std::string>())});
-    }
-    record.notes = json.at("notes").get<std::vector<std::string>>();
+    record = record_of(json);
   } catch (const std::exception&) {
     return {};  // the part is read again
   }
@@ -177,6 +173,7 @@ std::optional<PartRecord> find_record(const Work& work, const std::string& id) {
     if (!size_of(store, run_file(id, i))) return {};
   }
   if (size_of(store, part_file(record.info.file)) != record.info.bytes) return {};
+  record.id = id;
   record.has_runs = true;
   return record;
 }
@@ -213,7 +210,9 @@ PartRecord read_part(Work& work, const ScenePart& part, const std::string& finge
   record.info.bytes = bytes.size();
   record.info.triangles = file.triangles;
   record.info.objects = file.objects.size();
-  write_coded(work.store, record_file(record.id), to_text(record), work.options.key);
+  Json json = json_of(record);
+  json["scratch_version"] = scratch_version;
+  write_coded(work.store, record_file(record.id), json.dump(1) + "\n", work.options.key);
   work.add_bytes(std::max(told, part.bytes) - told);
   work.tick();
   return record;

@@ -7,6 +7,7 @@
 
 #include "roam/import.h"
 #include "store/build/work.h"
+#include "store/json_reader.h"
 #include "store/manifest.h"
 #include "store/part.h"
 
@@ -23,6 +24,11 @@ struct PartRecord {
   bool has_runs = false;           ///< the runs are in the scratch folder
   std::vector<std::string> notes;  ///< of the import; each begins with the name of the part
 };
+
+/// All but PartRecord::id and has_runs, for the files of the scratch folder.
+[[nodiscard]] Json json_of(const PartRecord& record);
+/// The reverse. Throws an exception if the JSON does not hold a record.
+[[nodiscard]] PartRecord record_of(const Json& json);
 
 /// Computes PartRecord::id.
 [[nodiscard]] std::string record_id(const std::string& name, const std::string& fingerprint);

@@ -2,16 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
 
 #include "math/largest.h"
 
 namespace roam::store {
 namespace {
-
-Vec3 cross(const Vec3& a, const Vec3& b) {
-  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-double dot(const Vec3& a, const Vec3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 
 /// The axes that may separate a triangle from a box of half size h, except the box's own (Akenine-Möller, "Fast 3D
 /// triangle-box overlap testing", 2001).
@@ -19,7 +15,7 @@ class Separation {
  public:
   Separation(const Triangle& t, const Vec3& h) {
     const Vec3 edge[3] = {t[1] - t[0], t[2] - t[1], t[0] - t[2]};
-    add(cross(edge[0], edge[1]), t, h);
+    add(glm::cross(edge[0], edge[1]), t, h);
     for (const Vec3& e : edge) {
       add({0.0, -e.z, e.y}, t, h);
       add({e.z, 0.0, -e.x}, t, h);
@@ -30,7 +26,7 @@ class Separation {
   /// Whether the box around `centre` may touch the triangle.
   [[nodiscard]] bool touches(const Vec3& centre) const {
     for (const Axis& axis : axes_) {
-      const double at = dot(axis.direction, centre);
+      const double at = glm::dot(axis.direction, centre);
       if (at < axis.lower || at > axis.upper) return false;
     }
     return true;
@@ -44,7 +40,7 @@ class Separation {
 
   void add(const Vec3& d, const Triangle& t, const Vec3& h) {
     const double reach = std::abs(d.x) * h.x + std::abs(d.y) * h.y + std::abs(d.z) * h.z;
-    const double a = dot(d, t[0]), b = dot(d, t[1]), c = dot(d, t[2]);
+    const double a = glm::dot(d, t[0]), b = glm::dot(d, t[1]), c = glm::dot(d, t[2]);
     axes_[count_++] = {d, std::min({a, b, c}) - reach, std::max({a, b, c}) + reach};
   }
 

@@ -2,22 +2,13 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <map>
-#include <nlohmann/json.hpp>
-#include <string_view>
-
 #include "roam/error.h"
 #include "store/authentic.h"
 #include "store/build/layout.h"
 #include "store/files.h"
-#include "store/json_reader.h"
 
 namespace roam::store {
 namespace {
-
-namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
 
 /// The version of the builder. Must increase with every change of the tiles that it makes of the same triangles.
 constexpr int builder_version = 1;
@@ -26,41 +17,6 @@ Json json_of(const Stretch& s) {
   Json cells = Json::array();
   for (const CurveCell& cell : s.cells) cells.push_back({key_text(cell.key), cell.bits});
   return {{"cells", std::move(cells)}, {"skip", s.skip}, {"triangles", s.triangles}};
-}
-
-Json json_of(const PartRecord& record) {
-  Json runs = Json::array();
-  for (const auto& run : record.runs) runs.push_back({key_text(run.first), key_text(run.last)});
-  return {{"name", record.info.name},
-          {"fingerprint", record.info.fingerprint},
-          {"file", record.info.file},
-          {"bytes", record.info.bytes},
-          {"triangles", record.info.triangles},
-          {"objects", record.info.objects},
-          {"id", record.id},
-          {"runs", std::move(runs)},
-          {"has_runs", record.has_runs},
-          {"notes", record.notes}};
-}
-
-PartRecord record_of(const Json& json) {
-  PartRecord record;
-  record.info.name = json.at("name").get<std::string>();
-  record.info.fingerprint = json.at("fingerprint").get<std::string>();
-  record.info.file = json.at("file").get<std::string>();
-  record.info.bytes = json.at("bytes").get<std::uint64_t>();
-  record.info.triangles = json.at("triangles").get<std::uint64_t>();
-  record.info.objects = json.at("objects").get<std::uint64_t>();
-  record.id = json.at("id").get<std::string>();
-  if (!is_digits(record.info.file, 64) || !is_digits(record.id, record_digits)) {
-    throw std::runtime_error("the name of a file is not what it should be");
-  }
-  for (const Json& run : json.at("runs")) {
-    record.runs.push_back({parse_key(run.at(0).get<std::string>()), parse_key(run.at(1).get<std::string>())});
-  }
-  record.has_runs = json.at("has_runs").get<bool>();
-  record.notes = json.at("notes").get<std::vector<std::string>>();
-  return record;
 }
 
 }  // namespace
@@ -87,7 +43,12 @@ std::string key_of(const Stretch& stretch, const Plan& plan) {
 
 void write_plan(const Work& work, const Plan& plan) {
   Json parts = Json::array(), shards = Json::array();
-  for (const PartRecord& record : plan.parts) parts.push_back(json_of(record));
+  for (const PartRecord& record : plan.parts) {
+    Json json = json_of(record);
+    json["id"] = record.id;
+    json["has_runs"] = record.has_runs;
+    parts.push_back(std::move(json));
+  }
   for (const PlannedShard& shard : plan.shards) {
     Json json = json_of(shard.stretch);
     json["parts"] = shard.stretch.parts;
@@ -120,13 +81,17 @@ Plan read_plan(const Work& work) {
                     store.string()));
   }
   try {
-    check_json(*text, plan_file, memory / 2);
-    const Json json = Json::parse(*text);
+    const Json json = parse_json(*text, plan_file, memory / 2);
     if (json.at("scratch_version").get<int>() != scratch_version) throw std::runtime_error("of another version");
     Plan plan;
     plan.options = json.at("options").get<std::string>();
     plan.lossless = json.at("lossless").get<bool>();
-    for (const Json& part : json.at("parts")) plan.parts.push_back(record_of(part));
+    for (const Json& part : json.at("parts")) {
+      PartRecord& record = plan.parts.emplace_back(record_of(part));
+      record.id = part.at("id").get<std::string>();
+      if (!is_digits(record.id, record_digits)) throw std::runtime_error("the name of a file is not what it should be");
+      record.has_runs = part.at("has_runs").get<bool>();
+    }
     for (const Json& item : json.at("shards")) {
       PlannedShard shard;
       for (const Json& cell : item.at("cells")) {

@@ -249,14 +249,8 @@ void RunReader::read(std::size_t block, RunBlock& out) const {
 }
 
 void RunReader::get(std::uint64_t offset, std::span<std::byte> out) const {
-  while (!out.empty()) {
-    const ssize_t got = ::pread(descriptor_.number(), out.data(), out.size(), static_cast<off_t>(offset));
-    if (got < 0 && errno == EINTR) continue;
-    if (got < 0) refuse(std::strerror(errno));
-    if (got == 0) refuse("it is too short");
-    out = out.subspan(static_cast<std::size_t>(got));
-    offset += static_cast<std::uint64_t>(got);
-  }
+  if (files::read_fully(descriptor_.number(), offset, out) == out.size()) return;
+  refuse(errno == 0 ? "it is too short" : std::strerror(errno));
 }
 
 void RunReader::refuse(const char* why) const {

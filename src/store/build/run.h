@@ -22,15 +22,8 @@ inline constexpr std::uint32_t run_triangles = 1u << 19;
 inline constexpr std::uint32_t block_triangles = 1024;
 
 /// Triangles in their original order.
-struct RunContent {
+struct RunContent : Mesh {
   std::uint64_t first = 0;  ///< number, in the part, of the first one
-  std::vector<Vec3> vertices;
-  std::vector<std::array<std::uint32_t, 3>> triangles;
-
-  [[nodiscard]] Triangle triangle(std::size_t i) const {
-    const auto& t = triangles[i];
-    return {vertices[t[0]], vertices[t[1]], vertices[t[2]]};
-  }
 };
 
 /// A triangle of a run that is being sorted.

@@ -24,11 +24,6 @@ std::size_t checked(std::size_t result) {
 
 }  // namespace
 
-void append_number(std::vector<std::byte>& coded, std::uint64_t number) {
-  for (; number > 127; number >>= 7U) coded.push_back(std::byte((number & 127U) | 128U));
-  coded.push_back(std::byte(number));
-}
-
 bool read_number(std::span<const std::byte>& coded, int bits, std::uint64_t& number) {
   number = 0;
   for (int shift = 0; shift < bits && !coded.empty(); shift += 7) {

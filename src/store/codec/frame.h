@@ -10,7 +10,11 @@
 namespace roam::store {
 
 /// Appends a number: seven bits a byte, lowest first. The eighth bit is set where more bytes follow.
-void append_number(std::vector<std::byte>& coded, std::uint64_t number);
+template <class Number>
+void append_number(std::vector<std::byte>& coded, Number number) {
+  for (; number > 127; number >>= 7U) coded.push_back(static_cast<std::byte>((number & 127U) | 128U));
+  coded.push_back(static_cast<std::byte>(number));
+}
 
 /// Reads a number of at most `bits` bits and removes it from the front. False if there is no such number.
 [[nodiscard]] bool read_number(std::span<const std::byte>& coded, int bits, std::uint64_t& number);

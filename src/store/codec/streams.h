@@ -2,7 +2,6 @@
 /// \file
 /// The layout of a tile's bytes: numbers of variable length, then one Zstandard frame of streams.
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 
@@ -13,12 +12,12 @@ namespace roam::store {
 
 /// The streams in the order of the frame. All consist of letters of one byte, except the last three.
 enum Stream : std::uint8_t {
-  tree_stream,    ///< one letter for each node: its counts
+  tree_stream,   ///< one letter for each node: its counts
   count_stream,  ///< one letter for each leaf: triangles - 1
   gate_stream,   ///< three Apex in each letter
   seed_stream,   ///< one letter for each triangle without a gate in its leaf: how it is named
   name_stream,   ///< vertices that are named by slot or age
-  gate_x,   ///< classes of differences between a vertex and its prediction beyond a gate
+  gate_x,        ///< classes of differences between a vertex and its prediction beyond a gate
   gate_y,
   gate_z,
   free_x,  ///< classes of differences from the vertex named before

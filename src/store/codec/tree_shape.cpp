@@ -1,15 +1,14 @@
 #include "store/codec/tree_shape.h"
 
-#include <array>
 #include <cstring>
 
 #include "index/refit.h"
 
 namespace roam::store {
 
-using index::node_width;
 using index::Leaf;
 using index::Node;
+using index::node_width;
 using index::StepBox;
 
 namespace {

@@ -10,24 +10,6 @@
 
 namespace roam::training {
 
-const char* to_string(Verdict verdict) {
-  switch (verdict) {
-    case Verdict::inside:
-      return "inside";
-    case Verdict::backs:
-      return "backs";
-    case Verdict::over_low_rooms:
-      return "over low rooms";
-    case Verdict::on_top:
-      return "on top";
-    case Verdict::smaller:
-      return "smaller";
-    case Verdict::unfinished:
-      return "unfinished";
-  }
-  return "";
-}
-
 namespace {
 
 /// Places of a component that are examined, at most.

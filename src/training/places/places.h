@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
-#include <span>
 #include <vector>
 
 #include "roam/survey.h"
@@ -22,9 +21,6 @@ enum class Verdict : std::uint8_t {
   smaller,         ///< smaller than another one, if windings are not trusted; or a scrap of a few places
   unfinished,      ///< not explored whole, and less detailed than another part: open country
 };
-
-/// "inside", "backs", "over low rooms", "on top", "smaller" or "unfinished".
-[[nodiscard]] const char* to_string(Verdict verdict);
 
 /// Places connected for a body of `narrowest`.
 struct Component {

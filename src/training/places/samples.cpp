@@ -4,10 +4,10 @@
 #include <array>
 #include <bit>
 #include <cmath>
-#include <cstddef>
 #include <glm/geometric.hpp>
 #include <tuple>
 
+#include "math/boxes.h"
 #include "math/random.h"
 
 namespace roam::training {
@@ -50,8 +50,7 @@ double plan_area(const Vec3& a, const Vec3& b, const Vec3& c) {
 void sample_by_area(const Triangle& t, const Vec3& origin, double cell, std::uint64_t seed, std::vector<Sample>& out) {
   const double whole = plan_area(t[0], t[1], t[2]);
   if (whole == 0.0) return;
-  Box box;
-  for (const Vec3& corner : t) box.include(corner);
+  const Box box = box_around(t);
   const auto first = [&](int k) { return std::ceil((box.lower[k] - origin[k]) / cell); };
   const auto last = [&](int k) { return std::floor((box.upper[k] - origin[k]) / cell); };
   for (double i = first(0); i <= last(0); ++i) {

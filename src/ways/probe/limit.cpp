@@ -101,23 +101,6 @@ bool is_between(const ProbeSearch& search, const Vec3& place, const Opening& ope
   return ahead && behind;
 }
 
-/// Calls f(place, run, along) for places of a way at most `station` apart. `run` is the leg with the place, `along` its
-/// distance from the way's start.
-template <class F>
-void for_each_station(const std::vector<Vec3>& way, const F& f) {
-  double gone = 0.0;
-  for (std::size_t i = 0; i + 1 < way.size(); ++i) {
-    const Vec3 run = way[i + 1] - way[i];
-    const double length = glm::length(run);
-    const int parts = std::max(1, static_cast<int>(std::ceil(length / station)));
-    for (int k = 0; k < parts; ++k) {
-      const double part = static_cast<double>(k) / parts;
-      f(way[i] + part * run, run, gone + part * length);
-    }
-    gone += length;
-  }
-}
-
 /// The headroom of a way: the greatest height, up to `most`, of a body of that radius that passes under everything.
 ProbeLimit lowest(const ProbeSearch& search, const std::vector<Vec3>& way, double radius, double most) {
   ProbeLimit limit;
@@ -126,7 +109,7 @@ ProbeLimit lowest(const ProbeSearch& search, const std::vector<Vec3>& way, doubl
   limit.size = most;
   const Body body{radius - slack, 0.0};
   const double bottom = search.options.step + radius, rise = most - bottom - radius;
-  for_each_station(way, [&](const Vec3& feet, const Vec3& run, double along) {
+  for_each_station(way, station, [&](const Vec3& feet, const Vec3& run, double along) {
     const Impact up = search.survey.world().sweep(body, feet + Vec3(0.0, 0.0, bottom), {0.0, 0.0, rise});
     if (!up.hit || bottom + up.time * rise + body.radius >= limit.size) return;
     limit.size = bottom + up.time * rise + body.radius;
@@ -141,7 +124,7 @@ ProbeLimit lowest(const ProbeSearch& search, const std::vector<Vec3>& way, doubl
 double width_at(const ProbeSearch& search, const std::vector<Vec3>& way, const ProbeLimit& lowest, double radius) {
   const Measure measure = search.measure();
   Station narrowest{lowest.feet, measure.widest, false};
-  for_each_station(way, [&](const Vec3& place, const Vec3&, double along) {
+  for_each_station(way, station, [&](const Vec3& place, const Vec3&, double along) {
     if (std::abs(along - lowest.along) > radius) return;
     const Station here = station_at(search.survey, measure, place);
     if (here.free < narrowest.free) narrowest = here;
@@ -173,15 +156,11 @@ ProbeLimit steepest(const ProbeSearch& search, const Passage& passage, double mo
   limit.kind = ProbeLimit::Kind::step;
   limit.direction = {0.0, 0.0, 1.0};
   std::vector<Vec3> floor;
-  for (std::size_t i = 0; i + 1 < passage.way.size(); ++i) {
-    const Vec3 run = passage.way[i + 1] - passage.way[i];
-    const int parts = std::max(1, static_cast<int>(std::ceil(glm::length(run) / station)));
-    for (int k = 0; k < parts; ++k) {
-      const Vec3 knee = passage.way[i] + static_cast<double>(k) / parts * run + Vec3(0.0, 0.0, search.options.step);
-      const Impact down = search.survey.floor().ray(knee, {0.0, 0.0, -2.0 * search.options.step - precision});
-      if (down.hit) floor.push_back(down.point);
-    }
-  }
+  for_each_station(passage.way, station, [&](const Vec3& foot, const Vec3&, double) {
+    const Vec3 knee = foot + Vec3(0.0, 0.0, search.options.step);
+    const Impact down = search.survey.floor().ray(knee, {0.0, 0.0, -2.0 * search.options.step - precision});
+    if (down.hit) floor.push_back(down.point);
+  });
   for (std::size_t i = 0; i < floor.size(); ++i) {
     for (std::size_t k = i + 1; k < floor.size(); ++k) {
       const Vec3 run = floor[k] - floor[i];

@@ -8,9 +8,11 @@
 #include <limits>
 #include <map>
 
+#include "math/boxes.h"
 #include "math/floating_point.h"
 #include "math/parallel_floating_point.h"
 #include "roam/standing.h"
+#include "text/names.h"
 #include "ways/probe/search.h"
 #include "ways/trials/on_way.h"
 
@@ -63,9 +65,8 @@ std::vector<Vec3> taken_to(const Box& box, const std::vector<Vec3>& way) {
 ProbeWalk walk_way(const Survey& survey, const ProbeQuestion& question, const ProbeAnswer& answer) {
   const std::vector<Vec3> path = probed_path(survey, question, answer);
   // A flying end may lie above or beside the scene.
-  Box box;
-  for (const Vec3& place : path) box.include(place);
-  const Box scene = survey.world().bounds().grown(question.mode == Mode::fly ? glm::length(box.size()) : 0.0);
+  const double beyond = question.mode == Mode::fly ? glm::length(box_around(path).size()) : 0.0;
+  const Box scene = survey.world().bounds().grown(beyond);
   Walker walker(survey.world(), probed_body(question, answer.size, survey.slope_degrees()), question.mode,
                 path.front());
   const RouteResult result = follow(walker, path, {.scene = scene});
@@ -102,27 +103,7 @@ void find_limit(const ProbeSearch& search, ProbeAnswer& answer) {
 }  // namespace
 
 const char* to_string(ProbeLimit::Kind kind) {
-  using Kind = ProbeLimit::Kind;
-  switch (kind) {
-    case Kind::door:
-      return "door";
-    case Kind::lintel:
-      return "lintel";
-    case Kind::gap:
-      return "gap";
-    case Kind::edge:
-      return "edge";
-    case Kind::start:
-    case Kind::target:
-      return "end";
-    case Kind::height:
-      return "height";
-    case Kind::step:
-      return "step";
-    case Kind::apart:
-      return "apart";
-  }
-  return "unknown";
+  return name_in({"door", "lintel", "gap", "edge", "end", "end", "height", "step", "apart"}, kind);
 }
 
 double climbed(const ProbeQuestion& question, const ProbedSize& size) {

@@ -6,6 +6,8 @@
 #include <glm/geometric.hpp>
 #include <vector>
 
+#include "math/boxes.h"
+
 namespace roam::ways {
 
 namespace {
@@ -84,9 +86,8 @@ Trial try_way(const Survey& survey, const BodyKind& kind, double radius, double 
     centres.front() = start_over(survey, body, way.front(), settings.step);
   }
   // A flying way may lead above or beside the scene.
-  Box box;
-  for (const Vec3& place : centres) box.include(place);
-  const Box scene = survey.world().bounds().grown(kind.mode == Mode::fly ? glm::length(box.size()) : 0.0);
+  const double beyond = kind.mode == Mode::fly ? glm::length(box_around(centres).size()) : 0.0;
+  const Box scene = survey.world().bounds().grown(beyond);
   Walker walker(survey.world(), settings, kind.mode, centres.front());
   Route route(walker, centres, {.speed = kind.speed, .dt = trial_dt, .scene = scene});
   const RouteResult& result = route.result();

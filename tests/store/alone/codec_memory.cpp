@@ -7,7 +7,7 @@
 
 #include "clutter.h"
 #include "roam/generate.h"
-#include "store/codec/made_tiles.h"
+#include "tiles_made.h"
 
 // The sanitizers bring allocators of their own.
 #if defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)

@@ -6,6 +6,7 @@
 #include <cstring>
 #include <new>
 
+#include "packed_part.h"
 #include "roam/error.h"
 #include "store/part.h"
 

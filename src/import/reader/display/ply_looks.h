@@ -19,12 +19,13 @@ class PlyLooks {
   /// If `sink` has parts, sets the look of the triangles that follow. Otherwise wants no property.
   PlyLooks(const PlyElement& vertex, const PlyHeader& header, const std::filesystem::path& file, MeshSink& sink);
 
-  [[nodiscard]] bool wants(std::size_t property) const { return roles_[property] != Role::none; }
+  [[nodiscard]] bool wants(std::size_t property) const { return roles_[property] != none; }
   /// Stores the value of a wanted property in the look.
   void take(std::size_t property, double value, VertexLook& look) const;
 
  private:
-  enum class Role { none, normal_x, normal_y, normal_z, red, green, blue, across, up };
+  /// Numbers of a look, in the order of their places.
+  enum Role { normal_x, normal_y, normal_z, red, green, blue, across, up, none };
 
   std::vector<Role> roles_;
   std::vector<double> one_;  ///< for each property, the value that means 1
