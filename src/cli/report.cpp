@@ -34,7 +34,9 @@ std::string without_controls(std::string_view text) {
     const Character c = first_character(text);
     const std::size_t bytes = std::max<std::size_t>(c.bytes, 1);
     if (c.bytes > 0 && c.code != '\n' && is_control(c.code)) {
-      escaped += fmt::format("\\u{:04x}", static_cast<std::uint32_t>(c.code));
+      const auto code = static_cast<std::uint32_t>(c.code);
+      escaped += code < 0x10000 ? fmt::format("\\u{:04x}", code)
+                                : fmt::format("\\u{:04x}\\u{:04x}", 0xD7C0 + (code >> 10), 0xDC00 + (code & 0x3FF));
     } else {
       escaped += text.substr(0, bytes);
     }

@@ -20,6 +20,8 @@ bool is_below(const fs::path& path, const fs::path& folder) {
   return std::mismatch(folder.begin(), folder.end(), path.begin(), path.end()).first == folder.end();
 }
 
+constexpr std::size_t longest_path = 4096;  ///< bytes; the system opens no longer one
+
 /// The absolute form of a path, with no links in the folders above its last part. A folder at the end of a link is
 /// followed, too, if `through_link`.
 fs::path without_links_above(const fs::path& path, bool through_link) {
@@ -44,7 +46,7 @@ bool SceneScope::holds(const fs::path& path) const {
 std::optional<fs::path> SceneScope::resolve(const fs::path& path) const {
   fs::path whole = path.lexically_normal();
   for (int links = 0; links <= link_limit; ++links) {
-    if (!whole.is_absolute() || !holds(whole)) return std::nullopt;
+    if (!whole.is_absolute() || whole.native().size() > longest_path || !holds(whole)) return std::nullopt;
     // Folders of the scope have no links in their paths, so the first link lies inside.
     fs::path at;
     fs::path rest;

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <set>
+#include <string_view>
 
 #include "index/partition.h"
 #include "store/files.h"
@@ -258,10 +260,13 @@ class ManifestReader {
     m.number("largest_error_m", shard.largest_error);
     m.hash("geometry_hash", shard.geometry_hash);
     m.list("pages");
-    std::uint64_t tiles = 0;
+    std::uint64_t tiles = 0, end = 0;
     for (const PageRef& page : shard.pages) {
       if (page.offset > shard.bytes || page.bytes > shard.bytes - page.offset)
         reader_.refuse("a page lies outside its pack");
+      // Else a small pack could have any number of pages.
+      if (page.offset < end) reader_.refuse("pages lie over each other in their pack");
+      end = page.offset + page.bytes;
       tiles += page.tiles;
     }
     if (tiles != shard.tiles || shard.pages.empty()) m.bad("pages");
@@ -285,6 +290,10 @@ class ManifestReader {
     m.hash("geometry_hash", manifest.geometry_hash);
     for (const char* list : {"parts", "shards", "notes"}) m.list(list);
     if (manifest.shards.empty()) m.bad("shards");
+    std::set<std::string_view> packs;
+    for (const ShardInfo& shard : manifest.shards) {
+      if (!packs.insert(shard.pack).second) reader_.refuse("two shards have the same pack");
+    }
     if (triangles_ != shard_triangles_) {
       reader_.refuse("the shards hold more or fewer triangles than the parts of the scene");
     }

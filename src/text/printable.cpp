@@ -16,6 +16,14 @@ bool turns_text(char32_t c) {
   return c == 0x061C || c == 0x200E || c == 0x200F || (c >= 0x202A && c <= 0x202E) || (c >= 0x2066 && c <= 0x2069);
 }
 
+/// Unicode's other Default_Ignorable_Code_Point and Cf: nothing of them is seen.
+bool is_invisible(char32_t c) {
+  return c == 0x00AD || c == 0x034F || c == 0x115F || c == 0x1160 || c == 0x17B4 || c == 0x17B5 ||
+         (c >= 0x180B && c <= 0x180F) || (c >= 0x200B && c <= 0x200D) || (c >= 0x2060 && c <= 0x206F) || c == 0x3164 ||
+         (c >= 0xFE00 && c <= 0xFE0F) || c == 0xFEFF || c == 0xFFA0 || (c >= 0xFFF0 && c <= 0xFFFB) ||
+         (c >= 0x1BCA0 && c <= 0x1BCA3) || (c >= 0x1D173 && c <= 0x1D17A) || (c >= 0xE0000 && c <= 0xE0FFF);
+}
+
 struct Piece {
   std::string_view shown;
   std::size_t bytes = 1;  ///< of the text that `shown` stands for
@@ -37,7 +45,9 @@ std::size_t characters_of(std::string_view text) {
 
 }  // namespace
 
-bool is_control(char32_t code) { return code < 0x20 || (code >= 0x7F && code < 0xA0) || turns_text(code); }
+bool is_control(char32_t code) {
+  return code < 0x20 || (code >= 0x7F && code < 0xA0) || turns_text(code) || is_invisible(code);
+}
 
 Character first_character(std::string_view text) {
   const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };

@@ -24,8 +24,8 @@ struct Character {
 };
 [[nodiscard]] Character first_character(std::string_view text);
 
-/// Whether a terminal acts on the character and shows nothing: controls of C0 and C1, DEL, and Unicode's controls of
-/// direction.
+/// Whether a terminal shows nothing for the character: controls of C0 and C1, DEL, and Unicode's controls of direction
+/// and other invisible characters.
 [[nodiscard]] bool is_control(char32_t code);
 
 /// One line of valid UTF-8 that moves no cursor and changes no direction. White space becomes a blank. Other controls

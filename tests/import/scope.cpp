@@ -1,6 +1,7 @@
 // Which files a scene may be read from, and how the walls keep to it.
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
@@ -8,6 +9,7 @@
 #include <string>
 
 #include "import/processor_budget.h"
+#include "import/scene_scope.h"
 #include "import_files.h"
 #include "roam/import.h"
 
@@ -30,6 +32,21 @@ TEST(ImportScope, FollowsALinkBeforeTheDotsBehindIt) {
   EXPECT_EQ(import_scene(named).report.triangles, 1u);
   const std::vector<fs::path> paths{named};
   EXPECT_EQ(scene_parts(paths).at(0).files.at(0), fs::canonical(folder.path() / "b/x.obj"));
+}
+
+TEST(ImportScope, HoldsNoPathThatTheSystemCannotOpen) {
+  const TemporaryFolder folder;
+  folder.write("x.obj", one);
+  reader::SceneScope scope;
+  scope.folders.push_back(fs::canonical(folder.path()));
+  std::string path = scope.folders[0].string();
+  EXPECT_TRUE(scope.resolve(path + "/x.obj"));
+  while (path.size() <= 4096) path += "/a";
+  EXPECT_FALSE(scope.resolve(path));
+  // A link to such a path, which the system itself never follows.
+  const std::string target = std::string(4000, 'b');
+  ASSERT_EQ(symlink(target.c_str(), (folder.path() / "link").c_str()), 0);
+  EXPECT_FALSE(scope.resolve(scope.folders[0] / "link" / std::string(200, 'c')));
 }
 
 TEST(ImportScope, SaysWhatLeadsOutWhereNothingIsLeft) {

@@ -69,6 +69,24 @@ class HostileStore : public testing::Test {
   Mesh mesh_;
 };
 
+TEST_F(HostileStore, PagesAndPacksAreNamedOnce) {
+  const auto refusal = [&](const store::Manifest& m) {
+    store::publish(folder_.path(), m);
+    return cost_of([&] { static_cast<void>(Store::open(folder_.path())); }).said;
+  };
+  EXPECT_EQ(refusal(manifest()), "");
+  const store::Manifest good = manifest();
+  store::Manifest m = good;
+  ASSERT_GE(m.shards[0].pages.size(), 2U);
+  m.shards[0].pages[1].offset = m.shards[0].pages[0].offset;
+  EXPECT_NE(refusal(m).find("over each other"), std::string::npos);
+  m = good;
+  m.shards.push_back(m.shards[0]);
+  m.parts.push_back(m.parts[0]);
+  EXPECT_NE(refusal(m).find("the same pack"), std::string::npos);
+  EXPECT_EQ(refusal(good), "");
+}
+
 TEST_F(HostileStore, APartOfMoreObjectsThanTrianglesIsDamaged) {
   constexpr std::uint64_t objects = 1'000'000;
   publish_part(objects, std::string(2 * objects, '\0') + cell(), 10);

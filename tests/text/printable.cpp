@@ -44,6 +44,13 @@ TEST(Printable, ShowsNoControlOfUnicode) {
   EXPECT_EQ(printable("a\xE2\x80\x8F\xE2\x80\x8Ez"), "a" + bad + bad + "z");  // marks
 }
 
+TEST(Printable, ShowsNothingInvisible) {
+  for (const char* c : {"\xC2\xAD", "\xE2\x80\x8B", "\xE2\x81\xA0", "\xEF\xBB\xBF", "\xEF\xBF\xB9",
+                        "\xF3\xA0\x81\x81"}) {
+    EXPECT_EQ(printable(std::string("a") + c + "z"), "a" + bad + "z") << c;
+  }
+}
+
 TEST(Printable, ReplacesWhatIsNoUtf8) {
   EXPECT_EQ(printable("a\xFFz"), "a" + bad + "z");
   EXPECT_EQ(printable("a\x9Bz"), "a" + bad + "z");                                // a lone continuation

@@ -209,6 +209,18 @@ TEST(ViewStore, ReadsTheSceneOfAStoreAsTheStoreWas) {
   EXPECT_FALSE(choice.stale) << choice.note;
 }
 
+TEST(ViewStore, TakesNoFolderAboveForTheSceneOfAStore) {
+  Driven d;
+  const std::string scene = d.write_scene();
+  fs::create_directories(d.folder.file("downloads/evil"));
+  for (const char* name : {"downloads/evil/...roam", "downloads/evil/..roam"}) {
+    (void)build_store(build_of(scene, d.folder.file(name)));
+    SceneOptions store;
+    store.scenes = {d.folder.file(name)};
+    EXPECT_TRUE(scene_and_store(store, {}).store_only) << name;
+  }
+}
+
 TEST(ViewStore, ShowsTheTrianglesOfAStoreWhoseSceneIsGone) {
   Driven d;
   const std::string scene = d.write_scene();

@@ -19,11 +19,13 @@ namespace {
 constexpr std::uint64_t many_bytes = 1'000'000'000;
 constexpr std::uint64_t many_triangles = 20'000'000;
 
-/// "Data.roam/" -> "Data"; empty for another extension.
+/// "Data.roam/" -> "Data"; empty for another extension, and for names such as "...roam", whose rest is a folder above.
 std::filesystem::path place_beside(const std::filesystem::path& store) {
   std::filesystem::path path = store.lexically_normal();
   if (!path.has_filename()) path = path.parent_path();
-  return path.extension() == ".roam" ? path.replace_extension() : std::filesystem::path();
+  if (path.extension() != ".roam") return {};
+  const std::string name = path.stem().string();
+  return name == "." || name == ".." ? std::filesystem::path() : path.replace_extension();
 }
 
 /// The type of what is there. A link is not followed, because the store may come from a stranger.
