@@ -35,7 +35,7 @@ struct Origin {
 
 Origin origin_of(const store::Folder& folder) {
   const UserKey user = user_key();
-  if (!user.key) return {false, "no key of yours can be used: " + user.problem};
+  if (!user.key) return {false, std::string("no key of yours can be used: ") + user.problem.what()};
   try {
     if (store::open_store(folder)->is_authentic(*user.key)) return {true, ""};
   } catch (const Error&) {  // what is damaged was told

@@ -106,7 +106,7 @@ void draw(cairo_surface_t* surface, const Sheet& sheet) {
 const std::filesystem::path& checked(const std::filesystem::path& file) {
   const std::string extension = files::lower_extension(file);
   if (extension == ".svg" || extension == ".png") return file;
-  throw app::UsageError("--picture " + file.string() + ": a picture is an .svg or a .png, by its extension");
+  throw app::UsageError("--picture " + file.string(), "a picture is an .svg or a .png, by its extension");
 }
 
 /// Appends to a std::string. Cairo is C, so no exception may pass through it.

@@ -8,12 +8,12 @@
 
 #include "cli_scenes.h"
 #include "roam/error.h"
+#include "scenes/user_key.h"
 #include "store/authentic.h"
 #include "store/files.h"
 #include "store/manifest.h"
 #include "store_builds.h"
 #include "store_verbs.h"
-#include "scenes/user_key.h"
 
 namespace {
 
@@ -242,13 +242,13 @@ TEST_F(StoreTrust, AKeyIsTheUsersAlone) {
   EXPECT_FALSE(app::user_key().key);
   EXPECT_FALSE(fs::exists(folder_.file("user"))) << "who only looks makes nothing";
   const app::UserKey made = app::made_user_key();
-  ASSERT_TRUE(made.key) << made.problem;
+  ASSERT_TRUE(made.key) << made.problem.what();
   EXPECT_EQ(app::user_key().key->bytes, made.key->bytes);
   const fs::path file = app::key_file();
   EXPECT_EQ(fs::status(file).permissions(), fs::perms::owner_read | fs::perms::owner_write);
   const auto problem = [] {
     EXPECT_FALSE(app::user_key().key || app::made_user_key().key);
-    return app::made_user_key().problem;
+    return std::string(app::made_user_key().problem.what());
   };
   const std::string text = folder_.read("user/roam/store.key");
   fs::permissions(file, fs::perms::group_read, fs::perm_options::add);

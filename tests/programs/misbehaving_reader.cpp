@@ -167,8 +167,8 @@ int main(int argc, char** argv) {
   errno = 0;
   const auto found = misdeeds.find(deed);
   const long done = found == misdeeds.end() ? -2 : found->second();
-  frames.fail(Error(deed + (done == -2 && !deed.starts_with("landlock") ? " is not known"
-                            : done == -1 ? std::string(" was refused: ") + std::strerror(errno)
-                                         : " was done")));
+  frames.fail(roam::Error(deed + (done == -2 && !deed.starts_with("landlock") ? " is not known"
+                                  : done == -1 ? std::string(" was refused: ") + std::strerror(errno)
+                                               : " was done")));
   _exit(1);
 }

@@ -188,7 +188,9 @@ TEST_F(ViewObjects, RecordsKeepPlacesAndTheWay) {
 TEST_F(ViewObjects, LearningSavesForTheBodyThatRoams) {
   roamer_->setSpace(std::make_shared<const World>());
   Learning learning(options_, plan(), {}, *roamer_, news_);
-  learning.accept();
+  Commands commands(news_);
+  learning.add_to(commands);
+  EXPECT_TRUE(commands.run("adapt"));
   learning.update();
   EXPECT_EQ(learning.taken(), 0) << "nothing was offered";
   Status status;

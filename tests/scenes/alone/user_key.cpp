@@ -84,8 +84,8 @@ class UserKey : public testing::Test {
   [[nodiscard]] static bool is_refused(const std::string& why) {
     const roam::app::UserKey read = user_key(), made = made_user_key();
     EXPECT_FALSE(read.key || made.key);
-    EXPECT_NE(read.problem.find(why), std::string::npos) << read.problem;
-    EXPECT_NE(made.problem.find(why), std::string::npos) << made.problem;
+    EXPECT_NE(std::string(read.problem.what()).find(why), std::string::npos) << read.problem.what();
+    EXPECT_NE(std::string(made.problem.what()).find(why), std::string::npos) << made.problem.what();
     return !read.key && !made.key;
   }
 
@@ -114,7 +114,7 @@ TEST_F(UserKey, IsNeverTakenFromAFolderThatTakesThePlaceOfItsOwn) {
       exchange(false);
       return key;
     };
-    ASSERT_TRUE(made_user_key().key) << made_user_key().problem;
+    ASSERT_TRUE(made_user_key().key) << made_user_key().problem.what();
     ASSERT_TRUE(get(0, 0).key);
     const int all = calls;
     ASSERT_GE(all, 3);
@@ -134,10 +134,10 @@ TEST_F(UserKey, IsRefusedWhereOthersMayExchangeItsFolder) {
     EXPECT_TRUE(is_refused("chmod +t " + data_));
     // There only owners may rename.
     fs::permissions(data_, fs::perms::sticky_bit, fs::perm_options::add);
-    EXPECT_TRUE(user_key().key) << user_key().problem;
+    EXPECT_TRUE(user_key().key) << user_key().problem.what();
     fs::permissions(data_, others | fs::perms::sticky_bit, fs::perm_options::remove);
   }
-  EXPECT_TRUE(user_key().key) << user_key().problem;
+  EXPECT_TRUE(user_key().key) << user_key().problem.what();
 }
 
 TEST_F(UserKey, IsRefusedBehindALinkAndUnderTwoNames) {
@@ -145,7 +145,7 @@ TEST_F(UserKey, IsRefusedBehindALinkAndUnderTwoNames) {
   fs::create_hard_link(own_ + "/store.key", folder_.file("second"));
   EXPECT_TRUE(is_refused("other names"));
   fs::remove(folder_.file("second"));
-  ASSERT_TRUE(user_key().key) << user_key().problem;
+  ASSERT_TRUE(user_key().key) << user_key().problem.what();
   fs::rename(own_, away_);
   fs::create_symlink(away_, own_);
   EXPECT_TRUE(is_refused(own_ + " is a link"));
@@ -159,7 +159,7 @@ TEST_F(UserKey, IsMadeInAFolderThatOnlyTheUserMayWriteTo) {
   const mode_t before = ::umask(0);
   const roam::app::UserKey made = made_user_key();
   ::umask(before);
-  ASSERT_TRUE(made.key) << made.problem;
+  ASSERT_TRUE(made.key) << made.problem.what();
   EXPECT_EQ(fs::status(data_).permissions(), fs::perms::owner_all);
   EXPECT_EQ(fs::status(own_).permissions(), fs::perms::owner_all);
 }

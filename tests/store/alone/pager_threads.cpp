@@ -7,6 +7,7 @@
 
 #include "pager_made.h"
 #include "store/pager/names.h"
+#include "store/pager/residents.h"
 #include "walker_scenes.h"
 
 namespace {
@@ -98,7 +99,7 @@ TEST(PagerNames, ThatCouldNotBeReadAreReadAgainWhenSomebodyAsks) {
 
 TEST(PagerNames, AreFoundByKindAndTheLastOneFirst) {
   paging::Names names;
-  const TriangleId place = unknown_bit | 5;
+  const TriangleId place = paging::unknown_bit | 5;
   for (const TriangleId id : {TriangleId{1}, TriangleId{2}, place}) EXPECT_EQ(names.ask(id), "");
   std::vector<TriangleId> found;
   const auto find = [&](TriangleId id) -> std::optional<std::string> {
