@@ -51,7 +51,7 @@ Plan divide(const Store::State& store, const PagerOptions& options) {
     throw Error(
         fmt::format("a pager that looks {} s ahead: more than 0 and at most 3600 are possible", options.horizon));
   }
-  const std::uint64_t threads = (static_cast<std::uint64_t>(options.loaders) + 1) * Loaders::cost;  // one finds names
+  const std::uint64_t threads = static_cast<std::uint64_t>(options.loaders) * Loaders::cost;
   const std::uint64_t tables = store.pages.size() * (Residents::page_cost + Planner::page_cost);
   // The largest pages and tiles that may have to be in memory together.
   std::uint64_t page = 0;
