@@ -231,8 +231,7 @@ ExitStatus probe(ProbeOptions o) {
   }
   const words::ProbeDetails details = o.matrix ? words::ProbeDetails{} : details_of(o, scene, first);
   print_report(o.json, report_of(o, scene, answers, details),
-               o.matrix ? table(o.question, answers) : words::report(o.question, first, details).text(),
-               o.path.value_or(""));
+               o.matrix ? table(o.question, answers) : words::report(o.question, first, details).text(), o.path.value_or(""));
   unwritten.raise();
   const bool all = std::all_of(answers.begin(), answers.end(), [](const ProbeAnswer& a) { return a.passable; });
   return all ? done : answer_no;

@@ -121,7 +121,7 @@ osg::ref_ptr<osg::Geometry> make_geometry(const DisplayGeometry& from) {
   colours->setNormalize(true);
   geometry->setColorArray(colours);
   if (from.normals.empty()) {
-    // A zero normal means: none.
+    // A zero normal stands for no normal.
     geometry->setNormalArray(new osg::Vec3Array(1), osg::Array::BIND_OVERALL);
   } else {
     geometry->setNormalArray(array_of<osg::Vec3Array>(from.normals));
