@@ -26,7 +26,7 @@ constexpr const char* vertex_source = R"(
 varying vec4 roam_color;
 void main() {
   vec4 eye = gl_ModelViewMatrix * gl_Vertex;
-  // A thousandth nearer: what lies on a wall is seen on it.
+  // Move 0.1 % towards the eye: marks on a wall are then drawn over it.
   eye.xyz *= 0.999;
   roam_color = gl_Color;
   gl_Position = roam_clip(eye);
@@ -118,12 +118,12 @@ void draw_triangle(const std::array<Vec3, 3>& corners, Strokes& lines, Strokes& 
   }
 }
 
-/// `depth_test` false: draws faintly what walls hide.
+/// `depth_test` false: draws the parts behind walls faintly.
 osg::ref_ptr<osg::Group> make_pass(bool depth_test, osg::Node* content) {
   osg::ref_ptr<osg::Group> pass = new osg::Group;
   osg::StateSet& state = *pass->getOrCreateStateSet();
   state.addUniform(new osg::Uniform("roam_strength", depth_test ? 1.0f : 0.22f));
-  // After all transparent surfaces. The depth comparison is that of the space around.
+  // After all transparent surfaces, with the depth comparison of Frame::space().
   state.setRenderBinDetails(depth_test ? 21 : 20, "RenderBin");
   if (!depth_test) state.setMode(GL_DEPTH_TEST, osg::StateAttribute::OFF);
   pass->addChild(content);
