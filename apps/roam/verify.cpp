@@ -22,7 +22,7 @@ namespace {
 
 struct VerifyOptions {
   std::filesystem::path store;
-  std::vector<std::filesystem::path> scene;  ///< the scene to repair it from; empty: no repair
+  std::vector<std::filesystem::path> scene;  ///< to repair the store from; empty: no repair
   int threads = 0;
   bool json = false;
 };

@@ -20,8 +20,8 @@ void main() {
   vec4 eye = gl_ModelViewMatrix * gl_Vertex;
   roam_position = eye.xyz;
   roam_normal = gl_NormalMatrix * gl_Normal;
-  // Many models have each wall twice, front and back, at one position. The side that faces the eye must be visible. So
-  // move the other one along the line of sight, which keeps the picture, by more than the error of depths.
+  // Many models have each wall twice, front and back, at one place. The one that faces the eye is to be seen, so the
+  // other yields by more than depths are inexact: along the line of sight, which moves nothing in the picture.
   if (dot(roam_normal, eye.xyz) > 0.0) eye.xyz *= 1.00005;
   roam_surface = gl_Color;
   gl_TexCoord[0] = gl_TextureMatrix[0] * gl_MultiTexCoord0;

@@ -23,13 +23,13 @@ using draw::Overview;
 using Kind = ProbeLimit::Kind;
 
 /// Metres.
-constexpr double sample = 0.01;       ///< between rays that measure the depth of an opening, or a gap of the floor
-constexpr double precise = 1e-4;      ///< error of a gap's rims
-constexpr double deepest = 1.0;       ///< to each side; deeper openings are corridors
-constexpr double as_narrow = 0.02;    ///< tolerance of an opening's width
-constexpr double thinnest = 0.005;    ///< depth of a wall of zero thickness
-constexpr double widest_gap = 2.5;    ///< in the floor, to each side
-constexpr double before_step = 0.05;  ///< between the body and a step in front of it
+constexpr double sample = 0.01;                  ///< between rays that measure the depth of an opening, or a crack
+constexpr double precise = 1e-4;                 ///< error of a crack's rims
+constexpr double deepest = 1.0;                  ///< to each side; deeper openings are corridors
+constexpr double as_narrow = 0.02;               ///< tolerance of an opening's width
+constexpr double thinnest = 0.005;               ///< depth of a wall of zero thickness
+constexpr double widest_gap = 2.5;               ///< of a crack, to each side
+constexpr double before_step = 0.05;             ///< between the body and a step in front of it
 constexpr std::uint64_t most_reached = 150'000;  ///< positions searched for a picture, from each end
 
 Vec3 level(const Vec3& v) {

@@ -17,7 +17,8 @@ constexpr double late_after = 60.0, broken_after = 3.0;
 
 }  // namespace
 
-/// Nothing if memory cannot hold the surroundings and the motion `may_part`. An unknown hit cannot be read.
+/// Nothing if memory cannot hold the surroundings and `may_part` allows shorter parts. Tiles of an unknown hit are
+/// unreadable.
 std::optional<Impact> PagedSweep::sweep(const SweepQuery& part, bool may_part) {
   Arrivals arrivals(scene_);
   for (;;) {

@@ -55,8 +55,8 @@ class Arrival {
   /// Makes the body collide with a store. The body stays where it is. Another thread frees the previous collision.
   void change_to(std::shared_ptr<Pager> pager);
 
-  /// Waits for tiles around the body, at most `seconds`: the time that a person's session would have had. For a body
-  /// that moves faster than the clock.
+  /// Waits at most `seconds` for tiles around the body. For a body that moves faster than the clock: in real time the
+  /// tiles would have loaded.
   void wait_for_tiles(double seconds);
   /// Checks for ground below the body. Call it after each step of `seconds`, or after a placement (0).
   void watch_footing(const StepReport& report, double seconds);

@@ -73,8 +73,8 @@ class CollisionLoader {
   Loading loading_;
 };
 
-/// Waits until ground is loaded at `place`, or its tiles prove unreadable; at most some seconds. Afterwards the walker
-/// is held there. Throws roam::Cancelled when `goes_on` returns false.
+/// Waits until ground is loaded at `place`, or its tiles prove unreadable; at most 5 s. Throws roam::Cancelled when
+/// `goes_on` returns false.
 void wait_at(Pager& pager, const WalkerSettings& walker, const Vec3& place, const std::function<bool()>& goes_on);
 
 /// `asked`, if positive; else all cores but one, so that the window stays smooth.

@@ -34,9 +34,9 @@ class Hold {
   bool nothing_below_ = false;  ///< held because nothing is known to be below
   bool waiting_ = false;
   std::string reason_;         ///< why the awaited tiles do not come; empty: they will
-  double slowed_at_ = -1e9;    ///< time of the last such step
+  double slowed_at_ = -1e9;    ///< time of the last slowed step
   double blocked_for_ = 0.0;   ///< s without a break
-  double blocked_at_ = -1e9;   ///< time of the last such step
+  double blocked_at_ = -1e9;   ///< time of the last blocked step
   double measured_at_ = -1e9;  ///< time of the last measurement of the opening
   std::string blockage_;
   Told news_;

@@ -74,7 +74,7 @@ void Learning::take(const Lesson& lesson) {
   learner_.take(*roamer_.walker(), lesson);
   ++taken_;
   roamer_.setRegions(learner_.profile().regions);
-  // The resize has moved the body.
+  // The learner has placed the body elsewhere.
   if (lesson.kind == Lesson::Kind::support) roamer_.placed();
   try {
     if (!file_.empty()) {

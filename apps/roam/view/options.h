@@ -42,7 +42,7 @@ struct ViewOptions {
   bool keys = false;
   bool no_profile = false;
   bool adapt = false;
-  std::filesystem::path program;  ///< path of roam, for building stores; empty: the running program; no option
+  std::filesystem::path program;  ///< roam, for building stores; empty: the running program; no option
 
   /// Adds all options to a verb.
   void add_to(CLI::App& verb);
@@ -65,9 +65,9 @@ struct ViewPlan {
 
 /// The plan for `options` and `settings`.
 ///
-/// The default body is an adult (WalkerSettings). If any size is given, the height follows from the radius, as in `roam
-/// walk`. A path uses the body that `recorded` it, else the body of `roam walk`. A `profile` gives the size of the body
-/// if the command line has no radius, whatever the settings say.
+/// The default body is an adult (WalkerSettings). If a radius is given, the default height follows from it, as in `roam
+/// walk`. A path uses the body that `recorded` it, else the body of `roam walk`; never the sizes of the settings. If
+/// the command line has no radius, a `profile` gives the sizes, whatever the settings say.
 ///
 /// Throws UsageError for contradictory or invalid options, with the settings file's name if the value comes from there.
 /// Throws it too for outputs that cannot be written, or would overwrite each other or an input.

@@ -9,13 +9,13 @@
 namespace roam::app {
 namespace {
 
-/// Limits for names from a reader.
+/// Limits against endless names from a reader.
 constexpr int depth_limit = 64;
 constexpr std::uint64_t token_bytes_limit = 1u << 30;
 /// Bytes per name besides the token.
 constexpr std::uint64_t name_bytes = 400;
 
-/// Adds its size to a count of bytes for its lifetime.
+/// Adds `bytes` to a shared sum while it exists.
 class Counted : public osg::Referenced {
  public:
   Counted(std::shared_ptr<std::atomic<std::uint64_t>> sum, std::uint64_t bytes) : sum_(std::move(sum)), bytes_(bytes) {
@@ -82,7 +82,7 @@ PageSource::Result PageSource::readNode(const std::string& name, const osgDB::Op
     if (at == pages_.end()) return Result::FILE_NOT_FOUND;
     page = at->second;
   }
-  // The page is empty, without a warning by OpenSceneGraph: the session reports it.
+  // An empty result, without a warning from OpenSceneGraph: the session reports missing pages.
   const Result nothing(Result::FILE_LOADED);
   if (page.missing) return nothing;
   // The pager will drop pages, and request this one again.

@@ -33,8 +33,7 @@ class Replay {
   /// The velocity towards the next waypoint, m/s. Its length is approximate.
   [[nodiscard]] Vec3 wish() const;
 
-  /// The direction of the eye, radians: as recorded, else along the path ahead. It turns smoothly. `seconds`: since the
-  /// last call.
+  /// Direction of the eye, radians: as recorded, else smoothly along the path ahead. `seconds`: since the last call.
   struct Gaze {
     double yaw = 0.0;
     double pitch = 0.0;

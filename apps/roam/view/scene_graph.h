@@ -19,7 +19,7 @@ namespace roam::app {
 /// draws, between two frames.
 class SceneGraph {
  public:
-  /// How pieces enter the graph: a little in each frame, without hitches; or at once, without a viewer.
+  /// How pieces enter the graph: a little in each frame, without hitches; or at once, when headless.
   enum class Arrival : std::uint8_t { smooth, at_once };
 
   /// Adds a group below `parent`. From now on PageSource supplies everything that OpenSceneGraph reads in this process.

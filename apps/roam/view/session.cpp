@@ -117,7 +117,7 @@ void Session::enter() {
   stage_.viewer().setCameraManipulator(cameras_, false);
   if (!options_.record_path.empty()) records_.record(options_.record_path);
   if (plan_.path.empty()) return;
-  // The path leads at once. It finds out itself whether there is ground, as in `roam walk`.
+  // The path leads at once, and finds missing ground itself, as in `roam walk`.
   replay_.emplace(*roamer_->walker(), plan_.path, RouteOptions{.speed = plan_.walker.speed, .dt = options_.dt});
   replay_->lead(*roamer_);
 }

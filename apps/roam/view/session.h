@@ -29,7 +29,7 @@ namespace roam::app {
 ///     StoreBuilding  builds the scene's store meanwhile
 ///     Learning       sizes of the body
 ///     Records        the recorded path, bookmarks
-/// head-up display, marks, overview
+///     Display        head-up display, marks, overview
 ///     Stage          window, time, pictures and films
 ///
 /// All of them write to News, and add their actions to Commands. The body collides with the scene's store if it matches

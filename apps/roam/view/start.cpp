@@ -18,7 +18,7 @@ namespace {
 
 constexpr double degree = std::numbers::pi / 180.0;
 constexpr int headings = 32;
-// m: view range that a search for the best direction loads from a store
+// m: radius that is loaded from a store to choose the direction
 constexpr double sight = 60.0;
 constexpr double overview_yaw = 60.0;     // degrees: shows two sides of a building, neither frontally
 constexpr double overview_pitch = -30.0;  // degrees
@@ -84,7 +84,7 @@ StartPlace start_place(const WalkerSettings& settings, Mode mode, const Box& bou
 }  // namespace
 
 double open_yaw(const Space& space, const Vec3& eye) {
-  // A view out of the scene counts only as long as the scene is: the open is not the subject.
+  // Only the part of a view inside the scene's bounds counts, not the open space outside.
   const Box box = space.bounds();
   const double reach = box.empty() ? 0.0 : std::min(glm::length(box.size()), 1e6);
   double farthest = -1.0;

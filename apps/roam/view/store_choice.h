@@ -18,7 +18,7 @@ struct SceneAndStore {
   SceneOptions scene;                                             ///< the store itself if its scene is missing
   std::filesystem::path store;                                    ///< named store; empty: search beside the scene
   bool store_only = false;                                        ///< there is no scene to show
-  std::uint64_t store_memory = SceneOptions::usual_store_memory;  ///< bytes; the scene's picture comes on top
+  std::uint64_t store_memory = SceneOptions::usual_store_memory;  ///< bytes, for the store only
 };
 
 /// The meaning of the command line; `store` is the value of --store. If `scene` names a store, the body collides with
@@ -33,8 +33,7 @@ struct SceneAndStore {
 
 struct StoreChoice {
   std::shared_ptr<const Store> store;  ///< null: there is no usable store
-  bool stale = false;                  ///< there is a store, but it does not match the scene, or the user did not build
-                                       ///< it
+  bool stale = false;                  ///< there is a store, but of another scene, or not built by the user
   std::string note;                    ///< a sentence for the user if something is wrong; else empty
 };
 

@@ -46,7 +46,7 @@ DisplayReport show_store(const Store& store, const Vec3& place,
   StoreTriangles shown;
   shown.all = store.info().triangles <= most_shown && triangles_in(store, bounds, most_shown, goes_on, shown);
   if (!shown.all) {
-    // Widen the box until it has enough: less is read in vain than is shown.
+    // Widen the box while its triangles are few enough: less is read in vain than is shown.
     const Vec3 farthest = glm::max(bounds.upper - place, place - bounds.lower);
     const double enough = std::max({farthest.x, farthest.y, farthest.z, 1.0});
     shown = triangles_around(store, place, 8.0, most_shown, goes_on);

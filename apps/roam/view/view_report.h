@@ -35,7 +35,7 @@ struct ViewReport {
   bool path_ended = false;            ///< the path has an outcome; the session did not end before
   std::string object;                 ///< name of the object that blocked the path
   std::size_t waypoints = 0;          ///< number of waypoints of the path
-  bool roamed = false;                ///< the body came into the scene
+  bool roamed = false;                ///< whether the body came into the scene
   std::optional<Pose> start;          ///< home
   Pose end;
   Vec3 eye{0.0};

@@ -7,8 +7,8 @@
 
 namespace roam::store {
 
-/// Makes one store of the shards of the plan and puts it in force. Then removes the scratch folder, and files that no
-/// manifest in force names. The store must be locked. Returns the result of tidy.
+/// Makes one store of the shards of the plan and puts it in force. Then removes files that no manifest in force names,
+/// and the scratch folder. The store must be locked. Returns the result of tidy.
 [[nodiscard]] std::string merge(Work& work, const Plan& plan);
 
 /// Removes files that no manifest in force names, and the scratch folder. The store must be locked. Returns the result
