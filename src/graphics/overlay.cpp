@@ -26,7 +26,7 @@ constexpr const char* vertex_source = R"(
 varying vec4 roam_color;
 void main() {
   vec4 eye = gl_ModelViewMatrix * gl_Vertex;
-  // Move 0.1 % towards the eye: marks on a wall are then drawn over it.
+  // A thousandth nearer: what lies on a wall is seen on it.
   eye.xyz *= 0.999;
   roam_color = gl_Color;
   gl_Position = roam_clip(eye);
