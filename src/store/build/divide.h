@@ -27,7 +27,7 @@ struct PartCell {
   int bits = 0;  ///< as CurveCell
 };
 
-/// A range of the curve. Its cells, in order, are those that every division into tiles has as borders: the smallest
+/// A range of the curve. Every division into tiles has borders at those of its cells, which are in order: the smallest
 /// cell around two of them holds more triangles than a tile.
 struct Stretch {
   std::vector<CurveCell> cells;
