@@ -101,7 +101,7 @@ StoreBuildOptions build_options(const BuildVerb& verb, Steps& steps) {
   return options;
 }
 
-/// The user's key, made if there is none. If that fails, the build goes on without one.
+/// The user's key, made if there is none. If that fails: a key of this run; a build in steps throws roam::Error.
 StoreKey build_key(const BuildVerb& verb) {
   UserKey user = made_user_key();
   if (user.key) return *user.key;
