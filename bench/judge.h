@@ -16,8 +16,8 @@ constexpr double depth_allowed = 1e-5;  // m
 constexpr double gap_allowed = 1e-3;  // m
 
 /// Wrong answers among some queries. "Depth" is the radius minus the smallest distance of the body's axis from any
-/// triangle, on the whole way that the engine calls free, by the reference. So a body that passes through a sheet and
-/// out on the other side counts too.
+/// triangle, by the reference, on the whole way that the engine calls free. So a body that passes through a sheet
+/// counts too.
 struct Verdict {
   std::size_t queries = 0;
   std::size_t hits = 0;        ///< by the reference

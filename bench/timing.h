@@ -29,7 +29,7 @@ using Ask = std::function<void(std::span<const Query>, std::span<double> nanosec
                                                std::span<const Query> all, int rounds,
                                                const std::function<void()>& between = {});
 
-/// The upper one where there are two in the middle. `values` must not be empty.
+/// The upper of two middle values. `values` must not be empty.
 [[nodiscard]] double median(std::vector<double> values);
 
 /// The value at `part`, 0 to 1, of the way through ascending values; the lower one if it is between two. p99 is at

@@ -46,7 +46,7 @@ WasmDriver::WasmDriver(std::string name, const std::string& script, const std::s
 }
 
 WasmDriver::~WasmDriver() {
-  requests_.close();  // upon which it ends
+  requests_.close();  // ends the process
   replies_.close();
   child_->wait(process::Child::usual_grace);
 }

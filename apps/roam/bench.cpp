@@ -1,4 +1,4 @@
-// roam bench: hands its arguments to the program roam-bench, which links the engines that roam is measured beside.
+// roam bench: starts the program roam-bench, which links the engines that roam is compared with.
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
@@ -33,7 +33,7 @@ Examples:
   roam bench scale --triangles 10M --picture scale.svg
 )";
 
-/// The one that belongs to the running program. Throws roam::Error when there is none.
+/// The roam-bench that belongs to this program. Throws roam::Error if there is none.
 fs::path find_bench() {
   if (const char* named = std::getenv("ROAM_BENCH"); named != nullptr && *named != '\0') {
     if (process::can_run(named)) return named;

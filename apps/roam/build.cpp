@@ -1,4 +1,4 @@
-// roam build: makes a collision store of a scene of any size.
+// roam build: builds a collision store of a scene of any size.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -28,13 +28,13 @@ struct BuildVerb {
   SceneOptions scene;
   std::filesystem::path output;
   bool plan = false, merge = false, adopt = false, json = false, json_lines = false;
-  std::vector<double> near;  ///< x, y, z; empty: anywhere
-  bool beside = false;       ///< nobody named the output
+  std::vector<double> near;  ///< x, y, z; empty: no preference
+  bool beside = false;       ///< the output has its default path
   std::optional<std::uint64_t> shard;
-  std::string reading;  ///< the first option that was given of those that say how the scene is read; may be empty
+  std::string reading;  ///< the first given option of reading_options; may be empty
 };
 
-/// What a plan fixes for its shards and its merge.
+/// Options that a plan fixes for its shards and its merge.
 constexpr const char* reading_options[] = {"--up", "--unit", "--ignore", "--lossless"};
 
 const char* name_of(StoreBuildProgress::Step step) {
@@ -42,8 +42,7 @@ const char* name_of(StoreBuildProgress::Step step) {
   return names[static_cast<std::size_t>(step)];
 }
 
-/// The progress of a build: for people a line for each step, for programs a JSON object in a line several times a
-/// second.
+/// Progress of a build: for people a line per step, for programs a JSON object per line, several times a second.
 class Steps {
  public:
   Steps(std::string output, bool json_lines) : output_(std::move(output)), json_lines_(json_lines) {}
@@ -102,7 +101,7 @@ StoreBuildOptions build_options(const BuildVerb& verb, Steps& steps) {
   return options;
 }
 
-/// The user's key, made where there is none yet. Without one a store is built all the same.
+/// The user's key, made if there is none. If that fails: a key of this run; a build in steps throws roam::Error.
 StoreKey build_key(const BuildVerb& verb) {
   UserKey user = made_user_key();
   if (user.key) return *user.key;
@@ -147,7 +146,7 @@ void print_report(const BuildVerb& verb, const Json& report) {
   }
 }
 
-/// What is to be done after a plan.
+/// Prints the steps after a plan.
 void tell_shards(const BuildVerb& verb, std::uint64_t count) {
   const std::string store = printable_part(verb.output.string());
   if (count == 0) {
@@ -160,7 +159,7 @@ void tell_shards(const BuildVerb& verb, std::uint64_t count) {
   }
 }
 
-/// What a store that is complete came to.
+/// Prints the summary of a complete store.
 void tell_store(const BuildVerb& verb, const StoreBuildReport& report, double seconds) {
   const StoreInfo& info = report.store;
   const double per_triangle = static_cast<double>(info.bytes) / static_cast<double>(info.triangles);
@@ -224,7 +223,7 @@ ExitStatus run_steps(const BuildVerb& verb) {
   return done;
 }
 
-/// What no build can mean, before anything is made on the disk.
+/// Rejects contradictory options before anything is written.
 void check_usage(const BuildVerb& verb) {
   if (verb.scene.scenes.empty() && !verb.shard && !verb.merge) throw UsageError("build", "SCENE is required");
   if (const auto memory = verb.scene.memory; memory && *memory < StoreBuildOptions::least_memory) {
@@ -232,7 +231,7 @@ void check_usage(const BuildVerb& verb) {
                      fmt::format("a build needs at least {} MiB", StoreBuildOptions::least_memory >> 20));
   }
   if (verb.shard || verb.merge) {
-    if (verb.reading.empty()) return;  // they read the plan, not the scene
+    if (verb.reading.empty()) return;  // --shard and --merge read the plan, not the scene
     throw UsageError(fmt::format("{} with {}", verb.reading, verb.shard ? "--shard" : "--merge"),
                      "how the scene is read was fixed by --plan; leave it out, or plan again with it");
   }
@@ -256,7 +255,7 @@ ExitStatus build(BuildVerb verb) {
   try {
     return run_steps(verb);
   } catch (const std::exception&) {
-    // Ctrl-C also reaches the reader's process; its end is then no error of the scene.
+    // Ctrl-C also ends the reader process, which is then no error of the scene.
     if (!interrupted()) throw;
     throw Stopped(fmt::format("stopped; what was done is kept in {}: the same command again goes on from there",
                               verb.output.string()));

@@ -1,4 +1,4 @@
-// roam info: what a scene holds and what its world costs.
+// roam info: shows the contents of a scene and the memory of its world.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>

@@ -1,4 +1,4 @@
-// The command line `roam`: its verbs, and what is said of all of them.
+// The command line `roam`: its verbs and common options.
 #include <CLI/CLI.hpp>
 #include <string>
 
@@ -26,7 +26,7 @@ Examples:
   roam info mine.dae --json
 )";
 
-/// The version, and which walls stand around readers of scenes on this machine.
+/// The version, and the sandbox that this machine offers to readers of scenes.
 std::string version() {
   std::string text = "roam " ROAM_VERSION_STRING "\nscenes are read behind: ";
   try {

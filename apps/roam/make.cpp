@@ -1,4 +1,4 @@
-// roam make: demo scenes of a wished size.
+// roam make: makes demo scenes of a given size.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -31,7 +31,7 @@ struct MakeOptions {
   [[nodiscard]] Vec3 origin_point() const { return {origin[0], origin[1], origin[2]}; }
 };
 
-/// The three paths of Table 1 beside the gallery: gallery.ply gets gallery-straight.path and so on.
+/// Writes the three paths of Table 1 beside the gallery: gallery-straight.path and so on for gallery.ply.
 std::vector<std::string> write_gallery_paths(const MakeOptions& options) {
   std::vector<std::string> written;
   for (std::size_t i = 0; i < generate::gallery_paths.size(); ++i) {
@@ -81,7 +81,7 @@ ExitStatus make(const MakeOptions& options, const generate::Scene& scene, bool g
 
 using Maker = std::function<generate::Scene(const MakeOptions&)>;
 
-/// Adds what all kinds of scene have in common.
+/// Adds the common options of all kinds of scene.
 void add_kind(CLI::App& verb, const std::shared_ptr<MakeOptions>& options, std::uint64_t triangles, bool gallery,
               const Maker& maker, Run& run) {
   options->triangles = triangles;

@@ -1,4 +1,4 @@
-// roam probe: whether a body of a given size gets from one place to another.
+// roam probe: finds whether a body of a given size gets from one position to another.
 #include "roam/probe.h"
 
 #include <fmt/format.h>
@@ -37,7 +37,7 @@ struct ProbeOptions {
   std::vector<double> from, to;
   std::string mode = "walk";
   std::optional<double> radius, height, step, slope, support_radius, spacing;
-  std::optional<std::string> matrix;  ///< sizes, or a file of them
+  std::optional<std::string> matrix;  ///< sizes, or a file of sizes
   std::optional<std::filesystem::path> picture, path;
   std::optional<double> narrower;  ///< m
   bool json = false;
@@ -45,7 +45,7 @@ struct ProbeOptions {
   [[nodiscard]] double slope_degrees() const { return slope.value_or(45.0); }
 };
 
-/// Bytes of a file of sizes, at most.
+/// Maximum length of a file of sizes, in bytes.
 constexpr std::uint64_t longest_matrix = 1 << 20;
 
 /// Sizes in lines, with comments behind #.
@@ -60,7 +60,7 @@ std::vector<ProbedSize> read_sizes(const std::filesystem::path& file) {
   return sizes;
 }
 
-/// What --matrix says: a file where there is one of that name.
+/// The value of --matrix: a file if one of that name exists, else sizes.
 std::vector<ProbedSize> matrix_sizes(const std::string& text) {
   std::error_code none;
   if (std::filesystem::is_directory(text, none))
@@ -103,10 +103,9 @@ std::vector<ProbedSize> sizes_of(const ProbeOptions& o) {
   return sizes;
 }
 
-/// Memory that a search takes for each place.
+/// Memory per position of a search.
 constexpr std::uint64_t bytes_a_place = 128;
 
-/// The question as the options ask it.
 ProbeQuestion question_of(const ProbeOptions& o) {
   ProbeQuestion q;
   q.mode = o.mode == "fly" ? Mode::fly : Mode::walk;
@@ -130,7 +129,7 @@ ProbeQuestion question_of(const ProbeOptions& o) {
 
 void write_path(const ProbeOptions& o, const Survey& survey, const ProbeAnswer& answer) {
   std::vector<Vec3> path = probed_path(survey, o.question, answer);
-  if (path.size() == 1) path.push_back(path.front());  // from a place to itself: a path has a start and a goal
+  if (path.size() == 1) path.push_back(path.front());  // the path needs a start and a goal, even if they are equal
   const WalkerSettings body = probed_body(o.question, answer.size, o.slope_degrees());
   if (!is_standard(*o.path)) return save_path(*o.path, path, &body, o.question.mode);
   std::string text = body_line(body, o.question.mode) + "\n";
@@ -138,7 +137,7 @@ void write_path(const ProbeOptions& o, const Survey& survey, const ProbeAnswer& 
   write_output(text);
 }
 
-/// Measures along the way with the body, or with the widest that passes.
+/// Measures the way with the body, or with the widest body that passes.
 std::vector<words::ProbeDetails::Narrow> narrow_places(const ProbeOptions& o, const Surveyed& scene,
                                                        const ProbeAnswer& answer) {
   WalkerSettings settings = probed_body(o.question, answer.size, o.slope_degrees());
@@ -175,7 +174,7 @@ words::ProbeDetails details_of(const ProbeOptions& o, const Surveyed& scene, con
   return details;
 }
 
-/// `details`: of the only answer.
+/// `details`: of a single answer.
 Json report_of(const ProbeOptions& o, const Surveyed& scene, std::span<const ProbeAnswer> answers,
                const words::ProbeDetails& details) {
   const bool one = !o.matrix;
@@ -219,7 +218,7 @@ ExitStatus probe(ProbeOptions o) {
     try {
       answers = roam::probe(scene.survey, o.question, sizes);
     } catch (const NoRoomAtEnd& error) {
-      throw Error("--" + std::string(error.where()), error.reason());  // "from" or "to", as the options are called
+      throw Error("--" + std::string(error.where()), error.reason());  // "from" or "to", as the options are named
     }
     o.question.progress = {};
   }

@@ -1,4 +1,4 @@
-// roam sweep: answers queries from standard input.
+// roam sweep: performs the queries of standard input.
 #include <fmt/format.h>
 #include <poll.h>
 #include <tbb/global_control.h>
@@ -29,14 +29,14 @@
 namespace roam::app {
 namespace {
 
-// Large enough that handing a chunk from thread to thread costs nothing, small enough that answers flow.
+// Large enough to make the passing between threads cheap, small enough for results without delay.
 constexpr std::size_t chunk_bytes = 64 * 1024;
-// Longer than any row of numbers; what has no end of line in so much is not text.
+// Longer than any row of numbers: input without an end of line in this length is not text.
 constexpr std::size_t longest_row = 4096;
-// How soon an error is told while the other end of the pipe waits for answers.
+// The delay of an error message while the other end of the pipe waits for results.
 constexpr int poll_milliseconds = 50;
 
-// What spreadsheets put before UTF-8.
+// Spreadsheets write it at the start of UTF-8.
 constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
 
 /// Whole rows of the input.
@@ -45,19 +45,19 @@ struct Rows {
   std::uint64_t first_line = 1;
 };
 
-/// The answers to Rows, up to the first row that has none.
+/// The results of Rows, up to the first row that fails.
 struct Answers {
   std::string text;
   std::uint64_t rows = 0;
-  std::vector<std::pair<std::uint64_t, std::string>> missing;  ///< line, and what could not be read for it
+  std::vector<std::pair<std::uint64_t, std::string>> missing;  ///< line, and what could not be read
   std::optional<Error> error;
 };
 
-/// Cuts standard input into chunks of whole rows, as they arrive: a script that writes one row and waits gets its
-/// answer.
+/// Cuts standard input into chunks of whole rows, as they arrive. A script that writes one row and waits gets its
+/// result.
 class RowReader {
  public:
-  /// Empty at the end of the input, and when `stop` became true.
+  /// Empty at the end of the input, and after `stop` became true.
   Rows next(const std::atomic<bool>& stop) {
     Rows rows;
     rows.first_line = line_;
@@ -96,20 +96,20 @@ class RowReader {
   bool ended_ = false;
 };
 
-/// The sweep, and for a miss how near the body came to anything: Space::sweep only says that it did not touch.
+/// The sweep, and for a miss the smallest gap: Space::sweep only says that the body did not touch.
 Impact sweep_and_measure(const Space& space, const SweepQuery& query) {
   Impact answer = space.sweep(query.body, query.from, query.motion);
   if (answer.hit) return answer;
   for (const double reach : gap_reaches) {
     const Clearance nearest = space.clearance(query.body, query.from, query.motion, reach);
-    // The sweep has certified at least 0, whatever the grid takes off here.
+    // The sweep has certified at least 0, even if the grid subtracts more here.
     answer.distance = std::max(0.0, nearest.distance);
     if (nearest.found) break;
   }
   return answer;
 }
 
-/// Answers from what is all in memory, on any thread.
+/// Sweeps through a scene in memory; thread-safe.
 class WholeScene {
  public:
   explicit WholeScene(const LoadedScene& scene) : world_(scene.world) {}
@@ -144,7 +144,7 @@ Answers answer(Scene&& scene, const Rows& rows) {
   return answers;
 }
 
-/// Tells what could not be read: each thing once, with the first line that needed it.
+/// Reports unreadable parts: each once, with the first line that needed it.
 class Missing {
  public:
   void add(const Answers& answers) {
@@ -155,7 +155,7 @@ class Missing {
       tell(fmt::format("note: line {}: {}", line, what));
     }
   }
-  /// Whether any answer is not complete, which is then told.
+  /// Whether any result is incomplete; reports it.
   [[nodiscard]] bool any(const SceneOptions& options) const {
     if (incomplete_ == 0) return false;
     tell(

@@ -1,4 +1,4 @@
-// roam train: which sizes of a body serve a scene.
+// roam train: finds the sizes of a body that suit a scene.
 #include "roam/train.h"
 
 #include <fmt/format.h>
@@ -37,8 +37,8 @@ struct TrainVerbOptions {
   bool stats = false;
 };
 
-/// Training in the stages that it names, on standard error. Stages take what they take in each scene: no time left
-/// follows from the share that is done.
+/// Progress of a training by stages, on standard error. The stages' durations vary between scenes, so it estimates no
+/// time left.
 class StagedProgress {
  public:
   bool at(TrainStage stage, double done) {
@@ -55,7 +55,7 @@ class StagedProgress {
   TrainStage stage_ = TrainStage::places;
 };
 
-/// Where the profile goes; empty: nowhere.
+/// The file of the profile; empty: none.
 std::filesystem::path profile_file(const TrainVerbOptions& o) {
   if (o.no_profile) return {};
   if (o.profile) {
@@ -70,7 +70,7 @@ std::filesystem::path profile_file(const TrainVerbOptions& o) {
   return beside;
 }
 
-/// Nothing where there is none to write, and why.
+/// Writes the profile, or reports why there is none to write.
 void write_profile(const TrainVerbOptions& o, const std::filesystem::path& file, const SceneIdentity& identity,
                    TrainReport& report) {
   const Training& t = report.training;
@@ -103,7 +103,7 @@ ExitStatus train(TrainVerbOptions o) {
   std::optional<draw::PictureFile> drawing;
   if (o.picture) drawing.emplace(*o.picture);
   const Surveyed scene = survey_scene(o.scene, o.slope);
-  constexpr double narrow_door = 0.6;  // m: a person with nothing to spare
+  constexpr double narrow_door = 0.6;  // m: width of a person without clearance
   check_spacing(scene, o.train.spacing, narrow_door);
   TrainReport report{o.scene.names(), scene.survey.triangles(), o.train, {}, {}, {}};
   {
@@ -120,7 +120,7 @@ ExitStatus train(TrainVerbOptions o) {
     tell(fmt::format("{} was not drawn: this training ended early", o.picture->string()));
   } else if (drawing) {
     const std::vector<draw::OpeningView> views = views_of(report);
-    // Where nothing decides there is nothing to draw but what was found.
+    // Without a deciding opening, draw the answer alone.
     drawing->write(draw::opening_sheet(o.scene.file_names(), views, scene.survey.meshes(),
                                        views.empty() ? words::answer(report.training, o.train) : std::string()));
   }

@@ -6,7 +6,7 @@
 
 namespace roam::app {
 
-/// Each adds its verb to the program and sets `run` when the verb is chosen.
+/// Each adds its verb to the program; choosing the verb sets `run`.
 void add_walk(CLI::App& program, Run& run);
 void add_sweep(CLI::App& program, Run& run);
 void add_info(CLI::App& program, Run& run);

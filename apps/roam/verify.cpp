@@ -1,4 +1,4 @@
-// roam verify: is every byte of a store what was written?
+// roam verify: checks every byte of a store.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -22,12 +22,12 @@ namespace {
 
 struct VerifyOptions {
   std::filesystem::path store;
-  std::vector<std::filesystem::path> scene;  ///< to repair it from; empty: it is not repaired
+  std::vector<std::filesystem::path> scene;  ///< to repair the store from; empty: no repair
   int threads = 0;
   bool json = false;
 };
 
-/// What is known of who built the store.
+/// Who built the store, as far as known.
 struct Origin {
   bool yours = false;
   std::string why_not;  ///< a clause
@@ -38,12 +38,12 @@ Origin origin_of(const store::Folder& folder) {
   if (!user.key) return {false, std::string("no key of yours can be used: ") + user.problem.what()};
   try {
     if (store::open_store(folder)->is_authentic(*user.key)) return {true, ""};
-  } catch (const Error&) {  // what is damaged was told
+  } catch (const Error&) {  // damage is already reported
   }
   return {false, "it was not built with your key"};
 }
 
-/// Lines of damage that are told in text; JSON tells all.
+/// Maximum lines of damage in text; JSON has all.
 constexpr std::size_t most_lines = 20;
 
 Json json_report(const VerifyOptions& options, const StoreVerification& found, const Origin& origin,
@@ -58,7 +58,7 @@ Json json_report(const VerifyOptions& options, const StoreVerification& found, c
           {"shards_repaired", repaired},     {"yours", origin.yours}};
 }
 
-/// The damage, one thing a line, and how much it is.
+/// The damage, one item a line, and its amount.
 std::string damage_text(const VerifyOptions& options, const StoreVerification& found) {
   std::string text;
   for (std::size_t i = 0; i < std::min(most_lines, found.damage.size()); ++i) {

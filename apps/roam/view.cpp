@@ -1,4 +1,4 @@
-// roam view: opens a window on a scene and lets a person roam in it.
+// roam view: opens a window in which a person roams through a scene.
 #include <fmt/format.h>
 #include <tbb/global_control.h>
 
@@ -23,7 +23,7 @@
 namespace roam::app {
 namespace {
 
-/// The settings, and usage errors for what is wrong in them: it is the command line, or this file, that must change.
+/// Reads the settings. Turns their errors into usage errors: the command line or this file must change.
 ViewSettings read_settings_for(const ViewOptions& options) {
   try {
     return find_settings(options.settings);
@@ -32,7 +32,7 @@ ViewSettings read_settings_for(const ViewOptions& options) {
   }
 }
 
-/// What the keys do. Throws UsageError for keys of the settings that cannot be.
+/// The table of keys. Throws UsageError for invalid keys in the settings.
 std::string keys_of(const ViewSettings& settings) {
   const osg::ref_ptr<osgRoam::Manipulator> roamer = new osgRoam::Manipulator;
   try {
@@ -43,7 +43,7 @@ std::string keys_of(const ViewSettings& settings) {
   return key_table(roamer->controls());
 }
 
-/// The scene's profile, where the radius is left out.
+/// The scene's profile, if no radius is given.
 std::optional<SceneProfile> profile_for(const ViewOptions& options, const std::optional<RecordedBody>& recorded) {
   if (options.no_profile || options.radius) return std::nullopt;
   const std::string mode = options.mode.value_or(to_string(recorded ? recorded->mode : Mode::walk));
@@ -54,7 +54,7 @@ std::optional<SceneProfile> profile_for(const ViewOptions& options, const std::o
                             recorded);
 }
 
-/// Every move against every triangle: of the scene as read, of a store as stored.
+/// Verifies every move: against the scene as read, or the store as stored.
 verification::Verification verified(const ViewReport& report, const ViewOptions& options,
                                     const std::function<bool(std::uint64_t)>& progress) {
   if (report.store.empty() || !report.meshes.empty()) return verify(report.meshes, report.pieces, progress);
@@ -88,7 +88,7 @@ ExitStatus view(const ViewOptions& options) {
       while (session.frame()) {
       }
     } catch (const Cancelled&) {
-      // What was asked for is written, checked and told as far as it has come.
+      // Write, verify and report what there is so far.
       cancelled = true;
     }
     report = session.finish();

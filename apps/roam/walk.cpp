@@ -1,4 +1,4 @@
-// roam walk: sends a body through a scene and tells how it went.
+// roam walk: moves a body through a scene and reports the result.
 #include <fmt/format.h>
 #include <tbb/global_control.h>
 
@@ -36,7 +36,7 @@
 namespace roam::app {
 namespace {
 
-/// Takes down every step while a walk goes on.
+/// Records every step of a walk.
 class Recorder {
  public:
   Recorder(const WalkOptions& options, OpenScene& scene, double expected_steps)
@@ -55,7 +55,7 @@ class Recorder {
     take(walker.report(), 0.0);
   }
 
-  /// Runs one step and takes it down.
+  /// Runs one step and records it.
   template <class Step>
   const StepReport& step(const Walker& walker, const Step& run) {
     const auto begin = std::chrono::steady_clock::now();
@@ -65,7 +65,7 @@ class Recorder {
     const double begun = tally_.simulated;
     tally_.add_step(report);
     take(report, begun);
-    along_->add(report);  // now: a pager forgets what lies behind the body
+    along_->add(report);  // at once: a pager drops the tiles behind the body
     scene_.follow(walker);
     goes_on_ = progress_->goes_on(tally_.steps, std::max(tally_.steps, expected_steps_));
     return report;
@@ -75,7 +75,7 @@ class Recorder {
   [[nodiscard]] bool goes_on() const { return goes_on_; }
   void finish() {
     if (trace_) trace_->close();
-    progress_.reset();  // its line on the terminal goes away before the report
+    progress_.reset();  // removes the progress line before the report
   }
   [[nodiscard]] StepTimes times() const {
     return {nanoseconds_.quantile(0.5), nanoseconds_.quantile(0.99), nanoseconds_.largest()};
@@ -94,7 +94,7 @@ class Recorder {
   [[nodiscard]] const draw::Record& record() const { return record_; }
 
  private:
-  /// `begun`: seconds when the step began.
+  /// `begun`: time at the start of the step, in s.
   void take(const StepReport& report, double begun) {
     if (trace_) trace_->add(tally_.steps, begun, report);
     if (options_.checks()) verification::append_pieces(pieces_, tally_.steps, report);
@@ -112,7 +112,7 @@ class Recorder {
   draw::Record record_;
   Tally tally_;
   std::optional<measure::Along> along_;
-  double reach_ = 0.0;  ///< m: how far it measures beside the body
+  double reach_ = 0.0;  ///< m: measuring distance around the body
 };
 
 double path_length(std::span<const Vec3> points) {
@@ -121,7 +121,7 @@ double path_length(std::span<const Vec3> points) {
   return sum;
 }
 
-/// Along the waypoints without collision: shows where a path leads.
+/// Moves along the waypoints without collision, to show where a path leads.
 RouteResult haunt(Walker& walker, std::span<const Vec3> waypoints, const RouteOptions& options, Recorder& recorder) {
   RouteResult result;
   result.waypoints = 1;
@@ -161,7 +161,7 @@ RouteResult roam_about(Walker& walker, const RouteOptions& options, double secon
   return wander.result();
 }
 
-/// The whole walk, or as far as it came before Ctrl-C.
+/// The whole walk, or the part before Ctrl-C.
 RouteResult go(const WalkOptions& options, Walker& walker, std::span<const Vec3> path, Recorder& recorder) {
   if (options.wander) return roam_about(walker, options.route, *options.wander, recorder);
   if (walker.mode() != Mode::ghost) return follow(walker, path, options.route, recorder);
@@ -169,7 +169,7 @@ RouteResult go(const WalkOptions& options, Walker& walker, std::span<const Vec3>
   return haunt(walker, path, options.route, recorder);
 }
 
-/// What a picture is called.
+/// The title of a picture.
 std::string title(const WalkOptions& options) {
   const std::string text = options.scene.file_names();
   return options.wander ? text + fmt::format(", wandering for {:g} s", *options.wander)
@@ -189,19 +189,19 @@ verification::Verification verified(const WalkOptions& options, const OpenScene&
   return scene.store() ? verify(*scene.store(), pieces, goes_on) : verify(scene.loaded().meshes, pieces, goes_on);
 }
 
-/// Bytes that a segment takes at most while a picture is made.
+/// Maximum bytes per segment while a picture is made.
 constexpr std::uint64_t bytes_a_segment = 2048;
 
 draw::Measured measured(OpenScene& scene, const WalkReport& report, const draw::Record& record) {
   Surroundings around(scene);
-  // The pager has dropped the tiles along the way, and a picture would show them as unknown. After Ctrl-C there is no
-  // time to load them again.
+  // The pager has dropped the tiles along the path; a picture would show them as unknown. After Ctrl-C there is no time
+  // to load them again.
   const auto arrive = [&](const Vec3& place, double reach) { around.wait(place, reach); };
   return draw::measure(scene.space(), report, record,
                        scene.store() && !interrupted() ? draw::Arrive(arrive) : draw::Arrive());
 }
 
-/// The sheet of what was measured. Of a store, after OpenScene::leave.
+/// The drawing of a measured walk. Call it after OpenScene::leave if the scene is a store.
 draw::Sheet sheet(const WalkOptions& options, const OpenScene& scene, const WalkReport& report,
                   const draw::Record& record, const draw::Measured& measured) {
   const auto triangles = [&](const Box& box, const std::function<void(std::span<const Mesh>)>& take) {
@@ -221,7 +221,7 @@ draw::Sheet sheet(const WalkOptions& options, const OpenScene& scene, const Walk
                            report.triangles});
 }
 
-/// Verifies all moves. After Ctrl-C, if there is time.
+/// Verifies all moves; after Ctrl-C, if there is time.
 void check_moves(const WalkOptions& options, const OpenScene& scene, const verification::PieceLog& pieces,
                  WalkReport& report) {
   const auto begin = std::chrono::steady_clock::now();
@@ -237,7 +237,7 @@ void check_moves(const WalkOptions& options, const OpenScene& scene, const verif
 ExitStatus walk(WalkOptions options) {
   check_way(options);
   if (!options.against.scenes.empty()) {
-    // Of a store, they can only mean the scene that it is checked against.
+    // For a store, these options can only apply to the scene of --against.
     SceneOptions& scene = options.scene;
     options.against.up = std::exchange(scene.up, {});
     options.against.unit = std::exchange(scene.unit, "m");
@@ -306,7 +306,7 @@ ExitStatus walk(WalkOptions options) {
   report.waypoints = path.size();
   report.eye = walker.eye();
   if (report.result.blocked_at) {
-    // What was not known has no number in the scene: it is named by why it is not.
+    // Unknown space has no number in the scene; the report gives the reason instead.
     const TriangleId triangle = report.result.blocked_at->triangle;
     if (report.result.outcome == Outcome::held) {
       report.object = scene.why_unknown(triangle);

@@ -22,7 +22,7 @@ namespace {
 
 using Arguments = std::vector<std::string>;
 
-/// The arguments as CLI11 takes them, last first. `help VERB` is `VERB --help`.
+/// The arguments in CLI11's order, last first. `help VERB` is `VERB --help`.
 Arguments reversed(Arguments arguments) {
   if (!arguments.empty() && arguments.front() == "help") {
     arguments.erase(arguments.begin());
@@ -32,13 +32,13 @@ Arguments reversed(Arguments arguments) {
   return arguments;
 }
 
-/// Says why the program `name` fails, in JSON too if that is wanted.
+/// Reports why the program `name` fails, also as JSON if requested.
 void tell_failure(const Error& error, const std::string& name, const Arguments& arguments) {
   tell(error.what(), name);
   try {
     print_failure(error, arguments);
   } catch (const std::exception&) {
-    // Standard output may be what fails.
+    // Standard output may be the cause.
   }
 }
 
@@ -54,7 +54,7 @@ ExitStatus run(CLI::App& program, const Run& chosen, const Arguments& arguments)
   try {
     program.parse(reversed(arguments));
   } catch (const CLI::CallForHelp&) {
-    // Not of a verb that there is not.
+    // An unknown verb has no help of its own.
     const auto unknown = unknown_word(program);
     if (unknown && !unknown->is_option) return refuse(*unknown->app, unknown->error, arguments);
     print(program.help());

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// From the arguments of a program to its exit status.
+/// The course of a program from its arguments to its exit status.
 
 #include <functional>
 

@@ -58,7 +58,7 @@ std::vector<const CLI::Option*> options_of(const CLI::App& app, bool positional)
 std::vector<std::string> groups(const CLI::App& app) {
   std::vector<std::string> names;
   for (const CLI::Option* option : options_of(app, false)) {
-    if (option->get_group().empty()) continue;  // hidden, as CLI11 has it
+    if (option->get_group().empty()) continue;  // hidden in CLI11's sense
     if (std::find(names.begin(), names.end(), option->get_group()) == names.end()) names.push_back(option->get_group());
   }
   for (const char* last : {scene_group, other_group}) {

@@ -8,10 +8,10 @@
 
 namespace roam::app {
 
-/// A number of things for people: "950", "12.3 k", "4.56 M", "1.2 G".
+/// A number of things for display: "950", "12.3 k", "4.56 M", "1.2 G".
 [[nodiscard]] std::string short_count(double count);
 
-/// A length of time for people: "0.8 s", "42 s", "3 min 10 s", "2 h 5 min".
+/// A duration for display: "0.8 s", "42 s", "3 min 10 s", "2 h 5 min".
 [[nodiscard]] std::string short_time(double seconds);
 
 /// Shows the progress, speed and remaining time of some work. On a terminal it rewrites one line, and removes it at the

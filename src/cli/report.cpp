@@ -26,7 +26,7 @@ void write(const std::string& text) {
   throw Error(std::string("cannot write the result: ") + std::strerror(errno));
 }
 
-/// Of a text that is JSON: the same data without controls. They stand in its strings alone, save for its line ends.
+/// JSON text with the same data, but without control characters. They occur only in its strings, apart from line ends.
 std::string without_controls(std::string_view text) {
   std::string escaped;
   escaped.reserve(text.size());
@@ -45,7 +45,7 @@ std::string without_controls(std::string_view text) {
   return escaped;
 }
 
-/// Names come from files and may be any bytes; what is no UTF-8 is shown as U+FFFD.
+/// Names come from files and may be any bytes; invalid UTF-8 is shown as U+FFFD.
 void write(const Json& json, int indent) {
   Json stamped = {{"roam", ROAM_VERSION_STRING}, {"schema", json_schema}};
   stamped.update(json);

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Pieces of the JSON reports that several verbs share.
+/// Parts of the JSON reports that several verbs share.
 
 #include <nlohmann/json_fwd.hpp>
 #include <string>
@@ -20,21 +20,21 @@ using Json = nlohmann::ordered_json;
 /// {"min": [x, y, z], "max": [x, y, z]}
 [[nodiscard]] Json to_json(const Box& box);
 
-/// What a pager held and did.
+/// The state and statistics of a pager.
 [[nodiscard]] Json to_json(const PagerStats& paging);
 
-/// The form of the JSON objects that the program prints. It grows when a member goes or changes its meaning; further
-/// members do not count.
+/// The version of the program's JSON objects. It grows when a member is removed or changes its meaning; new members do
+/// not count.
 inline constexpr int json_schema = 1;
 
-/// Writes the report to standard output, after the members "roam", the version, and "schema". Throws BrokenPipe when
-/// nobody reads it, roam::Error when it cannot be written, e.g. to a disk that is full.
+/// Writes the report to standard output, after the members "roam", the version, and "schema". Throws BrokenPipe if the
+/// reader has closed it, and roam::Error if it cannot be written, e.g. to a full disk.
 void print(const Json& report);
 /// The same in one line, for a sequence of objects.
 void print_line(const Json& object);
-/// The same of lines for people, made printable.
+/// The same for lines of text, made printable.
 void print(const std::string& text);
-/// Whether a JSON report was printed: a program prints one at most.
+/// Whether a JSON report was printed: a program prints at most one.
 [[nodiscard]] bool has_printed_json();
 
 }  // namespace roam::app

@@ -22,7 +22,7 @@ class TraceFile {
   /// Throws roam::Error if it cannot be written.
   explicit TraceFile(const std::filesystem::path& file);
 
-  /// `step_start` is the time in seconds when the step began. Throws BrokenPipe when nobody reads standard output.
+  /// `step_start`: the time at the start of the step, in s. Throws BrokenPipe if the reader has closed standard output.
   void add(std::uint64_t step, double step_start, const StepReport& report);
   /// Throws roam::Error if a row could not be written.
   void close();

@@ -52,7 +52,7 @@ Error unknown_name(const CLI::App& app, const std::string& word) {
   return Error(fmt::format("there is no {} '{}'.{}", noun_below(app), word, asked));
 }
 
-/// The option that a message of CLI11 begins with.
+/// The option at the start of a message of CLI11.
 const CLI::Option* subject(const CLI::App& app, std::string_view text) {
   const CLI::Option* found = nullptr;
   for (const CLI::Option* option : app.get_options()) {

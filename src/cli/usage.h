@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Wrong command lines, in roam's words. Together with help.h the only place that knows how CLI11 speaks.
+/// Wrong command lines, in roam's words. Only this header and help.h know CLI11's messages.
 
 #include <optional>
 #include <string>
@@ -21,19 +21,18 @@ namespace roam::app {
 /// "roam make gallery"
 [[nodiscard]] std::string full_name(const CLI::App& app);
 
-/// How names below `app` are called: "verb" or "kind".
+/// The noun for names below `app`: "verb" or "kind".
 [[nodiscard]] const char* noun_below(const CLI::App& app);
 
 /// "gallery, terrain or city"
 [[nodiscard]] std::string one_of_text(const std::vector<std::string>& words);
 
 struct UnknownWord {
-  const CLI::App* app;  ///< that does not know it
-  Error error;          ///< names the word, and the one that was likely meant
+  const CLI::App* app;  ///< the program or verb that does not know it
+  Error error;          ///< names the word, and the likely one
   bool is_option;
 };
-/// The first word that parsing left over. Misspelt words come before all other complaints, because they often cause
-/// them.
+/// The first word that parsing left over. Report misspelt words before all other errors, which they often cause.
 [[nodiscard]] std::optional<UnknownWord> unknown_word(const CLI::App& program);
 
 /// The error of CLI11 about the arguments of `app`, with its option: "--radius: 'abc' is not a number".

@@ -14,7 +14,7 @@
 namespace roam::app {
 namespace {
 
-/// A number that is whole once its unit is multiplied in: k, M, G or T, the first a factor of `step`.
+/// A number with a unit k, M, G or T, the powers of `step`. None unless the product is whole.
 std::optional<std::uint64_t> with_unit(std::string_view text, double step, bool of_bytes) {
   const char* const end = text.data() + text.size();
   double number = 0.0;

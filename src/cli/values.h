@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Which values options take. Every check says what is wrong in one clause: "'abc' is not a number".
+/// Checks of the values of options. Every check states the error in one clause: "'abc' is not a number".
 
 #include <fmt/format.h>
 
@@ -30,10 +30,10 @@ template <class Number>
           ""};
 }
 
-/// How many threads.
+/// A number of threads.
 [[nodiscard]] inline CLI::Validator thread_count() { return from_to(1, 4096); }
 
-/// Of flights, queries and the like.
+/// A number of flights, queries and the like.
 [[nodiscard]] inline CLI::Validator at_least_one() { return from_to<std::int64_t>(1, 100'000'000); }
 
 /// One of these words.
@@ -45,7 +45,7 @@ template <class Number>
 /// Rewrites 64M or 8G as bytes. K, M, G and T are powers of 1024; B or iB may follow.
 [[nodiscard]] CLI::Validator bytes();
 
-/// Takes as many triangles as roam::generate makes, `least` at least.
+/// An option for a number of triangles, within roam::generate's limits, at least `least`.
 inline CLI::Option* add_triangles(CLI::App& app, const std::string& name, std::uint64_t& triangles,
                                   const std::string& what, std::uint64_t least = generate::least_triangles) {
   return app.add_option(name, triangles, what + " (e.g. 500k or 20M)")

@@ -118,12 +118,12 @@ void draw_triangle(const std::array<Vec3, 3>& corners, Strokes& lines, Strokes& 
   }
 }
 
-/// `depth_test` false: draws faintly what walls hide.
+/// `depth_test` false: draws the parts behind walls faintly.
 osg::ref_ptr<osg::Group> make_pass(bool depth_test, osg::Node* content) {
   osg::ref_ptr<osg::Group> pass = new osg::Group;
   osg::StateSet& state = *pass->getOrCreateStateSet();
   state.addUniform(new osg::Uniform("roam_strength", depth_test ? 1.0f : 0.22f));
-  // After all transparent surfaces. The depth comparison is that of the space around.
+  // After all transparent surfaces, with the depth comparison of Frame::space().
   state.setRenderBinDetails(depth_test ? 21 : 20, "RenderBin");
   if (!depth_test) state.setMode(GL_DEPTH_TEST, osg::StateAttribute::OFF);
   pass->addChild(content);

@@ -26,10 +26,10 @@ constexpr std::size_t most_waiting = 8;
 /// Bytes. A disk with no more free space than this counts as full.
 constexpr std::uintmax_t full_disk = 1 << 20;
 constexpr int least_side = 16, largest_side = 8192;
-/// For encoding the rest after the last picture; x264 looks ahead some dozens of pictures.
+/// s: for encoding the rest after the last picture; x264 looks ahead some dozens of pictures.
 constexpr std::chrono::seconds ending_patience{120};
 
-/// Number of the film's descriptor in ffmpeg. By its path another file could be meant by then, or a link.
+/// Number of the film's descriptor in ffmpeg. Its path may lead to another file by then.
 constexpr int film_descriptor = 3;
 
 std::vector<std::string> arguments(int width, int height, int rate) {
@@ -37,7 +37,7 @@ std::vector<std::string> arguments(int width, int height, int rate) {
   // Images begin with their lowest row. Sizes must be even for yuv420p. Players assume BT.709 for large films without a
   // stated colour space, so that is used and stated.
   const std::string filters = "vflip,pad=ceil(iw/2)*2:ceil(ih/2)*2,scale=out_color_matrix=bt709:out_range=tv";
-  // A pipe could not be gone back in, which the index at the begin of the file needs.
+  // The index at the beginning of the file needs seeking, which a pipe cannot do.
   const std::string name = "file:/dev/fd/" + std::to_string(film_descriptor);
   return {"-hide_banner",
           "-loglevel",
@@ -260,7 +260,7 @@ Video::~Video() = default;
 void Video::add(osg::ref_ptr<osg::Image> image) { encoder_->add(std::move(image), 1); }
 
 void Video::add(osg::ref_ptr<osg::Image> image, double seconds) {
-  // Picture k is shown from k / rate on. This picture fills all that have begun by now.
+  // Picture k is shown from time k / rate. This picture fills all that have begun.
   const auto begun = static_cast<std::int64_t>(std::floor(seconds * encoder_->rate())) + 1;
   encoder_->add(std::move(image), begun - encoder_->frames());
 }

@@ -19,7 +19,7 @@ class XWindow : public osgViewer::GraphicsWindowX11 {
   XWindow(osg::GraphicsContext::Traits* traits, osg::ref_ptr<osg::Referenced> server)
       : osgViewer::GraphicsWindowX11(traits), server_(std::move(server)) {}
 
-  /// Viewer::realize realizes every window again, about which the base class would complain.
+  /// Viewer::realize realizes every window again; the base class would warn about it.
   bool realizeImplementation() override { return _realized || osgViewer::GraphicsWindowX11::realizeImplementation(); }
 
   /// Sets the class by which desktops group windows and find icons.
@@ -58,7 +58,7 @@ struct Screen {
   int height = 0;
 };
 
-/// Tests the display before OpenSceneGraph does, whose messages say less.
+/// Tests the display before OpenSceneGraph does: its messages say less.
 Screen look_at(const std::string& name) {
   std::unique_ptr<Display, int (*)(Display*)> connection(XOpenDisplay(name.c_str()), XCloseDisplay);
   Display* display = connection.get();

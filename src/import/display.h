@@ -30,7 +30,7 @@
 
 namespace roam {
 
-/// Totals of the parts, and what is missing.
+/// Totals of the parts, and missing files.
 struct DisplayReport {
   /// Zero, or a point near the first triangles if these are more than 10 km from zero.
   Vec3 origin{0.0};

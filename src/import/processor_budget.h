@@ -29,7 +29,7 @@ class ProcessorBudget {
 
   /// Seconds that the process may have used so far.
   [[nodiscard]] double allowed() const;
-  /// Seconds that it has used; 0 if the system does not say.
+  /// Seconds that it has used; 0 if unknown.
   [[nodiscard]] double used() const;
   /// Triangles that the reader may have sent so far. They are limited because the receiver's work takes time too.
   [[nodiscard]] std::uint64_t triangles() const;

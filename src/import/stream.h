@@ -29,8 +29,7 @@
 ///     missing_texture  text file
 ///     note          text sentence
 ///     failure       text place; text sentence                                last: the file cannot be read; the place
-///     as
-///                                                                            of roam::Error
+///                                                                            is that of roam::Error
 ///     end           Totals; u32 n, u8 matched of each of the n ignore patterns     last: reading is complete
 ///
 /// The receiver trusts nothing. It checks the numbering and the sizes, that vertices are finite and within the limit,

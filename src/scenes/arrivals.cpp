@@ -6,7 +6,7 @@
 namespace roam::app {
 namespace {
 
-/// Seconds for which it is waited at a time.
+/// Seconds of one wait.
 constexpr double slice = 0.02;
 
 }  // namespace

@@ -22,7 +22,7 @@
 namespace roam::app {
 namespace {
 
-/// Seconds. How long a body may wait for its surroundings when it is placed; then it is held.
+/// s: longest wait of a placed body for its surroundings; then it is held
 constexpr double longest_wait = 60.0;
 
 /// How long a pager's thread may take to find the name of an unknown part. If all threads wait for reads, it stays

@@ -33,12 +33,11 @@ class OpenScene {
   /// Statistics of the pager; none if the scene was read whole.
   [[nodiscard]] std::optional<PagerStats> paging() const;
 
-  /// A free place to start from, see free_start.
-  /// To be called before space().
+  /// A free position to start from; see free_start. Call it before space().
   [[nodiscard]] Vec3 start(const WalkerSettings& settings, Mode mode);
   /// Call it after the last step: frees a pager's memory for later work. space() is invalid then.
   void leave();
-  /// Waits until a body there has ground to stand on, if it must be loaded.
+  /// Waits until ground is loaded below a body at `place`, if it must be loaded.
   void wait_at(const Body& body, const Vec3& place);
   /// Waits until everything that a body can reach within a second at this velocity is loaded or unreadable, at most
   /// `seconds`. Returns whether it is.

@@ -64,7 +64,7 @@ void SceneOptions::add_reading_to(CLI::App& verb) {
       ->type_name("DIR")
       ->expected(1)
       ->take_all();
-  // For a child of roam view.
+  // For the child process of roam view.
   verb.add_flag("--no-scene-link{false}", through_link)->group("");
   verb.add_option("--threads", threads, "Threads for indexing and queries (default: one per core)")
       ->check(thread_count())
@@ -121,7 +121,7 @@ void SceneOptions::check_there() const {
       throw Error(scene.string(), target.empty() ? "there is no such file or folder. Check the spelling."
                                                  : "is a link to " + target.string() + ", which is not there.");
     }
-    // A store that is not complete, or whose CURRENT is gone, is no folder of photogrammetry: opening it says which.
+    // An incomplete store, or one without CURRENT, is no folder of photogrammetry. Opening it gives the reason.
     int folders_of_stores = 0;
     for (const char* name : {"manifests", "packs", "parts"}) {
       folders_of_stores += std::filesystem::is_directory(scene / name, none) ? 1 : 0;

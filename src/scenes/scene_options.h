@@ -27,10 +27,10 @@ struct SceneOptions {
   bool lossless = false;
   int threads = 0;
   std::optional<std::uint64_t> memory;  ///< `--memory`, bytes
-  bool identify = false;                ///< no option of the command line: whether LoadedScene::identity is wanted
+  bool identify = false;                ///< whether to set LoadedScene::identity; no option of the command line
   bool through_link = true;             ///< ImportOptions::through_link; false for a scene that the user did not name
 
-  /// Bytes for a store's collision where `memory` is not given.
+  /// Default of `memory` for a store's collision, in bytes.
   static constexpr std::uint64_t usual_store_memory = 64ull << 20;
   [[nodiscard]] std::uint64_t store_memory() const { return memory.value_or(usual_store_memory); }
 
@@ -38,35 +38,35 @@ struct SceneOptions {
   void add_to(CLI::App& verb);
   /// Adds --up, --unit, --ignore, --allow, --threads and --memory.
   void add_reading_to(CLI::App& verb);
-  /// The command line that add_to() reads as these options; SCENE comes last.
+  /// The command line that add_to() reads as these options, SCENE last.
   [[nodiscard]] std::vector<std::string> arguments() const;
-  /// What the options mean to import_scene and the like.
+  /// The same as options of import_scene.
   [[nodiscard]] ImportOptions import_options() const;
-  /// Whether any option was given that says how files are to be read or indexed.
+  /// Whether any option about reading or indexing of files was given.
   [[nodiscard]] bool says_how_to_read() const;
   /// Whether one of the scenes is a store.
   [[nodiscard]] bool name_a_store() const;
-  /// Throws roam::Error for a scene that is not there, and for a store that is still being built.
+  /// Throws roam::Error for a missing scene, and for a store that is still being built.
   void check_there() const;
-  /// The file names for people, separated by ", ".
+  /// The file names for display, separated by ", ".
   [[nodiscard]] std::string names() const;
-  /// The same without folders: what a picture is called.
+  /// The same without folders, for the title of a picture.
   [[nodiscard]] std::string file_names() const;
 };
 
 /// A scene that was read and indexed.
 struct LoadedScene {
   World world;
-  std::vector<Mesh> meshes;  ///< the triangles as read, where they were asked for
+  std::vector<Mesh> meshes;  ///< the triangles as read; empty after Source::release
   ImportReport report;
-  SceneIdentity identity;    ///< where it was asked for
+  SceneIdentity identity;    ///< set if SceneOptions::identify
   Box bounds;                ///< of the triangles as read
   std::vector<Vec3> floors;  ///< see floor_samples
   double read_seconds = 0.0;
   double build_seconds = 0.0;
 };
 
-/// What becomes of the triangles as read once the world is built.
+/// Whether the triangles as read stay in memory after the world is built.
 enum class Source : std::uint8_t { keep, release };
 
 /// Reads, with progress and the import's notes on standard error. Throws what import_scene throws.

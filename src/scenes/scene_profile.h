@@ -18,9 +18,8 @@ struct SceneProfile {
 };
 
 /// The profile for a body without a given radius. None if there is no profile, for a ghost, and for a walking body if
-/// the profile is for flying. A path with a recorded body uses that body; then the profile counts only if it is for the
-/// same body, for the sizes in its regions. Throws roam::Error for an unreadable profile, with advice how to do
-/// without.
+/// the profile is for flying. A path with a recorded body uses that body. A profile of the same body then adds its
+/// regions; another one does not count. Throws roam::Error for an unreadable profile, with advice how to do without.
 [[nodiscard]] std::optional<SceneProfile> find_scene_profile(const SceneOptions& scene, Mode mode,
                                                              const std::optional<RecordedBody>& recorded);
 

@@ -23,13 +23,13 @@ void add_surveyed_to(CLI::App& verb, SceneOptions& options);
 
 struct Surveyed {
   Survey survey;                       ///< lossless
-  SceneIdentity identity;              ///< of what was read: the scene, or the store
-  std::shared_ptr<const Store> store;  ///< that was read; null: none
-  std::vector<TriangleId> numbers;     ///< in the store, of each triangle
+  SceneIdentity identity;              ///< of the scene or store that was read
+  std::shared_ptr<const Store> store;  ///< the store that was read; null: a scene
+  std::vector<TriangleId> numbers;     ///< number in the store, by triangle
 
   /// The name of a triangle's object. Empty for no triangle, an object without a name, and in a scene of one object.
   [[nodiscard]] std::string name(TriangleId triangle) const;
-  /// Of the objects at both ends of a measured distance, see measure::at_ends().
+  /// The names of the objects at both ends of a measured distance; see measure::at_ends().
   [[nodiscard]] std::pair<std::string, std::string> names_at(const Vec3& point, const Vec3& direction,
                                                              double width) const;
 };

@@ -23,21 +23,21 @@ using draw::Overview;
 using Kind = ProbeLimit::Kind;
 
 /// Metres.
-constexpr double sample = 0.01;       ///< between rays that measure an opening's depth, or a gap of the floor
-constexpr double precise = 1e-4;      ///< of a gap's rims
-constexpr double deepest = 1.0;       ///< to each side; what is deeper is a corridor
-constexpr double as_narrow = 0.02;    ///< by how much an opening may widen and still be the same
-constexpr double thinnest = 0.005;    ///< depth of a wall without any
-constexpr double widest_gap = 2.5;    ///< of the floor, to each side
-constexpr double before_step = 0.05;  ///< between the body and a step in front of it
-constexpr std::uint64_t most_reached = 150'000;  ///< places that are looked at for a picture, from each end
+constexpr double sample = 0.01;                  ///< between rays that measure the depth of an opening, or a crack
+constexpr double precise = 1e-4;                 ///< error of a crack's rims
+constexpr double deepest = 1.0;                  ///< to each side; deeper openings are corridors
+constexpr double as_narrow = 0.02;               ///< tolerance of an opening's width
+constexpr double thinnest = 0.005;               ///< depth of a wall of zero thickness
+constexpr double widest_gap = 2.5;               ///< of a crack, to each side
+constexpr double before_step = 0.05;             ///< between the body and a step in front of it
+constexpr std::uint64_t most_reached = 150'000;  ///< positions searched for a picture, from each end
 
 Vec3 level(const Vec3& v) {
   const double length = std::hypot(v.x, v.y);
   return length > 0.0 ? Vec3(v.x / length, v.y / length, 0.0) : Vec3(0.0);
 }
 
-/// Moves a view into the middle of the opening's depth, which is measured.
+/// Moves a view to the middle of the opening's measured depth.
 void centre(const Survey& survey, OpeningView& view) {
   const Vec3 across = level(view.direction), along(-across.y, across.x, 0.0);
   if (glm::length(Vec3(view.direction.x, view.direction.y, 0.0)) < 0.9) return;
@@ -71,7 +71,7 @@ OpeningView empty_view(const ProbeQuestion& question, const ProbeAnswer& answer)
   return view;
 }
 
-/// What decides, with the body in it.
+/// The deciding opening, with the body in it.
 OpeningView view_of(const Survey& survey, const ProbeQuestion& question, const ProbeAnswer& answer) {
   const ProbeLimit& limit = *answer.limit;
   OpeningView view = empty_view(question, answer);
@@ -100,7 +100,7 @@ OpeningView view_of(const Survey& survey, const ProbeQuestion& question, const P
   return view;
 }
 
-/// The gap of the floor into which the walker fell: where it is narrowest there. None where the floor just ends.
+/// The narrowest part of the crack into which the walker fell. None if the floor ends there.
 std::optional<OpeningView> gap_view(const Survey& survey, const ProbeQuestion& question, const ProbeAnswer& answer) {
   const Vec3 place(answer.walk->at.x, answer.walk->at.y, answer.walk->on_way.z);
   const double step = question.step;

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The sheet of `roam probe --picture`.
+/// The drawing of `roam probe --picture`.
 
 #include <string>
 
@@ -9,8 +9,8 @@
 
 namespace roam::app {
 
-/// Where the way leads, or where it breaks off, in one plan; and what decides, in a plan and a section, with the body
-/// in it. Throws roam::Cancelled after Ctrl-C.
+/// A plan of the way, complete or up to its end; and the deciding opening with the body, in plan and section. Throws
+/// roam::Cancelled after Ctrl-C.
 [[nodiscard]] draw::Sheet sheet_of(const std::string& title, const Survey& survey, const ProbeQuestion& question,
                                    const ProbeAnswer& answer);
 

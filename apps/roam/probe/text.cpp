@@ -1,4 +1,4 @@
-// What `roam probe` says: a table, JSON.
+// Output of `roam probe`: table, JSON.
 #include "probe/text.h"
 
 #include <fmt/format.h>

@@ -10,14 +10,15 @@
 namespace roam::app {
 namespace {
 
-/// Metres. What lies along so little fits into the least memory.
+/// m: surroundings of so short a part fit into the least memory
 constexpr double least_part = 0.5;
-/// Seconds until what does not come of the least part, and what cannot be read, is given up.
+/// Seconds of waiting for tiles of the shortest part, and for unreadable tiles.
 constexpr double late_after = 60.0, broken_after = 3.0;
 
 }  // namespace
 
-/// Nothing where memory does not hold what must be known, and `may_part`. Unknown: what is met cannot be read.
+/// Nothing if memory cannot hold the surroundings and `may_part` allows shorter parts. Tiles of an unknown hit are
+/// unreadable.
 std::optional<Impact> PagedSweep::sweep(const SweepQuery& part, bool may_part) {
   Arrivals arrivals(scene_);
   for (;;) {
@@ -47,7 +48,8 @@ double PagedSweep::gap(const SweepQuery& part) {
            arrivals.wait(part.body, part.from, ahead * (length + reach)) < Arrivals::full_after) {
       nearest = scene_.space().clearance(part.body, part.from, part.motion, reach);
     }
-    // The sweep has certified at least 0, whatever the grid takes off here; what is unknown only makes it less.
+    // The sweep has certified at least 0, even if the grid subtracts more here. Unknown space only makes the gap
+    // smaller.
     distance = std::max(distance, nearest.distance);
     if (nearest.found) break;
   }

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Sweeps that are answered from a store: what they meet is brought first.
+/// Sweeps through a store, which load the tiles that they need.
 
 #include <limits>
 #include <optional>
@@ -12,24 +12,24 @@
 
 namespace roam::app {
 
-/// How far around a way that is free its gap is looked for, in metres: near first, which is cheap and mostly enough.
+/// m: distances in which the gap around a free motion is searched. The near one is cheap and mostly enough.
 inline constexpr double gap_reaches[] = {1.0, 10.0};
 
-/// An answer, and what is not known of it.
+/// The result of a sweep, and its unreadable tiles.
 struct SweepAnswer {
   Impact impact;
-  std::string missing;  ///< what could not be read, and why; empty: nothing is missing
+  std::string missing;  ///< what could not be read, and why; empty: all was read
 };
 
-/// One thread at a time. A motion along which memory does not hold all that must be known is answered part by part.
+/// Sweeps in parts if memory cannot hold the surroundings of the whole motion. One thread at a time.
 class PagedSweep {
  public:
   explicit PagedSweep(OpenScene& scene) : scene_(scene) {}
 
-  /// As Space::sweep, but the triangle is that of the scene, and of a miss `distance` is certified as well: less than
-  /// it could be where memory does not hold what lies around the way. What cannot be read is unknown, and met as if it
-  /// were solid; where only the number of the triangle cannot be read, that is no_triangle. Throws roam::Error where
-  /// what lies along the way can be read, but does not come in a minute.
+  /// Like Space::sweep, but the triangle's number is that of the scene. For a miss, `distance` is certified too; it may
+  /// be too low if memory does not hold the surroundings of the motion. Unreadable space is unknown, and hit as if it
+  /// were solid. If only the triangle's number is unreadable, it is no_triangle. Throws roam::Error if readable tiles
+  /// do not arrive within a minute.
   [[nodiscard]] SweepAnswer operator()(const SweepQuery& query);
 
  private:
@@ -37,8 +37,8 @@ class PagedSweep {
   [[nodiscard]] double gap(const SweepQuery& part);
 
   OpenScene& scene_;
-  std::set<std::string> given_up_;  ///< what could not be read in broken_after, which need not be waited for again
-  double fits_ = std::numeric_limits<double>::infinity();  ///< metres of a motion, as far as is known
+  std::set<std::string> given_up_;                         ///< unreadable after broken_after; not awaited again
+  double fits_ = std::numeric_limits<double>::infinity();  ///< m of a motion that memory can hold, as known so far
 };
 
 }  // namespace roam::app

@@ -62,7 +62,7 @@ bool is_blank(std::string_view row) { return trimmed(row).empty(); }
 
 bool is_query_header(std::string_view row) {
   const Fields fields = split(row);
-  // Numbers, "nan" and "inf" among them, parse; a name of a column does not.
+  // Numbers parse, also "nan" and "inf"; names of columns do not.
   for (std::size_t i = 0; i < std::min(fields.count, columns.size()); ++i) {
     double value = 0.0;
     const std::string_view text = fields.text[i];

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The rows of `roam sweep`: queries in, answers out, as comma-separated values.
+/// The rows of `roam sweep`, as comma-separated values: queries and results.
 
 #include <cstdint>
 #include <iterator>
@@ -19,22 +19,21 @@ struct SweepQuery {
   Body body;
 };
 
-/// The header of the answers.
+/// The header of the results.
 inline constexpr std::string_view answer_header = "hit,t,px,py,pz,nx,ny,nz,triangle,feature,distance\n";
 
-/// The row names the columns instead of holding numbers. Throws roam::Error when it names others, or in another order,
-/// than a query has.
+/// Whether the row names columns instead of holding numbers. Throws roam::Error if the names or their order are wrong.
 [[nodiscard]] bool is_query_header(std::string_view row);
 
-/// Nothing but blanks.
+/// Whether the row has only blanks.
 [[nodiscard]] bool is_blank(std::string_view row);
 
-/// Reads one row. Throws roam::Error that says which field is wrong; the caller knows the line.
+/// Reads one row. Throws roam::Error with the invalid field; the caller adds the line.
 [[nodiscard]] SweepQuery parse_query(std::string_view row);
 
-/// Appends one row: 17 significant digits, so that every double reads back as it was. Of a miss only t (always 1) and
-/// distance mean something; its point and normal are zeros, its triangle is -1 and its feature `none`. Of a hit that is
-/// unknown the triangle is -1 and the feature `unknown`.
+/// Appends one row. 17 significant digits preserve every double. A miss has t = 1 and a distance; its point and normal
+/// are zeros, its triangle is -1 and its feature `none`. A hit on unknown space has the triangle -1 and the feature
+/// `unknown`.
 void append_answer(std::string& rows, const Impact& answer);
 
 }  // namespace roam::app

@@ -53,7 +53,7 @@ std::string trials_line(const Training& t) {
   return text;
 }
 
-/// z of the feet that pass under or over a point: of the nearest place of all ways, seen from above.
+/// z of the floor above or below a point: at the nearest position of all ways, seen from above.
 double floor_under(const Training& training, const Vec3& point) {
   double least = std::numeric_limits<double>::infinity(), z = point.z;
   for (const TrainedPath& path : training.paths) {

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What `roam train` prints and draws.
+/// Report and drawings of `roam train`.
 
 #include <filesystem>
 #include <string>
@@ -13,13 +13,13 @@
 
 namespace roam::app {
 
-/// What was asked, and what came of it.
+/// Options and result of a training.
 struct TrainReport {
   std::string scene;
   std::uint64_t triangles = 0;
   TrainOptions options;
   Training training;
-  std::filesystem::path profile;  ///< that was written; empty: none
+  std::filesystem::path profile;  ///< the written file; empty: none
   words::TrainingNames names;
 };
 
@@ -28,7 +28,7 @@ struct TrainReport {
 /// For `--stats`: interval, regions, trials, parts.
 [[nodiscard]] std::string stats_report(const TrainReport& report);
 
-/// What decides, to be drawn with the body that is answered.
+/// The deciding openings, to be drawn with the resulting body.
 [[nodiscard]] std::vector<draw::OpeningView> views_of(const TrainReport& report);
 
 }  // namespace roam::app

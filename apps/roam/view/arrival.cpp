@@ -14,8 +14,8 @@
 namespace roam::app {
 namespace {
 
-constexpr double failure_period = 10.0;    // s: not every tile that fails is news
-constexpr std::size_t most_failures = 20;  // that the report names
+constexpr double failure_period = 10.0;    // s: minimum between two notes of failed tiles
+constexpr std::size_t most_failures = 20;  // named in the report
 
 CollisionWish wish_for(const ViewOptions& options, const ViewPlan& plan, std::uint64_t store_memory) {
   CollisionWish wish;
@@ -47,7 +47,7 @@ bool Arrival::receive(const Seen& seen) {
   if (!is_over(state)) return false;
   const bool failed = state.phase == LoadState::Phase::failed;
   if (failed && seen.state.phase == LoadState::Phase::failed) throw Error(seen.state.error);
-  // The graph's origin is known with its first piece; without any, collision and eye have no graph to agree with.
+  // The first piece fixes the graph's origin. Without any piece, collision and eye need not match a graph.
   if (!seen.has_pieces && !is_over(seen.state)) return false;
   roamer_.setOrigin({seen.origin.x, seen.origin.y, seen.origin.z});
   if (failed) {
@@ -84,7 +84,6 @@ void Arrival::place_ghost(const Seen& seen, const Error& why) {
                                 loader_.wants_store() ? "; a store of it (roam build) takes little memory" : ""));
   }
   news_.note(fmt::format("the collision could not be loaded, so walls are passed through: {}", why.what()));
-  // An empty space has nothing to stand on.
   collision_keys_ = roamer_.controls().text();
   roamer_.controls().rebind("gravity =\nghost =");
   roamer_.setMode(Mode::ghost);
@@ -101,7 +100,7 @@ void Arrival::enter() {
   placed_ = true;
 }
 
-/// Says that the body begins elsewhere because it does not fit at the place that --at names.
+/// Says that the body begins elsewhere because it does not fit at the position of --at.
 void Arrival::tell_where_put() {
   if (!plan_.at || is_ghost_only() || roamer_.walker() == nullptr || roamer_.held()) return;
   const Vec3& at = plan_.at->position;
@@ -121,7 +120,7 @@ void Arrival::change_to(std::shared_ptr<Pager> pager) {
     loaded_->pager.reset();
     world = std::exchange(loaded_->world, nullptr);
   }
-  // Freeing gigabytes takes longer than a frame, and so may the end of what a pager is reading.
+  // Freeing gigabytes takes longer than a frame; so may a pager's last read.
   freeing_ = std::async(std::launch::async, [world = std::move(world), before = std::move(before)]() mutable {
     world.reset();
     before.reset();
@@ -145,7 +144,7 @@ void Arrival::watch_footing(const StepReport& report, double seconds) {
   }
 }
 
-/// Whether a body that falls from here comes down on something.
+/// Whether a body that falls from here lands on something.
 bool Arrival::is_ground_below() const {
   const Walker& walker = *roamer_.walker();
   const Box box = walker.space().bounds();

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// How the body comes into the scene, and what it collides with there.
+/// The body's arrival in the scene, and the collision that it uses there.
 
 #include <future>
 #include <memory>
@@ -16,58 +16,57 @@
 
 namespace roam::app {
 
-/// Loads the collision, gives it to the body, and puts the body to its start. A body without collision is a ghost. A
-/// body that has nothing below to stand on flies.
+/// Loads the collision, connects the body to it, and puts the body at its start. Without collision the body becomes a
+/// ghost. Without ground below it, the body flies.
 ///
-/// Reads no files itself and needs no window. All members belong to one thread, between two frames.
+/// Reads no files and needs no window. Call all members from one thread, between two frames.
 class Arrival {
  public:
-  /// Begins to load. Without a place in the plan, a start is looked for.
+  /// Begins to load. If the plan has no position, the loader searches for a start.
   Arrival(const ViewOptions& options, const ViewPlan& plan, const SceneAndStore& what, osgRoam::Manipulator& roamer,
           News& news);
 
-  /// The loader of the collision: its state, the store that it chose, and where a body begins in a store.
+  /// The loader of the collision, with its state, its choice of a store, and a store's start position.
   [[nodiscard]] CollisionLoader& loader() { return loader_; }
 
-  /// The picture as far as it has been loaded.
+  /// The scene's picture, as far as it is loaded.
   struct Seen {
     LoadState state{};
     bool has_pieces = false;
     Vec3 origin{0.0};  ///< the graph is scene - origin
-    Pose overview{};   ///< from where all of it is seen
+    Pose overview{};   ///< pose from which the whole scene is visible
   };
-  /// Call it in each frame until it returns true: then the manipulator has its space, and enter() may be called. The
-  /// space is that of the collision; an empty one if the collision failed. Throws roam::Error if the picture failed,
-  /// too, or if a path or --verify needs the collision.
+  /// Call it in each frame until it returns true. The manipulator then has its space, and enter() may be called. The
+  /// space is empty if the collision failed. Throws roam::Error if the picture failed too, or if a path or --verify
+  /// needs the collision.
   [[nodiscard]] bool receive(const Seen& seen);
-  /// Puts the body to its start, and makes that its home.
+  /// Puts the body at its start, which becomes its home.
   void enter();
 
   /// Whether the body is in the scene.
   [[nodiscard]] bool is_placed() const { return placed_; }
-  /// Whether it is a ghost in an empty space.
+  /// Whether the body is a ghost in an empty space.
   [[nodiscard]] bool is_ghost_only() const { return !collision_keys_.empty(); }
   /// The identity of the scene or store; null for a ghost.
   [[nodiscard]] const SceneIdentity* identity() const { return loaded_ ? &loaded_->identity : nullptr; }
   /// The pager of the store that the body collides with; null if it collides with a scene.
   [[nodiscard]] const Pager* pager() const { return pager_.get(); }
 
-  /// From now on the body collides with a store. It stays where it is. The memory of the collision before is freed by
-  /// another thread.
+  /// Makes the body collide with a store. The body stays where it is. Another thread frees the previous collision.
   void change_to(std::shared_ptr<Pager> pager);
 
-  /// Waits for tiles of the store around the body, as long as a person would have had for them, in s. For a body that
-  /// moves faster than the clock.
+  /// Waits at most `seconds` for tiles around the body. For a body that moves faster than the clock: in real time the
+  /// tiles would have loaded.
   void wait_for_tiles(double seconds);
-  /// After each step of `seconds`, or a placement (0): whether there is something to stand on.
+  /// Checks for ground below the body. Call it after each step of `seconds`, or after a placement (0).
   void watch_footing(const StepReport& report, double seconds);
-  /// Lets a body fly that has nothing to stand on.
+  /// Makes a body fly that has no ground below.
   void fly_without_ground();
-  /// Notes tiles of the store that cannot be read; not every one. `now`: s since the session began.
+  /// Notes some of the store's unreadable tiles. `now`: seconds since the session began.
   void note_failures(double now);
 
   void fill(Status& status) const;
-  /// Adds the body, and gives away the meshes that were kept for --verify. `result` must be there already.
+  /// Adds the body, and moves out the meshes kept for --verify. `result` must be set already.
   void fill(ViewReport& report);
 
  private:
@@ -78,19 +77,19 @@ class Arrival {
 
   ViewPlan plan_;
   std::string scene_names_;
-  bool needs_collision_;  ///< a ghost will not do
+  bool needs_collision_;  ///< a path or --verify: a ghost does not suffice
   osgRoam::Manipulator& roamer_;
   News& news_;
   std::optional<Collision> loaded_;
   std::shared_ptr<Pager> pager_;
   std::optional<Pose> start_;
   bool placed_ = false;
-  bool without_ground_ = false;  ///< it walks, and would fall out of the scene
-  std::string collision_keys_;   ///< all keys, while a ghost in an empty space lacks some
-  std::string failure_told_;     ///< of the store
+  bool without_ground_ = false;  ///< the body walks, and would fall out of the scene
+  std::string collision_keys_;   ///< keys of all commands, while a ghost in an empty space lacks some
+  std::string failure_told_;     ///< the store's failure noted last
   double failure_told_at_ = -1e9;
   CollisionLoader loader_;
-  std::future<void> freeing_;  ///< of what a store has replaced
+  std::future<void> freeing_;  ///< frees the collision that a store replaced
 };
 
 }  // namespace roam::app

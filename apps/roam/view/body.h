@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The body that a manipulator leads: where it is, and where it is to go.
+/// The body of a manipulator: creation, pose, placement.
 
 #include "osgRoam/Manipulator.h"
 #include "view/options.h"
@@ -8,16 +8,16 @@
 
 namespace roam::app {
 
-/// A manipulator without a space, with the viewer's commands. Throws roam::Error for keys that cannot be.
+/// A manipulator without a space, with the viewer's commands. Throws roam::Error for invalid keys.
 [[nodiscard]] osgRoam::Manipulator* make_roamer(const ViewPlan& plan, const ViewSettings& settings);
 
-/// Where the body is, and where the person looks. Needs a walker.
+/// Position of the body and direction of its eye. Needs a walker.
 [[nodiscard]] Pose pose_of(const osgRoam::Manipulator& roamer);
-/// The same with the centre of the standing body, also if it crouches: as the options of places mean it.
+/// The same, with the centre of the standing body even if the body crouches. Options with positions use this centre.
 [[nodiscard]] Pose standing_pose_of(const osgRoam::Manipulator& roamer);
-/// Puts the standing body there, or to the nearest free place.
+/// Puts the standing body at `pose`, or at the nearest free position.
 void go_to(osgRoam::Manipulator& roamer, const Pose& pose);
-/// The velocity that the keys ask for, m/s; its length is only roughly right.
+/// The velocity that the pressed keys stand for, in m/s. Its length is approximate.
 [[nodiscard]] Vec3 wish_of(const osgRoam::Manipulator& roamer);
 
 }  // namespace roam::app

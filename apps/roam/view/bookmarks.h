@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Places in a scene that are kept from one session to the next.
+/// Named poses in a scene, kept from one session to the next.
 
 #include <filesystem>
 #include <optional>
@@ -21,26 +21,26 @@ struct Bookmark {
 ///     [{"scene": ["/home/me/mine.dae"], "up": "", "unit": "m",
 ///       "bookmarks": [{"name": "shaft", "position": [1, 2, 3], "yaw": 90, "pitch": 0}]}]
 ///
-/// A scene is known by the absolute paths of its files, and by the axis and unit with which they are read, since these
-/// change its coordinates. The file is only written by add(), as a whole: whoever reads it sees the old or the new one.
+/// Absolute paths identify a scene, together with the axis and unit of reading, which change its coordinates. Only
+/// add() writes the file, as a whole: a reader sees the old or the new one.
 class Bookmarks {
  public:
-  /// Reads what is there; a file that does not exist is an empty one. Throws roam::Error, naming the file and what is
-  /// wrong in it, when it cannot be read: it is then never written.
+  /// Reads the file; a missing file has no bookmarks. Throws roam::Error if the file cannot be read, with its name and
+  /// the mistake. Such a file is never written.
   Bookmarks(std::filesystem::path file, const std::vector<std::filesystem::path>& scenes, std::string up,
             std::string unit);
 
   [[nodiscard]] const std::vector<Bookmark>& all() const { return bookmarks_; }
   /// The bookmark of that name, or null. It becomes the present one.
   const Bookmark* find(const std::string& name);
-  /// The one after the present bookmark, or before it, in a circle; null if there are none. It becomes the present one.
-  /// If none is, the first or the last.
+  /// The bookmark after the present one, or before it, in a circle; null if there are none. It becomes the present one.
+  /// If there is no present one: the first, or the last.
   const Bookmark* next(bool backwards);
-  /// The names for people, separated by ", ".
+  /// The names for a message, separated by ", ".
   [[nodiscard]] std::string names() const;
 
-  /// Keeps a place under the smallest number that is no name yet, and writes the file with what other sessions have
-  /// written meanwhile. It becomes the present one. Throws roam::Error when that cannot be done; nothing is added then.
+  /// Adds a pose under the smallest unused number, and writes the file with the changes of other sessions. It becomes
+  /// the present bookmark. Throws roam::Error if that fails; nothing is added then.
   const Bookmark& add(const Pose& pose);
 
  private:

@@ -22,10 +22,10 @@ namespace {
 
 using namespace std::chrono_literals;
 
-/// A child that this thread starts gives way to all others.
+/// Lowers this thread's priority; a child that it starts inherits it.
 void give_way() {
   constexpr int nicer = 5;
-  // Not more: without a graphics card, drawing takes all cores. Where it is forbidden, only smoothness is lost.
+  // Not more: without a graphics card, drawing takes all cores. A failure only costs smoothness.
   (void)::setpriority(PRIO_PROCESS, static_cast<id_t>(::gettid()), nicer);
 }
 
@@ -33,7 +33,7 @@ double share(std::uint64_t done, std::uint64_t total) {
   return total > 0 ? std::min(1.0, static_cast<double>(done) / static_cast<double>(total)) : 0.0;
 }
 
-/// How far the phase is, for the display.
+/// Progress of the phase, for the display.
 LoadState state_of(const Json& progress) {
   const auto number = [&](const char* name) { return progress.at(name).get<std::uint64_t>(); };
   const std::string step = progress.at("step");
@@ -63,7 +63,7 @@ Error error_of(const Json& json) {
   return Error::at(where.is_null() ? std::string() : where.get<std::string>(), json.at("message"));
 }
 
-/// For a child that ended without a report and without an error.
+/// The error of a child that ended without a report and without an error.
 Error silent_end(const process::Child& child) {
   const process::Ending& ending = child.ending();
   const std::string words = child.last_words();
@@ -97,7 +97,7 @@ BuildProcess::Built BuildProcess::take() {
 StoreBuildReport BuildProcess::build() {
   const Vec3 near = place();
   std::vector<std::string> arguments{"build", "--json-lines", fmt::format("--near={},{},{}", near.x, near.y, near.z)};
-  // A store beside the scene is not named, so that the builder refuses a link there.
+  // Do not name a store beside the scene: the builder then refuses a link there.
   if (!what_.store.empty()) arguments.push_back("--output=" + output_.string());
   SceneOptions scene = what_.scene;
   scene.threads = work_threads(scene.threads);
@@ -131,7 +131,7 @@ StoreBuildReport BuildProcess::build() {
 }
 
 void BuildProcess::load() {
-  // In a thread of its own: those of the pager, which inherit from this one, must not give way.
+  // Use another thread: the pager's threads inherit this one's priority, and must keep it.
   const StoreBuildReport report = std::async(std::launch::async, [this] {
                                     give_way();
                                     return build();

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// `roam build` as a child of the viewer.
+/// `roam build` as a child process of the viewer.
 
 #include <filesystem>
 #include <memory>
@@ -14,31 +14,31 @@
 
 namespace roam::app {
 
-/// Runs `roam build` with low priority, and then opens a pager on the new store. The parts nearest to the body are
-/// built first. What is done when the build is cancelled, or when the viewer ends, stays in the store's folder; the
-/// next build continues it.
+/// Runs `roam build` with low priority, then opens a pager on the new store. It builds the parts nearest to the body
+/// first. A cancelled build, or one that the viewer's end stops, leaves its work in the store's folder. The next build
+/// continues it.
 ///
-/// A thread of its own waits for the child. All members belong to the thread that made the object.
+/// A separate thread waits for the child. Call all members from the thread that made the object.
 class BuildProcess {
  public:
-  /// Starts at once. `program` is roam; if empty, the running program. `place` is the body's centre.
+  /// Starts at once. `program`: path of roam; empty: the running program. `place`: the body's centre.
   BuildProcess(std::filesystem::path program, const SceneAndStore& what, const WalkerSettings& walker,
                const Vec3& place);
 
-  /// Ends the build; does not wait for that, as the destructor does.
+  /// Ends the build without waiting; the destructor waits.
   void cancel() { loading_.cancel(); }
-  /// The phases are reading, indexing (shards), looking (loading what is around the body), done and failed.
+  /// The phases are reading, indexing (shards), looking (loading tiles around the body), done and failed.
   [[nodiscard]] LoadState state() const { return loading_.state(); }
   /// The store's folder.
   [[nodiscard]] const std::filesystem::path& output() const { return output_; }
-  /// The body has moved to `place`.
+  /// Moves the body's position to `place`.
   void follow(const Vec3& place);
 
   struct Built {
-    std::shared_ptr<Pager> pager;    ///< has loaded what is around the body
-    std::vector<std::string> notes;  ///< of the build, as sentences for the user
+    std::shared_ptr<Pager> pager;    ///< has loaded the tiles around the body
+    std::vector<std::string> notes;  ///< the build's notes, as sentences for the user
   };
-  /// The result. Valid once state() is done; may be called once.
+  /// The result. Call it once, after state() is done.
   [[nodiscard]] Built take();
 
  private:

@@ -9,10 +9,10 @@
 
 namespace roam::app {
 
-/// Switches between the body's camera and those of osgviewer, see camera_names().
+/// Switches between the body's camera and those of osgviewer; see camera_names().
 ///
-/// OpenSceneGraph's class places the camera itself and never calls the manipulator that leads. But
-/// osgRoam::Manipulator must know the picture that its camera makes, for what is clicked.
+/// OpenSceneGraph's class places the camera itself and never calls updateCamera() of the active manipulator.
+/// osgRoam::Manipulator needs that call: it picks clicked points in its camera's picture.
 class Cameras : public osgGA::KeySwitchMatrixManipulator {
  public:
   explicit Cameras(osgRoam::Manipulator& roamer);
@@ -20,11 +20,11 @@ class Cameras : public osgGA::KeySwitchMatrixManipulator {
   void updateCamera(osg::Camera& camera) override {
     if (osgGA::CameraManipulator* leading = getCurrentMatrixManipulator()) leading->updateCamera(camera);
   }
-  /// Whether this one has the keys.
+  /// Whether this camera receives the keys.
   [[nodiscard]] bool leads(const osgGA::CameraManipulator& camera) const {
     return getCurrentMatrixManipulator() == &camera;
   }
-  /// The name of the one that does.
+  /// The name of the camera that receives the keys.
   [[nodiscard]] std::string present() const;
 
  protected:

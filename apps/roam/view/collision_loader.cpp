@@ -9,7 +9,7 @@
 namespace roam::app {
 namespace {
 
-constexpr double longest_wait = 5.0;  // s, for what is around the start
+constexpr double longest_wait = 5.0;  // s, for the tiles around the start
 constexpr double short_wait = 0.1;    // s
 
 }  // namespace
@@ -21,7 +21,7 @@ int work_threads(int asked) {
 
 void wait_at(Pager& pager, const WalkerSettings& walker, const Vec3& place, const std::function<bool()>& goes_on) {
   const Body body = Body::capsule(walker.radius, walker.height);
-  // As for one who hurries on at once.
+  // Wait for the tiles that a body needs if it moves off at once.
   const Vec3 velocity(0.0, 0.0, -walker.speed);
   for (double waited = 0.0; waited < longest_wait; waited += short_wait) {
     if (!goes_on()) throw Cancelled();

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Loads what a body collides with, beside the thread that draws.
+/// Loader of the collision, in a thread of its own.
 
 #include <atomic>
 #include <future>
@@ -18,44 +18,42 @@
 
 namespace roam::app {
 
-/// What was loaded.
 struct Collision {
-  std::shared_ptr<const World> world;  ///< of a scene that was read whole; else null
+  std::shared_ptr<const World> world;  ///< of a scene that is read whole; else null
   std::shared_ptr<Pager> pager;        ///< of a store; else null
   std::uint64_t triangles = 0;
-  std::vector<Mesh> meshes;  ///< the triangles as read, where they were asked for
+  std::vector<Mesh> meshes;  ///< the triangles as read, if the wish keeps them
   SceneIdentity identity;    ///< of the scene or the store
   ImportReport report;
-  std::optional<StartPlace> start;  ///< where one was asked for
+  std::optional<StartPlace> start;  ///< set if the wish has no position
 };
 
-/// What is asked for beside the world.
+/// What the loader produces besides the world.
 struct CollisionWish {
   bool keep_meshes = false;
-  std::optional<Vec3> place;  ///< where the body will be put; none: a start is to be found
+  std::optional<Vec3> place;  ///< the body's position; none: search for a start
   WalkerSettings walker;
   Mode mode = Mode::walk;
-  std::uint64_t memory = 0;  ///< bytes, of a store's pager
+  std::uint64_t memory = 0;  ///< bytes, for a store's pager
 };
 
-/// Opens the scene's store, or reads and indexes the scene, in a thread of its own, at full detail, whatever is on the
-/// screen. One core is left to who draws.
+/// Opens the scene's store, or reads and indexes the scene. The collision has full detail, independent of the picture.
+/// One core stays free for drawing.
 class CollisionLoader {
  public:
   CollisionLoader(const SceneAndStore& what, const CollisionWish& wish);
 
-  /// Lets what runs come to its end, the reader's process too; does not wait for that, as the destructor does: a
-  /// fraction of a second.
+  /// Ends the work, the reader process too, within a fraction of a second. Does not wait for that; the destructor does.
   void cancel() { loading_.cancel(); }
-  /// How far it is; from any thread.
+  /// Progress; from any thread.
   [[nodiscard]] LoadState state() const { return loading_.state(); }
-  /// What was loaded, once, when it is done; else nothing.
+  /// The result, once, after the loading is done; else nothing.
   [[nodiscard]] std::optional<Collision> take();
-  /// Which store was chosen, once, as soon as that is known; else nothing.
+  /// The chosen store, once, as soon as it is known; else nothing.
   [[nodiscard]] std::optional<StoreChoice> take_choice();
-  /// There is no store, and the scene is large: see is_large.
+  /// Whether the scene is large (see is_large) and has no store.
   [[nodiscard]] bool wants_store() const { return wants_store_; }
-  /// Where a body begins in a store, when that is known, or why it never will be. To be asked for once.
+  /// The body's start position in a store, or the error that prevents one. Call it once.
   [[nodiscard]] std::future<Vec3> place() { return place_.get_future(); }
 
  private:
@@ -75,11 +73,11 @@ class CollisionLoader {
   Loading loading_;
 };
 
-/// Waits until a body has ground to stand on at a place, or what is there cannot be read; some seconds at most, then it
-/// is held there. `goes_on` is asked now and then, and ends it by false: roam::Cancelled.
+/// Waits until ground is loaded at `place`, or its tiles prove unreadable; at most 5 s. Throws roam::Cancelled when
+/// `goes_on` returns false.
 void wait_at(Pager& pager, const WalkerSettings& walker, const Vec3& place, const std::function<bool()>& goes_on);
 
-/// All cores but one, so that the window stays smooth; or as many as were asked for.
+/// `asked`, if positive; else all cores but one, so that the window stays smooth.
 [[nodiscard]] int work_threads(int asked);
 
 }  // namespace roam::app

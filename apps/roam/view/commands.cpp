@@ -33,10 +33,10 @@ constexpr Line lines[] = {
     {"quit", "F10", "ends; so does Escape when the mouse is free"},
 };
 
-/// Headings of the help, and the commands that they stand above.
+/// Headings of the help, each with the first command below it.
 constexpr std::pair<const char*, const char*> headings[] = {{"forward", "Move"}, {"grab", "Mouse"}, {"help", "View"}};
 
-/// The keys as Controls::rebind reads them. Throws roam::Error for a name of none.
+/// The keys as Controls::rebind reads them. Throws roam::Error for an unknown name.
 std::vector<std::string> printed(const std::vector<std::string>& names, const std::string& file,
                                  const std::string& entry) {
   std::vector<std::string> keys;
@@ -50,7 +50,7 @@ std::vector<std::string> printed(const std::vector<std::string>& names, const st
   return keys;
 }
 
-/// The cameras have their digits whatever else is pressed with them.
+/// Throws if a command has a digit: with any modifiers, digits select the cameras.
 void demand_free_digits(const Controls& controls) {
   for (const Controls::Command& command : controls.commands()) {
     for (const Controls::Key& key : command.keys) {

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What keys do in `roam view` beside moving: the lines that it adds to the manipulator's table, and their deeds.
+/// The commands of `roam view` besides moving: their keys and their actions.
 
 #include <functional>
 #include <map>
@@ -14,15 +14,15 @@
 
 namespace roam::app {
 
-/// The deeds behind the commands that are the viewer's own. The objects that do them add them; those of the body are
-/// added when it is in the scene.
+/// The actions of the viewer's own commands. The objects that perform them add them; those of the body follow when it
+/// is in the scene.
 class Commands {
  public:
   explicit Commands(News& news) : news_(news) {}
 
-  /// `name`: of the table.
+  /// `name`: the command's name in the table of controls.
   void add(const std::string& name, std::function<void()> deed) { deeds_[name] = std::move(deed); }
-  /// Does what the command does now, if anything; an error is news. False if the command is not the viewer's own.
+  /// Runs the command, if it has an action now. Errors become news. False if it is no command of the viewer.
   bool run(const std::string& name) const;
 
  private:
@@ -30,21 +30,21 @@ class Commands {
   std::map<std::string, std::function<void()>> deeds_;
 };
 
-/// Adds the viewer's commands to the manipulator's, then gives all commands the keys of the settings. Throws
-/// roam::Error, naming the settings file, for a command or key that does not exist or two commands on one key.
+/// Adds the viewer's commands to the manipulator's, then assigns the keys of the settings. Throws roam::Error with the
+/// settings file's name for an unknown command or key, or for two commands on one key.
 void set_up(osgRoam::Controls& controls, const ViewSettings& settings);
 
-/// The keys of a command, for people; empty if it has none.
+/// The keys of a command, for display; empty if it has none.
 [[nodiscard]] std::string key_of(const osgRoam::Controls& controls, const char* command);
 
-/// A key, or keys, and what they do; with an empty second, a heading.
+/// Keys and their action; a heading if the second is empty.
 using KeyLine = std::pair<std::string, std::string>;
-/// The table for people.
+/// The table of keys, for display.
 [[nodiscard]] std::vector<KeyLine> key_lines(const osgRoam::Controls& controls);
-/// The same as text, a line a command, with the command's name for the settings file.
+/// The same as text: one line a command, with its name in the settings file.
 [[nodiscard]] std::string key_table(const osgRoam::Controls& controls);
 
-/// The cameras on the keys 1, 2, 3, ..., as people call them; the first is the body's.
+/// The cameras on the keys 1, 2, 3, ... by their names for display; the first is the body's.
 [[nodiscard]] const std::vector<std::string>& camera_names();
 
 }  // namespace roam::app

@@ -18,12 +18,12 @@
 namespace roam::app {
 namespace {
 
-constexpr double period = 0.1;        // s: nobody reads faster
-constexpr double speed_time = 0.2;    // s over which the speed that is shown is a mean
-constexpr double marks_reach = 0.25;  // m from the body's surface: what is nearer is drawn
+constexpr double period = 0.1;        // s: as fast as a person reads
+constexpr double speed_time = 0.2;    // s: time constant of the mean speed shown
+constexpr double marks_reach = 0.25;  // m from the body's surface: nearer triangles are drawn
 constexpr std::size_t most_triangles = 2000;
 
-/// The triangles of the graph that are near the body.
+/// The graph's triangles near the body.
 std::vector<std::array<Vec3, 3>> triangles_near(osg::Node& graph, const Body& body, const Vec3& place) {
   const Body wider = Body::capsule(body.radius + marks_reach, body.height() + 2.0 * marks_reach);
   const osg::Vec3d at = osgRoam::to_osg(place);

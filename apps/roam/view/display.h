@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Everything that a session shows except the scene: head-up display, marks, and the view before there is a body.
+/// Everything that a session shows besides the scene: head-up display, marks, overview before the body arrives.
 
 #include "osgRoam/Manipulator.h"
 #include "view/news.h"
@@ -11,38 +11,38 @@
 
 namespace roam::app {
 
-/// Watches the body and the scene's graph, and says how they are. All members belong to the thread that draws, between
+/// Observes the body and the scene's graph, and shows their state. Call all members from the thread that draws, between
 /// two frames.
 class Display {
  public:
-  /// `fov`: of the picture's height, in degrees.
+  /// `fov`: vertical field of view, degrees.
   Display(Stage& stage, SceneGraph& scene, osgRoam::Manipulator& roamer, News& news, double fov);
 
-  /// After each step: `wish` is the velocity that was wished for (m/s).
+  /// Call it after each step. `wish`: the desired velocity, m/s.
   void watch(const StepReport& report, const Vec3& wish);
-  /// Adds "marks", which shows or hides the body, what it touches, and the nearest triangles.
+  /// Adds "marks", which shows or hides the body, its contact, and the nearest triangles.
   void add_to(Commands& commands) {
     commands.add("marks", [this] { marks_ = !marks_; });
   }
 
-  /// In each frame: says what of the scene cannot be loaded, and which pictures are written.
+  /// Call it in each frame: reports parts of the scene that cannot be loaded, and written pictures.
   void tell_news();
   /// Whether it is time to show() again.
   [[nodiscard]] bool is_due() const;
-  /// Shows the next frame's status at once.
+  /// Makes the next frame show the status.
   void hurry() { shown_at_ = -1.0; }
-  /// The part of the status that this object knows. `has_body`: a walker is in the scene.
+  /// This object's part of the status. `has_body`: a walker is in the scene.
   [[nodiscard]] Status status(bool has_body);
-  /// Shows `status` until it is due again.
+  /// Shows `status` until is_due() is true again.
   void show(Status status);
   /// The status shown last.
   [[nodiscard]] const Status& shown() const { return shown_; }
 
-  /// In each frame: draws the marks, and fits the near plane to `room`, the eye's distance from every wall (m).
+  /// Call it in each frame: draws the marks, and fits the near plane to `room`, the eye's distance from every wall (m).
   void update(bool has_body, double room);
-  /// From where all of the scene is seen.
+  /// A pose from which the whole scene is visible.
   [[nodiscard]] Pose overview() const;
-  /// Looks from there.
+  /// Moves the camera to overview().
   void look_from_above();
 
   void fill(ViewReport& report);
@@ -56,7 +56,7 @@ class Display {
   News& news_;
   double fov_;
   Hold hold_;
-  double speed_ = 0.0;  ///< m/s, of the body, a mean
+  double speed_ = 0.0;  ///< m/s, mean speed of the body
   bool marks_ = false;
   Status shown_;
   double shown_at_ = -1.0;  ///< s

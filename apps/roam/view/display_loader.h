@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Loads what is to be seen, beside the thread that draws.
+/// Loader of the scene's picture, in a thread of its own.
 
 #include <deque>
 #include <filesystem>
@@ -17,33 +17,32 @@
 
 namespace roam::app {
 
-/// A piece of the scene that can be put into the graph as it is.
+/// A piece of the scene, ready for the graph.
 struct DisplayNode {
   osg::ref_ptr<osg::Node> node;
   Vec3 origin{0.0};  ///< the graph is scene - origin
   Box bounds;        ///< in the scene's frame
 };
 
-/// Reads in a thread of its own, with a reader's process of its own; hands over piece by piece.
+/// Reads in a thread and a reader process of its own, piece by piece.
 class DisplayLoader {
  public:
   DisplayLoader(const SceneOptions& scene, const TextureQuality& quality);
-  /// Of a store whose scene is not there: the triangles around a place, when that is known. See show_store.
+  /// For a store without its scene: the triangles around `place`, once that is known. See show_store.
   DisplayLoader(const std::filesystem::path& store, std::future<Vec3> place);
 
-  /// Lets what runs come to its end, the reader's process too; does not wait for that, as the destructor does: a
-  /// fraction of a second.
+  /// Ends the work, the reader process too, within a fraction of a second. Does not wait for that; the destructor does.
   void cancel() {
     loading_.cancel();
     pages_->cancel();
   }
-  /// Reads the pages of the pieces that have come.
+  /// The source of pages for the pieces already taken.
   [[nodiscard]] PageSource& pages() { return *pages_; }
-  /// How far it is; from any thread.
+  /// Progress; from any thread.
   [[nodiscard]] LoadState state() const { return loading_.state(); }
-  /// The next piece that is ready, if there is one.
+  /// The next ready piece, if there is one.
   [[nodiscard]] std::optional<DisplayNode> take();
-  /// What was loaded, once, when the loading has ended well; else nothing.
+  /// The report, once, after the loading has succeeded; else nothing.
   [[nodiscard]] std::optional<DisplayReport> take_report();
 
  private:

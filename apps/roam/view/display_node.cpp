@@ -61,7 +61,7 @@ osg::ref_ptr<osg::Texture2D> texture_of(const DisplayTexture& from, const Textur
     }
     image->setMipmapLevels(offsets);
   }
-  // Cards make smaller levels of texels, and not always of blocks.
+  // Cards can compute smaller levels of texels, but not always of compressed blocks.
   const bool smaller = from.levels > 1 || from.texels < DisplayTexels::dxt1;
   osg::ref_ptr<osg::Texture2D> texture = new osg::Texture2D(image);
   texture->setWrap(osg::Texture::WRAP_S, wrap_of(from.across));
@@ -73,7 +73,7 @@ osg::ref_ptr<osg::Texture2D> texture_of(const DisplayTexture& from, const Textur
   return texture;
 }
 
-/// Null where there is nothing to say.
+/// Null if the look is plain.
 osg::ref_ptr<osg::StateSet> state_of(const DisplayLook& look, osg::Texture2D* texture) {
   if (texture == nullptr && look.cover == DisplayCover::opaque) return nullptr;
   osg::ref_ptr<osg::StateSet> state = new osg::StateSet;
@@ -121,7 +121,7 @@ osg::ref_ptr<osg::Geometry> make_geometry(const DisplayGeometry& from) {
   colours->setNormalize(true);
   geometry->setColorArray(colours);
   if (from.normals.empty()) {
-    // The zero normal says that there is none.
+    // A zero normal stands for no normal.
     geometry->setNormalArray(new osg::Vec3Array(1), osg::Array::BIND_OVERALL);
   } else {
     geometry->setNormalArray(array_of<osg::Vec3Array>(from.normals));

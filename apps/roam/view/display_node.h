@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What is drawn of the plain values that a reader sends.
+/// OpenSceneGraph nodes made of the plain values that a reader sends.
 
 #include <functional>
 #include <osg/Geometry>
@@ -12,15 +12,14 @@
 
 namespace roam::app {
 
-/// How images are drawn.
 struct TextureQuality {
-  float anisotropy = 8.0f;  ///< samples along a surface that is seen at a flat angle; 1 where the processor draws
+  float anisotropy = 8.0f;  ///< samples along a surface seen at a flat angle; 1 for software rendering
 };
 
-/// Gives a page (DisplayLevel::page) the name by which OpenSceneGraph's pager asks for it.
+/// Gives a page (DisplayLevel::page) its name for OpenSceneGraph's pager.
 using NamePage = std::function<std::string(const std::string& page)>;
 
-/// The nodes of a part, as the scene group of graphics wants them. It has the part's frame: the scene's - origin.
+/// The nodes of a part, as the scene group of graphics expects them, in the part's frame: the scene's - origin.
 [[nodiscard]] osg::ref_ptr<osg::Group> make_node(const DisplayPart& part, const TextureQuality& quality,
                                                  const NamePage& name_page);
 

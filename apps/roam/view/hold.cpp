@@ -11,8 +11,8 @@ namespace roam::app {
 namespace {
 
 constexpr double news_seconds = 4.0;      // to read a sentence
-constexpr double slowed_seconds = 0.5;    // what changes from step to step is told as long as it lasts
-constexpr double calm_seconds = 0.25;     // a shorter touch is no blockage, a shorter break no end of one
+constexpr double slowed_seconds = 0.5;    // s: as long as states that change from step to step are shown
+constexpr double calm_seconds = 0.25;     // s: a shorter touch is no blockage, a shorter break does not end one
 constexpr double measuring_period = 0.5;  // s
 constexpr double level_cosine = 0.7071;   // 45 degrees: a wall, or a floor or ceiling
 
@@ -53,7 +53,7 @@ void Hold::note_unknown(const Walker& walker, bool failing) {
   for (const Contact& contact : report.contacts) {
     if (!contact.unknown) continue;
     const std::string reason = walker.space().object_name(contact.triangle);
-    // It is found out by another thread, and asked for in every step.
+    // Another thread finds the reason; poll it in every step.
     if (!reason.empty()) reason_ = printable(reason);
     return;
   }
@@ -94,7 +94,7 @@ void Hold::look_at_blockage(const Walker& walker, const Vec3& wish, double secon
   const StepReport& report = walker.report();
   const bool wished = glm::dot(wish, wish) > 0.0;
   if (report.blocked && wished && !report.contacts.empty()) {
-    // A pause does not start the count anew: bodies that rattle along a wall are blocked too.
+    // A short break does not restart the count: a body that rattles along a wall is blocked too.
     blocked_for_ = now_ - blocked_at_ <= calm_seconds ? blocked_for_ + seconds : 0.0;
     blocked_at_ = now_;
     if (blocked_for_ < calm_seconds || now_ - measured_at_ < measuring_period) return;

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What holds the body, in words.
+/// The reason why the body is held, in words.
 
 #include <optional>
 #include <string>
@@ -11,17 +11,16 @@ namespace roam::app {
 
 /// A sentence for the display.
 struct Told {
-  std::string text;  ///< empty: nothing to tell
+  std::string text;  ///< empty: nothing to show
   bool warning = false;
 };
 
-/// Watches the steps of a walker. What lasts only a moment is told for some seconds; what changes from step to step is
-/// told calmly; openings are measured now and then, not in every step.
+/// Observes the steps of a walker. A short event is shown for some seconds, and a state that changes from step to step
+/// is smoothed. Openings are measured occasionally, not in every step.
 class Hold {
  public:
-  /// After each step, and after placing. `wish` is the velocity that was wished for (m/s; length 0: none), `seconds`
-  /// the time that the step took.
-  /// `failing`: some of what is unknown cannot be read, so that it says why.
+  /// Call it after each step and each placement. `wish`: the desired velocity (m/s; length 0: none). `seconds`: the
+  /// time of the step. `failing`: some unknown tiles cannot be read; the sentence then gives the reason.
   void take(const Walker& walker, const Vec3& wish, double seconds, bool failing = false);
   [[nodiscard]] Told told() const;
 
@@ -31,14 +30,14 @@ class Hold {
   void look_at_blockage(const Walker& walker, const Vec3& wish, double seconds);
 
   double now_ = 0.0;            ///< s of all steps
-  bool held_ = false;           ///< it cannot move: see Walker::held
-  bool nothing_below_ = false;  ///< and that is why it is held
+  bool held_ = false;           ///< see Walker::held
+  bool nothing_below_ = false;  ///< held because nothing is known to be below
   bool waiting_ = false;
-  std::string reason_;         ///< why what is waited for does not come; empty: it will
-  double slowed_at_ = -1e9;    ///< when last
+  std::string reason_;         ///< why the awaited tiles do not come; empty: they will
+  double slowed_at_ = -1e9;    ///< time of the last slowed step
   double blocked_for_ = 0.0;   ///< s without a break
-  double blocked_at_ = -1e9;   ///< when last
-  double measured_at_ = -1e9;  ///< when the opening was
+  double blocked_at_ = -1e9;   ///< time of the last blocked step
+  double measured_at_ = -1e9;  ///< time of the last measurement of the opening
   std::string blockage_;
   Told news_;
   double news_at_ = -1e9;

@@ -10,7 +10,7 @@
 namespace roam::app {
 namespace {
 
-/// Seconds after which nobody who went on wants what was offered any more.
+/// Seconds of free movement after which an offer expires.
 constexpr double offer_lasts = 3.0;
 
 /// "opening 0.71 m wide: a body of 0.34 m here".
@@ -32,7 +32,7 @@ Profile known_of(const ViewPlan& plan, const SceneIdentity& scene, const WalkerS
   return known;
 }
 
-/// Where sizes are saved; empty: nowhere.
+/// The file for sizes; empty: they are not saved.
 std::filesystem::path file_for(const ViewOptions& options, const ViewPlan& plan) {
   if (plan.profile) return plan.profile->file;
   std::filesystem::path file = profile_path(options.scene.scenes);
@@ -74,7 +74,7 @@ void Learning::take(const Lesson& lesson) {
   learner_.take(*roamer_.walker(), lesson);
   ++taken_;
   roamer_.setRegions(learner_.profile().regions);
-  // The body was put elsewhere.
+  // The learner has placed the body elsewhere.
   if (lesson.kind == Lesson::Kind::support) roamer_.placed();
   try {
     if (!file_.empty()) {

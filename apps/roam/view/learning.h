@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The sizes of the body that a session learns: `--adapt`, and the key for it.
+/// The learned sizes of a session's body: `--adapt`, and its key.
 
 #include <filesystem>
 #include <optional>
@@ -15,29 +15,29 @@
 
 namespace roam::app {
 
-/// Watches the body, offers a size that helps where it is stopped, and keeps accepted sizes beside the scene. Needs no
-/// window. All members belong to one thread.
+/// Observes the body, offers a helpful size where the body is stopped, and saves accepted sizes beside the scene. Needs
+/// no window. Call all members from one thread.
 class Learning {
  public:
-  /// Learning continues the plan's profile. Without one, it starts a profile for `scene` and the manipulator's body,
-  /// unless the options forbid it, or the scene has a profile of another body.
+  /// Continues the plan's profile. Without one, starts a profile for `scene` and the manipulator's body, unless the
+  /// options forbid it or the scene has a profile of another body.
   Learning(const ViewOptions& options, const ViewPlan& plan, const SceneIdentity& scene, osgRoam::Manipulator& roamer,
            News& news);
 
   /// After each step, see SizeLearner::watch.
   void watch(const Vec3& wish, double seconds);
-  /// Adds "adapt", which accepts the present offer, if there is one.
+  /// Adds "adapt", which accepts the present offer, if any.
   void add_to(Commands& commands) {
     commands.add("adapt", [this] { accepted_ = true; });
   }
-  /// Between two frames: gives the walker what is accepted, and saves it.
+  /// Call it between two frames: applies an accepted size to the walker, and saves it.
   void update();
-  /// Gives accepted sizes to a new walker.
+  /// Applies the accepted sizes to a new walker.
   void resize();
 
-  /// Adds the offer to what holds the body: "Y takes it: opening 0.68 m wide: a body of 0.33 m here".
+  /// Adds the offer to the hold: "Y takes it: opening 0.68 m wide: a body of 0.33 m here".
   void fill(Status& status) const;
-  /// How many sizes were accepted.
+  /// The number of accepted sizes.
   [[nodiscard]] int taken() const { return taken_; }
 
  private:
@@ -47,14 +47,14 @@ class Learning {
   News& news_;
   SizeLearner learner_;
   std::filesystem::path file_;  ///< empty: nothing is saved
-  bool takes_;                  ///< every offer
+  bool takes_;                  ///< accepts every offer
   bool accepted_ = false;
   std::optional<Lesson> lesson_;
-  double seconds_free_ = 0.0;  ///< since the body was stopped last
+  double seconds_free_ = 0.0;  ///< since the body was last stopped
   int taken_ = 0;
 };
 
-/// Why the body has the size that it has, from the region that it is in; empty outside all.
+/// The reason for the body's present size, from the profile's region around it; empty outside all regions.
 [[nodiscard]] std::string size_reason(const Walker& walker);
 
 }  // namespace roam::app

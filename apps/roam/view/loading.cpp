@@ -28,7 +28,7 @@ void Loading::tell(LoadState::Phase phase, double share, std::uint64_t triangles
   state_.share = share;
   state_.triangles = triangles;
   const double seconds = std::chrono::duration<double>(now - phase_start_).count();
-  // What is told after a moment's work, or of its first hundredth, is a guess that only confuses.
+  // Earlier estimates are guesses that confuse.
   constexpr double least_seconds = 1.0;
   constexpr double least_share = 0.01;
   state_.seconds_left = seconds > least_seconds && share > least_share ? seconds * (1.0 / share - 1.0) : -1.0;

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The life of a thread that loads something.
+/// A loading thread with its progress and its cancellation.
 
 #include <atomic>
 #include <chrono>
@@ -13,26 +13,26 @@
 
 namespace roam::app {
 
-/// Runs `load` in a thread of its own and keeps how far it is. What `load` throws becomes the state's error. Let it be
-/// the last member of its owner: it ends first, and `load` may use all others.
+/// Runs `load` in a thread of its own and keeps its progress. An exception of `load` becomes the state's error. Make it
+/// the last member of its owner: its destructor then runs first, and `load` may use all other members.
 class Loading {
  public:
   explicit Loading(std::function<void()> load);
-  /// Cancels, and waits for the end.
+  /// Cancels, and waits for the thread.
   ~Loading();
   Loading(const Loading&) = delete;
   Loading& operator=(const Loading&) = delete;
 
-  /// Lets `load` come to its end; does not wait for that.
+  /// Cancels without waiting.
   void cancel() { cancelled_ = true; }
-  /// For `load` to ask now and then: whether it is to go on.
+  /// For `load` to poll: false after cancel().
   [[nodiscard]] bool wanted() const { return !cancelled_; }
-  /// For `load` to say how far it is: `share` in [0, 1] of this phase, how many triangles so far. How long the phase
-  /// will take follows from that.
+  /// Sets the progress, from within `load`. `share`: of this phase, in [0, 1]. `triangles`: so far. Estimates the time
+  /// left from these.
   void tell(LoadState::Phase phase, double share, std::uint64_t triangles);
-  /// How far it is; from any thread.
+  /// Progress; from any thread.
   [[nodiscard]] LoadState state() const;
-  /// Calls `access` with the state and returns what it returns, while no other thread does either.
+  /// Calls `access` with the state under the lock, and returns its result.
   template <typename Access>
   auto with_state(const Access& access) {
     const std::lock_guard lock(mutex_);

@@ -10,8 +10,8 @@ namespace roam::app {
 namespace {
 
 constexpr double least_seconds = 6.0;
-constexpr double letter_seconds = 0.07;  // to read a long sentence
-constexpr std::size_t most_items = 4;    // lines at a time
+constexpr double letter_seconds = 0.07;  // reading time
+constexpr std::size_t most_items = 4;    // lines shown at a time
 
 void erase_where_a_path_begins(std::string& text, const std::string& folder) {
   for (std::size_t at = text.find(folder); at != std::string::npos; at = text.find(folder, at)) {

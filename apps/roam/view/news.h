@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Messages of a session to the person; notes and written files are kept for the report.
+/// Messages of a session to the person, and its notes and written files for the report.
 
 #include <filesystem>
 #include <string>
@@ -13,10 +13,10 @@ namespace roam::app {
 /// Sentences, each shown long enough to be read. Not thread-safe.
 class News {
  public:
-  /// Sentences leave out the folders of these scenes: the person knows where they are.
+  /// Sentences leave out the folders of these scenes, which the person knows.
   explicit News(std::vector<std::filesystem::path> scenes) : scenes_(std::move(scenes)) {}
 
-  /// The present time, in s; never less than before.
+  /// Sets the present time, in s; never decreasing.
   void set_time(double seconds) { now_ = seconds; }
   /// Shows a sentence for some seconds.
   void tell(std::string sentence, bool warning = false);

@@ -1,10 +1,10 @@
 #pragma once
 /// \file
-/// What OpenSceneGraph says by itself, for people.
+/// OpenSceneGraph's own notices, made printable.
 
 namespace roam::app {
 
-/// From now on it goes to standard error, made printable: it may hold names of a scene's files.
+/// Sends the notices to standard error, made printable, as they may contain names of a scene's files.
 void make_notices_printable();
 
 }  // namespace roam::app

@@ -42,7 +42,7 @@ std::string not_a_place(const std::string& text) {
   return fmt::format("'{}' is no place: X,Y,Z[,YAW[,PITCH]], three to five numbers with commas and no blanks", text);
 }
 
-/// "1,2,1.5,90": a place, perhaps yaw, perhaps pitch.
+/// "1,2,1.5,90": position, optionally yaw and pitch.
 std::vector<double> parse_place(const std::string& text) {
   std::vector<double> numbers;
   std::istringstream parts(text);
@@ -82,8 +82,7 @@ WalkerSettings walker_settings(const ViewOptions& options, const ViewSettings& s
   }
   const bool known_body = recorded || profile;
   const bool described = options.radius.has_value() || (replay && !known_body);
-  // What belongs together is taken from one place: a height from the settings is no height for a radius from the
-  // command line.
+  // All sizes come from one source: a height from the settings does not fit a radius from the command line.
   const auto body = [&](const std::optional<double>& option, const std::optional<double>& setting) {
     return option || described ? option : setting;
   };
@@ -91,12 +90,12 @@ WalkerSettings walker_settings(const ViewOptions& options, const ViewSettings& s
   const double sphere = 2.0 * walker.radius;
   const double tall = described || known.radius ? sphere : walker.height;
   walker.height = body(options.height, known.height).value_or(tall);
-  // On the body's axis the camera is a radius from everything.
+  // On the axis, the camera is a radius away from every surface.
   const double eye = std::max(std::min(walker.eye, walker.height - walker.radius), 0.0);
   walker.eye = body(options.eye, known.eye).value_or(eye);
   walker.step = body(options.step, known.step).value_or(std::min(walker.step, 0.5 * walker.height));
   if (known_body && options.height) {
-    // Another height for the body that was recorded or trained: the rest of it is made to fit.
+    // A new height for a recorded or trained body: fit the rest to it.
     walker.eye = options.eye.value_or(std::min(walker.eye, walker.height));
     walker.step = options.step.value_or(std::min(walker.step, 0.5 * walker.height));
   }
@@ -119,7 +118,7 @@ bool ends_in(const std::filesystem::path& file, std::initializer_list<const char
   return std::find(extensions.begin(), extensions.end(), files::lower_extension(file)) != extensions.end();
 }
 
-/// Refuses names that say no kind of picture or film that can be made.
+/// Refuses file names of unknown kinds of picture or film.
 void check_kinds(const ViewOptions& options) {
   if (!options.screenshot.empty() && !ends_in(options.screenshot, {".png", ".jpg", ".jpeg"})) {
     throw UsageError("--screenshot " + options.screenshot.string(), "a picture's name ends in .png, .jpg or .jpeg");
@@ -129,7 +128,7 @@ void check_kinds(const ViewOptions& options) {
   }
 }
 
-/// Refuses to write over what is read or written besides, and into folders that do not exist.
+/// Refuses outputs that would overwrite an input or another output, or whose folder does not exist.
 void check_files(const ViewOptions& options, const ViewSettings& settings) {
   const auto same = [](const std::filesystem::path& a, const std::filesystem::path& b) {
     std::error_code none;
@@ -172,7 +171,7 @@ void check_files(const ViewOptions& options, const ViewSettings& settings) {
 
 void ViewOptions::add_to(CLI::App& verb) {
   scene.add_to(verb);
-  // Not for --keys, which needs no scene.
+  // --keys needs no scene.
   verb.get_option("SCENE")->required(false);
   verb.get_option("--memory")->description("Memory for a store's collision (default: 64M)");
   verb.option_defaults()->group(scene_group);

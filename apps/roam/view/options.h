@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The options of `roam view`, and what follows from them and the settings file.
+/// The options of `roam view`, and the plan that follows from them and the settings file.
 
 #include <filesystem>
 #include <optional>
@@ -21,10 +21,10 @@ class App;
 
 namespace roam::app {
 
-/// As they stand on the command line.
+/// The options as given on the command line.
 struct ViewOptions {
   SceneOptions scene;
-  std::filesystem::path store;  ///< empty: look beside the scene
+  std::filesystem::path store;  ///< empty: search beside the scene
   std::optional<std::string> mode;
   std::optional<double> radius, height, eye, step, slope, speed, fov;
   std::string size = "1280x720";
@@ -35,39 +35,42 @@ struct ViewOptions {
   double dt = 1.0 / 60.0;
   std::filesystem::path screenshot, record, record_path, trace, settings;
   std::optional<std::string> hud;
-  double time_limit = 0.0;  ///< seconds after the start place is taken; 0: until somebody ends it
+  double time_limit = 0.0;  ///< seconds after the body's arrival; 0: no limit
   bool headless = false;
   bool verify = false;
   bool json = false;
   bool keys = false;
   bool no_profile = false;
   bool adapt = false;
-  std::filesystem::path program;  ///< no option: roam, which builds stores; empty: the running program
+  std::filesystem::path program;  ///< roam, for building stores; empty: the running program; no option
 
-  /// Adds all of them to a verb.
+  /// Adds all options to a verb.
   void add_to(CLI::App& verb);
 };
 
-/// What a session is to do: nothing that was left out is left open.
+/// The complete plan of a session, with defaults filled in.
 struct ViewPlan {
   WalkerSettings walker;
-  std::optional<SceneProfile> profile;  ///< that the body is taken from
+  std::optional<SceneProfile> profile;  ///< the profile that gives the body its size
   Mode mode = Mode::walk;
   double fov = 65.0;  ///< degrees
   double sensitivity = 1.0;
   bool invert_y = false;
   HudMode hud = HudMode::full;
   int width = 0, height = 0;   ///< pixels
-  std::vector<Waypoint> path;  ///< of --path, which make_plan does not read
+  std::vector<Waypoint> path;  ///< of --path; make_plan leaves it empty
   std::optional<Pose> at;
-  std::string note;  ///< what the person should know of it; or empty
+  std::string note;  ///< a sentence for the person; may be empty
 };
 
-/// A body that nobody described is a grown person (WalkerSettings); of one that was, as of `roam walk`, the height
-/// follows from the radius. A path is replayed by the body that `recorded` it, else by that of `roam walk`, described
-/// or not. A `profile` says the body where no radius is on the command line, whatever the settings file says. Throws
-/// UsageError for what cannot be meant, naming the settings file where a value comes from there, and for outputs that
-/// cannot be written or would overwrite each other or what is read.
+/// The plan for `options` and `settings`.
+///
+/// The default body is an adult (WalkerSettings). If a radius is given, the default height follows from it, as in `roam
+/// walk`. A path uses the body that `recorded` it, else the body of `roam walk`; never the sizes of the settings. If
+/// the command line has no radius, a `profile` gives the sizes, whatever the settings say.
+///
+/// Throws UsageError for contradictory or invalid options, with the settings file's name if the value comes from there.
+/// Throws it too for outputs that cannot be written, or would overwrite each other or an input.
 [[nodiscard]] ViewPlan make_plan(const ViewOptions& options, const ViewSettings& settings,
                                  const std::optional<RecordedBody>& recorded = std::nullopt,
                                  const std::optional<SceneProfile>& profile = std::nullopt);

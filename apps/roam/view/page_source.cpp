@@ -9,13 +9,13 @@
 namespace roam::app {
 namespace {
 
-/// What a reader could name without end.
+/// Limits against endless names from a reader.
 constexpr int depth_limit = 64;
 constexpr std::uint64_t token_bytes_limit = 1u << 30;
-/// What keeping a name takes besides.
+/// Bytes per name besides the token.
 constexpr std::uint64_t name_bytes = 400;
 
-/// Counts bytes for as long as it lives.
+/// Adds `bytes` to a shared sum while it exists.
 class Counted : public osg::Referenced {
  public:
   Counted(std::shared_ptr<std::atomic<std::uint64_t>> sum, std::uint64_t bytes) : sum_(std::move(sum)), bytes_(bytes) {
@@ -55,7 +55,7 @@ osg::ref_ptr<osg::Group> PageSource::make(const DisplayPart& part, int depth) {
 
 std::string PageSource::name_of(const DisplayPart& part, const std::string& token, int depth) {
   const std::lock_guard lock(mutex_);
-  // A page that the pager has dropped is named again by those that are read again.
+  // A dropped page gets its old name when it is read again.
   const auto [at, is_new] = names_.try_emplace({part.source, token});
   if (is_new) {
     token_bytes_ += token.size() + name_bytes;
@@ -82,10 +82,10 @@ PageSource::Result PageSource::readNode(const std::string& name, const osgDB::Op
     if (at == pages_.end()) return Result::FILE_NOT_FOUND;
     page = at->second;
   }
-  // Nothing was read, and OpenSceneGraph need not complain: who shows the scene says it.
+  // An empty result, without a warning from OpenSceneGraph: the session reports missing pages.
   const Result nothing(Result::FILE_LOADED);
   if (page.missing) return nothing;
-  // The pager lets pages go, and asks again.
+  // The pager will drop pages, and request this one again.
   if (*memory_ > memory_limit_) return nothing;
   ++events_;
   ++under_way_;
@@ -93,7 +93,7 @@ PageSource::Result PageSource::readNode(const std::string& name, const osgDB::Op
   try {
     node = read(page);
   } catch (const std::exception& problem) {
-    // The coarser page stays.
+    // The coarser page stays visible.
     const std::lock_guard lock(mutex_);
     pages_[name].missing = true;
     if (missing_++ == 0) problem_ = problem.what();

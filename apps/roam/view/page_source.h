@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Gives OpenSceneGraph's pager the pages that it wants.
+/// Source of the pages that OpenSceneGraph's pager requests.
 
 #include <atomic>
 #include <cstdint>
@@ -17,24 +17,24 @@
 
 namespace roam::app {
 
-/// Reads every node that OpenSceneGraph reads while it is the Registry's callback: pages by the names that it has made
-/// itself, in another process, and nothing else. A name never is that of a file. Counts what it reads, and remembers
-/// what cannot be read: OpenSceneGraph asks for it again in every frame. All members may be called from any thread.
+/// Handles every node that OpenSceneGraph reads, as the Registry's callback. It reads only pages, by names that it made
+/// itself, in another process. A name never is a file's. It counts the reads and remembers failed pages, which
+/// OpenSceneGraph requests again in every frame. Thread-safe.
 class PageSource : public osgDB::ReadFileCallback {
  public:
   PageSource(std::vector<std::filesystem::path> paths, const ImportOptions& options, const TextureQuality& quality);
 
-  /// The nodes of a part; what it names as pages can be read from now on. Throws roam::Error when these are more than
-  /// any scene has.
+  /// The nodes of a part; the pages that it names can be read from now on. Throws roam::Error if there are more pages
+  /// than any scene has.
   [[nodiscard]] osg::ref_ptr<osg::Group> make(const DisplayPart& part) { return make(part, 0); }
-  /// Lets every reading, now and later, come to its end at once.
+  /// Ends every read at once, present and future ones.
   void cancel() { reader_.cancel(); }
 
-  /// Pages that could not be read while they were wanted.
+  /// The number of pages that could not be read.
   [[nodiscard]] std::uint64_t missing() const;
-  /// Why the first of them could not; empty where there is none.
+  /// The error of the first such page; empty if there is none.
   [[nodiscard]] std::string problem() const;
-  /// Changes whenever a reading begins or ends.
+  /// A count that changes whenever a read begins or ends.
   [[nodiscard]] std::uint64_t events() const { return events_; }
   [[nodiscard]] bool is_reading() const { return under_way_ > 0; }
 
@@ -54,7 +54,7 @@ class PageSource : public osgDB::ReadFileCallback {
     std::uint32_t source = 0;
     Vec3 origin{0.0};
     std::string token;
-    int depth = 0;  ///< pages through which it is reached
+    int depth = 0;  ///< pages between it and the root
     bool missing = false;
   };
 
@@ -66,7 +66,7 @@ class PageSource : public osgDB::ReadFileCallback {
   PageReader reader_;
   TextureQuality quality_;
   std::uint64_t memory_limit_;
-  std::shared_ptr<std::atomic<std::uint64_t>> memory_;  ///< bytes of the pages that there are
+  std::shared_ptr<std::atomic<std::uint64_t>> memory_;  ///< bytes of the pages in memory
   mutable std::mutex mutex_;
   std::map<std::pair<std::uint32_t, std::string>, std::string> names_;  ///< by source and token
   std::map<std::string, Page> pages_;                                   ///< by name

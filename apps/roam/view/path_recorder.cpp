@@ -11,7 +11,7 @@
 namespace roam::app {
 namespace {
 
-constexpr double period = 0.1;  // s: what a person does in less is not a way of its own
+constexpr double period = 0.1;  // s: a person's shorter movements need no line
 
 }  // namespace
 
@@ -25,7 +25,7 @@ PathRecorder::PathRecorder(const std::filesystem::path& file, const WalkerSettin
 PathRecorder::~PathRecorder() {
   try {
     if (!closed_) close();
-  } catch (const Error&) {  // the error that cut it short is the one to be told
+  } catch (const Error&) {  // the first error is the one to report
   }
 }
 
@@ -41,7 +41,7 @@ void PathRecorder::add(double time, const Vec3& position, const std::array<doubl
   }
   const auto differ = [](const Line& a, const Line& b) { return a.position != b.position || a.rotation != b.rotation; };
   if (time - written_.time >= period && differ(line, written_)) {
-    // After a rest, the way begins where and when the rest ended.
+    // After a rest, the path continues where and when the rest ended.
     if (last_.time > written_.time && !differ(last_, written_)) write(last_);
     write(line);
   }

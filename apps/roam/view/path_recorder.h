@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Writes the way of a session as a path file.
+/// Writer of a path file from a session.
 
 #include <array>
 #include <exception>
@@ -13,12 +13,12 @@
 namespace roam::app {
 
 /// Writes osgViewer's lines `t x y z qx qy qz qw`: the time since the recording began, the body's centre in the scene's
-/// frame, and the rotation of the camera; and the body, see recorded_body.h. What is written can be gone again by
-/// `--path`. What was there stays until close(). Each line is written at once, so that after a crash the temporary file
-/// has the way so far.
+/// frame, and the camera's rotation. It writes the body too; see recorded_body.h. `--path` replays the file. An
+/// existing file stays until close(). Each line is written at once, so that a temporary file with the path so far
+/// survives a crash.
 class PathRecorder {
  public:
-  /// Begins a file, and says the body in it. Throws roam::Error when it cannot be written.
+  /// Begins a file with the body in it. Throws roam::Error if it cannot be written.
   PathRecorder(const std::filesystem::path& file, const WalkerSettings& body, Mode mode,
                files::Naming naming = files::Naming::exact);
   /// Closes a recording that an error cut short.
@@ -26,14 +26,14 @@ class PathRecorder {
   PathRecorder(const PathRecorder&) = delete;
   PathRecorder& operator=(const PathRecorder&) = delete;
 
-  /// Where the body is at `time` (s, never less than the time before). Writes when a tenth of a second has passed since
-  /// the last line and something moved.
+  /// Adds the body's position at `time` (s, never decreasing). Writes a line when a tenth of a second has passed since
+  /// the last one and something moved.
   void add(double time, const Vec3& position, const std::array<double, 4>& rotation, Mode mode);
-  /// Writes where it ends, and gives the file its name. Returns its path. Throws roam::Error when not everything could
-  /// be written: then there is no new file.
+  /// Writes the last position, and gives the file its name. Returns its path. Throws roam::Error if not everything
+  /// could be written; then there is no new file.
   std::filesystem::path close();
 
-  [[nodiscard]] double seconds() const { return last_.time - begin_; }  ///< since it began
+  [[nodiscard]] double seconds() const { return last_.time - begin_; }  ///< since the recording began
 
  private:
   struct Line {
@@ -45,11 +45,11 @@ class PathRecorder {
   void write(std::string_view text);
 
   files::WholeFile out_;
-  std::exception_ptr failure_;  ///< the first; what comes after it is not written
+  std::exception_ptr failure_;  ///< the first failure; nothing is written after it
   Mode mode_;
   double begin_ = 0.0;
-  Line last_;     ///< that was seen
-  Line written_;  ///< that was written last
+  Line last_;     ///< added last
+  Line written_;  ///< written last
   bool empty_ = true, closed_ = false;
 };
 

@@ -1,13 +1,13 @@
 #pragma once
 /// \file
-/// Where a body is and where it looks.
+/// Position and direction of a body.
 
 #include "roam/math.h"
 
 namespace roam::app {
 
-/// `position` is of the body's centre, in metres in the scene's frame. Angles in degrees: `yaw` 0 looks along +x, 90
-/// along +y; `pitch` 90 looks straight up.
+/// `position`: the body's centre, in metres, in the scene's frame. Angles in degrees: `yaw` 0 looks along +x, 90 along
+/// +y; `pitch` 90 looks straight up.
 struct Pose {
   Vec3 position{0.0};
   double yaw = 0.0;

@@ -17,26 +17,27 @@
 
 namespace roam::app {
 
-/// Records the way of the body, and keeps places. Needs no window. All members belong to one thread, between two
-/// frames; what records or keeps a place needs a walker.
+/// Records the body's path, and keeps bookmarks. Needs no window. Call all members from one thread, between two frames.
+/// Recording and adding bookmarks need a walker.
 class Records {
  public:
   /// Reads the scene's bookmarks from settings_folder(); a warning says why they cannot be read.
   Records(const SceneOptions& scene, osgRoam::Manipulator& roamer, News& news);
 
-  /// The place of that name. Throws roam::Error if the bookmarks cannot be read, UsageError if there is no such name.
+  /// The bookmark of that name. Throws roam::Error if the bookmarks cannot be read, UsageError if there is no such
+  /// name.
   [[nodiscard]] Pose named(const std::string& name);
-  /// Keeps where the body is. Throws roam::Error if that cannot be done.
+  /// Adds the body's pose. Throws roam::Error on failure.
   void add_bookmark();
-  /// Puts the body to the next bookmark, or the one before; first to the first, or the last.
+  /// Puts the body at the next bookmark, or the previous one; at first, at the first or the last.
   void go_to_next_bookmark(bool backwards);
-  /// Adds these two as "bookmark" and "next_bookmark"; and "record", which ends the recording, or begins one in the
-  /// current folder under a new name.
+  /// Adds both as "bookmark" and "next_bookmark". Adds "record", which ends the recording, or begins one in the current
+  /// folder under a new name.
   void add_to(Commands& commands);
 
-  /// Begins to record the way. Throws roam::Error if the file cannot be written.
+  /// Begins to record the path. Throws roam::Error if the file cannot be written.
   void record(const std::filesystem::path& file, files::Naming naming = files::Naming::exact);
-  /// In each frame with a body. `now`: s since the session began.
+  /// Call it in each frame with a body. `now`: seconds since the session began.
   void add_frame(double now);
   /// Ends the recording, if there is one.
   void finish();
@@ -47,7 +48,7 @@ class Records {
   osgRoam::Manipulator& roamer_;
   News& news_;
   std::optional<Bookmarks> bookmarks_;
-  std::optional<Error> problem_;  ///< why there are no bookmarks
+  std::optional<Error> problem_;  ///< why the bookmarks cannot be read
   std::optional<PathRecorder> recorder_;
 };
 

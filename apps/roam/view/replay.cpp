@@ -7,10 +7,10 @@
 namespace roam::app {
 namespace {
 
-constexpr double look_ahead = 4.0;     // m of the way, so that one looks into a bend before one is in it
-constexpr double turning_time = 0.35;  // s in which the gaze makes most of a turn
+constexpr double look_ahead = 4.0;     // m along the path: turns the gaze into a bend early
+constexpr double turning_time = 0.35;  // s: time constant of a turn of the gaze
 
-/// Where a camera with this rotation looks: OpenSceneGraph's cameras look along their own -z.
+/// The direction of a camera with this rotation: OpenSceneGraph's cameras look along their own -z.
 Vec3 view_direction(const std::array<double, 4>& q) {
   const auto [x, y, z, w] = q;
   const Vec3 d(-2.0 * (x * z + w * y), -2.0 * (y * z - w * x), 2.0 * (x * x + y * y) - 1.0);
@@ -72,11 +72,11 @@ Vec3 Replay::direction_ahead() const {
     left -= length;
   }
   Vec3 ahead = place - walker_->position();
-  // Near the end the gaze stays as it was.
+  // Near the end, keep the gaze.
   constexpr double least = 0.5;
   if (glm::length(ahead) < least) return direction_.value_or(Vec3(1.0, 0.0, 0.0));
   ahead = glm::normalize(ahead);
-  // On foot one looks where one goes, not at one's feet; the waypoints' heights say little about that.
+  // When walking, look ahead, not at the feet: the heights of waypoints say little about the slope.
   if (mode_ == Mode::walk) ahead.z = std::clamp(ahead.z, -0.3, 0.3);
   return glm::normalize(ahead);
 }
@@ -89,7 +89,7 @@ Replay::Gaze Replay::gaze(double seconds) {
   } else {
     const double share = 1.0 - std::exp(-seconds / turning_time);
     Vec3 turned = (1.0 - share) * *direction_ + share * wish;
-    // Straight back: any side will do.
+    // A turn of 180 degrees: any side will do.
     if (glm::length(turned) < 0.1) turned += Vec3(-direction_->y, direction_->x, 0.0);
     direction_ = glm::normalize(turned);
   }

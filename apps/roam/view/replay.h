@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Leads the body along a path file, and the eye with it: `roam view --path`.
+/// Replay of a path file by body and eye: `roam view --path`.
 
 #include <optional>
 #include <vector>
@@ -12,29 +12,28 @@
 
 namespace roam::app {
 
-/// A walk along waypoints, exactly that of `roam walk` with the same options.
+/// A walk along waypoints, identical to that of `roam walk` with the same options.
 class Replay {
  public:
   Replay(Walker& walker, const std::vector<Waypoint>& path, const RouteOptions& options);
 
-  /// From now on leads the manipulator's body, and its eye when look() is called in each frame.
+  /// Attaches the manipulator's body. Its eye follows when look() is called in each frame.
   void lead(osgRoam::Manipulator& roamer);
   void look(osgRoam::Manipulator& roamer, double seconds);
 
-  /// One step; its report, or null when the path has come to its end before.
+  /// Performs one step. Returns its report, or null after the end of the path.
   const StepReport* advance();
   [[nodiscard]] bool done() const { return route_.done() || left_; }
-  /// The path has come to an end of its own: result() says to which.
+  /// Whether the path has ended by itself; result() has its outcome.
   [[nodiscard]] bool ended() const { return route_.done(); }
   [[nodiscard]] const RouteResult& result() const { return route_.result(); }
-  /// The person has changed the mode: the rest of the path is not gone.
+  /// Whether the person has changed the mode, which ends the replay.
   [[nodiscard]] bool left() const { return left_; }
 
-  /// The velocity towards the next waypoint, m/s; its length is only roughly right.
+  /// The velocity towards the next waypoint, m/s. Its length is approximate.
   [[nodiscard]] Vec3 wish() const;
 
-  /// Where to look, radians: as the path was recorded, else along the way ahead. Turns softly; `seconds` since last
-  /// asked.
+  /// Direction of the eye, radians: as recorded, else smoothly along the path ahead. `seconds`: since the last call.
   struct Gaze {
     double yaw = 0.0;
     double pitch = 0.0;
@@ -53,7 +52,7 @@ class Replay {
   double speed_;
   Mode mode_;
   bool left_ = false;
-  std::optional<Vec3> direction_;  ///< unit, of the gaze
+  std::optional<Vec3> direction_;  ///< unit vector of the gaze
 };
 
 }  // namespace roam::app

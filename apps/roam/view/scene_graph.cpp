@@ -8,8 +8,8 @@
 namespace roam::app {
 namespace {
 
-/// In so many frames without a page that came or is under way, the pager has had time to ask for all it wants: it asks
-/// for one level a frame, and merges what has come in the next.
+/// Frames without a new or pending page until the pager has requested all that it needs. It requests one level a frame,
+/// and merges the results in the next.
 constexpr int quiet_frames_needed = 6;
 
 }  // namespace
@@ -26,7 +26,7 @@ SceneGraph::SceneGraph(osgViewer::Viewer& viewer, osg::Group& parent, std::uniqu
 }
 
 SceneGraph::~SceneGraph() {
-  // Its threads may be reading by the callback that goes now; what they wait for comes to its end first.
+  // The pager's threads may still use the callback: end their reads first.
   loader_->cancel();
   if (osgDB::DatabasePager* pager = viewer_.getDatabasePager()) pager->cancel();
   osgDB::Registry::instance()->setReadFileCallback(nullptr);

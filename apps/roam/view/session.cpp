@@ -27,7 +27,7 @@ std::unique_ptr<DisplayLoader> load_picture(const SceneAndStore& what, Collision
 
 }  // namespace
 
-// Collision and picture are read from the same files at the same time, each by a process that can only fail alone.
+// Collision and picture are read from the same files at the same time, by separate processes that fail separately.
 Session::Session(const ViewOptions& options, const ViewPlan& plan, const ViewSettings& settings)
     : what_(scene_and_store(options.scene, options.store)),
       options_(with_scene(options, what_)),
@@ -53,13 +53,13 @@ Session::Session(const ViewOptions& options, const ViewPlan& plan, const ViewSet
   commands_.add("quit", [this] { quits_ = true; });
   roamer_->setCommandCallback([this](const std::string& name) { run(name); });
   stage_.viewer().addEventHandler(new SessionHandler(*this));
-  // The handler does it: the viewer would end on Escape before anybody could take it for something else.
+  // SessionHandler handles Escape; the viewer would end before any other use of the key.
   stage_.viewer().setKeyEventSetsDone(0);
   show_keys();
 }
 
 Session::~Session() {
-  // All at once: each takes a moment to end.
+  // Cancel all first: each takes a moment to end.
   building_.cancel();
   scene_.cancel();
   arrival_.loader().cancel();
@@ -77,7 +77,7 @@ bool Session::frame() {
 
   arrival_.fly_without_ground();
   stage_.see_events();
-  // Headless frames run faster than real time: they wait for tiles that would have loaded meanwhile.
+  // Headless frames run faster than real time: wait for the tiles that would have loaded meanwhile.
   if (stage_.headless() && roaming()) arrival_.wait_for_tiles(passed);
   arrival_.fly_without_ground();
   if (learning_) learning_->update();
@@ -110,14 +110,14 @@ void Session::enter() {
   arrival_.enter();
   show_keys();
   placed_at_ = stage_.now();
-  // The way that led here is none of the session's.
+  // Placement is not part of the session's path.
   roamer_->setStepCallback([this](const StepReport& report, double seconds) { step_taken(report, seconds); });
   if (plan_.path.empty()) step_taken(roamer_->report(), 0.0);
   cameras_->setNode(stage_.frame().root());
   stage_.viewer().setCameraManipulator(cameras_, false);
   if (!options_.record_path.empty()) records_.record(options_.record_path);
   if (plan_.path.empty()) return;
-  // The path leads at once: whether there is something to stand on is for it to find out, as in `roam walk`.
+  // The path leads at once, and finds missing ground itself, as in `roam walk`.
   replay_.emplace(*roamer_->walker(), plan_.path, RouteOptions{.speed = plan_.walker.speed, .dt = options_.dt});
   replay_->lead(*roamer_);
 }
@@ -136,7 +136,7 @@ void Session::see_to_store() {
   if (const auto choice = arrival_.loader().take_choice()) building_.consider(*choice);
   if (arrival_.loader().wants_store()) building_.recommend();
   building_.follow(place());
-  // A path that is being replayed keeps its walker, and that its space.
+  // A replay keeps its walker, and the walker its space.
   if (!roaming() || is_replaying()) return;
   if (std::shared_ptr<Pager> pager = building_.take()) {
     arrival_.change_to(std::move(pager));
@@ -145,7 +145,7 @@ void Session::see_to_store() {
   }
 }
 
-/// Where the body is, or probably will be.
+/// The body's position, or the expected one.
 Vec3 Session::place() const {
   if (roaming()) return roamer_->walker()->position();
   return scene_.bounds().empty() ? Vec3(0.0) : scene_.bounds().center();

@@ -29,41 +29,41 @@ namespace roam::app {
 ///     StoreBuilding  builds the scene's store meanwhile
 ///     Learning       sizes of the body
 ///     Records        the recorded path, bookmarks
-///     Display        what is shown beside the scene
+///     Display        head-up display, marks, overview
 ///     Stage          window, time, pictures and films
 ///
-/// All of them tell News, and add to Commands what their keys do. The body collides with the scene's store if there is
-/// one of this very scene, else with the scene as it was read. A store that is built meanwhile takes its place.
+/// All of them write to News, and add their actions to Commands. The body collides with the scene's store if it matches
+/// the scene, else with the scene as read. A store that is built meanwhile replaces it.
 ///
-/// Everything between two frames happens in the thread that calls frame(). Reading, indexing and the search for a start
+/// Everything between two frames runs in the thread that calls frame(). Reading, indexing and the search for a start
 /// have threads of their own and never delay a frame.
 ///
-/// Time: in a window it is that of the clock. Headless, every frame is 1/60 s, however long it takes, and frames that
-/// nobody sees are not drawn.
+/// In a window, time follows the clock. Headless, every frame is 1/60 s, however long it takes, and frames that nothing
+/// records are not drawn.
 class Session {
  public:
-  /// Opens the window and begins to load. Throws roam::Error and UsageError for what cannot be begun.
+  /// Opens the window and begins to load. Throws roam::Error or UsageError if that is impossible.
   Session(const ViewOptions& options, const ViewPlan& plan, const ViewSettings& settings);
   ~Session();
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;
 
-  /// One frame. False at the end of the session: closed, or everything is done. Throws roam::Error if nothing of the
+  /// Runs one frame. False at the end of the session: closed, or all work done. Throws roam::Error if nothing of the
   /// scene can be loaded, or if the path or --verify is not possible.
   bool frame();
-  /// Ends the session: writes what is still to be written.
+  /// Ends the session and writes its outputs.
   [[nodiscard]] ViewReport finish();
 
-  /// Commands::run; the display shows at once what it did.
+  /// Commands::run; the display shows the effect at once.
   bool run(const std::string& command);
 
   [[nodiscard]] osgRoam::Manipulator& roamer() { return *roamer_; }
   [[nodiscard]] Stage& stage() { return stage_; }
   [[nodiscard]] const WalkLog& log() const { return log_; }
   [[nodiscard]] const Status& status() const { return display_.shown(); }
-  /// Whether the body is in the scene; the person leads it, or the path.
+  /// Whether the body is in the scene, led by the person or the path.
   [[nodiscard]] bool roaming() const { return arrival_.is_placed(); }
-  /// Whether keys go to the body's camera, not to one of the others.
+  /// Whether the body's camera receives the keys.
   [[nodiscard]] bool roamer_leads() const { return roaming() && cameras_->leads(*roamer_); }
 
  private:

@@ -21,7 +21,7 @@ bool SessionHandler::handle(const osgGA::GUIEventAdapter& event, osgGA::GUIActio
   return command != nullptr && session_.run(command->name);
 }
 
-/// Closes the help, else frees the mouse. False if there is neither.
+/// Closes the help, else releases the mouse. False if there is neither.
 bool SessionHandler::step_out() {
   graphics::Hud& hud = session_.stage().hud();
   osgRoam::Manipulator& roamer = session_.roamer();
@@ -32,11 +32,11 @@ bool SessionHandler::step_out() {
 }
 
 bool SessionHandler::handle_escape(bool down) {
-  // The settings may want it for something else.
+  // The settings may give Escape to another command.
   const auto* command = session_.roamer().controls().lookup(osgGA::GUIEventAdapter::KEY_Escape, false);
   if (command != nullptr && command->name != "release") return false;
   if (down) {
-    // A key that stays down is pressed again and again.
+    // A held key repeats.
     escape_spent_ |= step_out();
   } else if (!std::exchange(escape_spent_, false)) {
     session_.run("quit");

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What a session sees of the viewer's events beside its manipulators.
+/// The session's handler of window events.
 
 #include <osgGA/GUIEventHandler>
 
@@ -8,8 +8,8 @@ namespace roam::app {
 
 class Session;
 
-/// Runs the viewer's commands while another camera than the body's has the keys, or none has yet; and sees to Escape,
-/// which closes the help, gives the mouse back, or ends.
+/// Runs the viewer's commands while another camera than the body's receives the keys, or none yet. Handles Escape,
+/// which closes the help, releases the mouse, or ends the session.
 class SessionHandler : public osgGA::GUIEventHandler {
  public:
   explicit SessionHandler(Session& session) : session_(session) {}
@@ -22,7 +22,7 @@ class SessionHandler : public osgGA::GUIEventHandler {
   bool handle_escape(bool down);
 
   Session& session_;
-  bool escape_spent_ = false;  ///< it has done something when it went down: that it goes up ends nothing
+  bool escape_spent_ = false;  ///< Escape acted when pressed; its release does not end the session
 };
 
 }  // namespace roam::app

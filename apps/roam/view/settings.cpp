@@ -17,7 +17,7 @@ namespace {
 
 using json = nlohmann::ordered_json;
 
-/// An object of the file, whose entries are taken out one by one; what is left at the end is unknown.
+/// An object of the file. Reading removes its entries; the remaining ones are unknown.
 class Section {
  public:
   Section(const std::filesystem::path& file, std::string where, json object)
@@ -123,7 +123,7 @@ ViewSettings read_settings(const std::filesystem::path& file) {
   } catch (const Error& error) {
     throw Error(file.string(), error.what());
   }
-  // Far wider than anything sensible: what they bound exactly is for those who use them to say.
+  // Wide limits against nonsense; the users of the values check exactly.
   constexpr double metres = 1000.0;
   constexpr double least = 1e-3;
   ViewSettings settings;

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The settings file of `roam view`: what a person likes, for all scenes.
+/// The settings file of `roam view`: a person's preferences for all scenes.
 ///
 /// A JSON object; every entry may be left out:
 ///
@@ -30,31 +30,29 @@ enum class HudMode : std::uint8_t { full, minimal, off };
 [[nodiscard]] std::optional<HudMode> parse_hud_mode(const std::string& text);
 
 struct ViewSettings {
-  std::filesystem::path file;                            ///< they come from; for messages
-  std::map<std::string, std::vector<std::string>> keys;  ///< names of keys for a command; the others keep theirs
-  std::optional<double> sensitivity;                     ///< of the mouse, > 0; 1 is the usual
-  std::optional<bool> invert_y;                          ///< pushing the mouse forward looks down
+  std::filesystem::path file;                            ///< the settings' source, for messages
+  std::map<std::string, std::vector<std::string>> keys;  ///< key names for a command; other commands keep theirs
+  std::optional<double> sensitivity;                     ///< of the mouse, > 0; default 1
+  std::optional<bool> invert_y;                          ///< moving the mouse forward looks down
   std::optional<double> radius, height, eye, step;       ///< metres
   std::optional<double> slope;                           ///< degrees
   std::optional<double> speed;                           ///< metres per second
-  std::optional<double> fov;                             ///< degrees, of the height of the picture
+  std::optional<double> fov;                             ///< degrees, vertical
   std::optional<HudMode> hud;
 };
 
-/// The field of view may be in [min, max] degrees.
+/// Range of the field of view, degrees.
 inline constexpr double least_fov = 10.0;
 inline constexpr double largest_fov = 150.0;
 
-/// The folder of settings and bookmarks: $XDG_CONFIG_HOME/roam, else ~/.config/roam. Empty when neither variable is
-/// set.
+/// The folder of settings and bookmarks: $XDG_CONFIG_HOME/roam, else ~/.config/roam. Empty if neither variable is set.
 [[nodiscard]] std::filesystem::path settings_folder();
 
-/// Reads a file. Throws roam::Error naming file and entry for what is no JSON, no entry of the list above or out of
-/// range.
+/// Reads a file. Throws roam::Error with file and entry for invalid JSON, an unknown entry, or a value out of range.
 [[nodiscard]] ViewSettings read_settings(const std::filesystem::path& file);
 
-/// The file that was asked for, which must exist; else settings.json in settings_folder(), if there is one; else
-/// nothing is set.
+/// The settings of the file `asked`, which must exist; else of settings.json in settings_folder(), if there is one;
+/// else none.
 [[nodiscard]] ViewSettings find_settings(const std::filesystem::path& asked);
 
 }  // namespace roam::app

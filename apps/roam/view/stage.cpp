@@ -16,11 +16,10 @@ namespace roam::app {
 namespace {
 
 constexpr double headless_frame = 1.0 / 60.0;  // s
-// Where nothing else keeps the frames from running free: no screen shows more.
+// Limits the frame rate if nothing else does: few screens are faster.
 constexpr auto shortest_frame = std::chrono::microseconds(6900);
 
-/// Letters and pictures are all that OpenSceneGraph's plugins are wanted for in this process. After this it loads no
-/// other library, whatever it comes upon.
+/// Loads OpenSceneGraph's plugins for letters and pictures. Later it loads no other library, whatever a file requests.
 void load_plugins() {
   for (const char* plugin : {"freetype", "png", "jpeg"}) osg_plugins::load(plugin);
   osg_plugins::close_door([](const std::string& name, const osgDB::Options*) {
@@ -54,12 +53,12 @@ graphics::Detail detail(HudMode mode) {
 
 Stage::Stage(const ViewOptions& options, const ViewPlan& plan)
     : context_(open(options, plan)), viewer_(new osgViewer::Viewer) {
-  // One thread: events, steps and drawing follow each other, and what is seen is never older than one frame.
+  // One thread: events, steps and drawing follow each other, and the picture is at most one frame old.
   viewer_->setThreadingModel(osgViewer::ViewerBase::SingleThreaded);
   graphics::FrameSettings settings;
   settings.vertical_fov = plan.fov;
   settings.near = graphics::near_limit(plan.walker.radius, plan.fov, static_cast<double>(plan.width) / plan.height);
-  // Drawing by the processor, several samples a pixel cost several times as much: a smooth walk is worth more.
+  // In software, several samples a pixel cost several times as much; smoothness is worth more.
   if (context_.abilities.software && !context_.headless) settings.samples = 1;
   frame_.emplace(*viewer_, context_, settings);
   frame_->space()->addChild(graphics::make_sky());
@@ -74,7 +73,7 @@ Stage::Stage(const ViewOptions& options, const ViewPlan& plan)
 }
 
 TextureQuality Stage::texture_quality() const {
-  // A processor takes each sample by itself: ground that is seen at a flat angle would take minutes a frame.
+  // Software computes each sample separately: ground seen at a flat angle would take minutes a frame.
   return context_.abilities.software ? TextureQuality{1.0f} : TextureQuality{};
 }
 
@@ -104,7 +103,7 @@ void Stage::add_to(Commands& commands) {
   commands.add("picture", [this] { pictures_.emplace_back(*frame_, "roam.png", true, files::Naming::numbered); });
 }
 
-/// From full to minimal, off, and full again.
+/// Cycles from full to minimal, off, and full again.
 void Stage::cycle_hud() {
   set_hud(hud_mode_ == HudMode::full ? HudMode::minimal : hud_mode_ == HudMode::minimal ? HudMode::off : HudMode::full);
 }
@@ -119,7 +118,7 @@ void Stage::toggle_fullscreen() {
   const int across = static_cast<int>(screen_width), down = static_cast<int>(screen_height);
   if (fullscreen_) {
     window.setWindowDecoration(true);
-    // To the middle: of where a window is, OpenSceneGraph says twice the truth where no window manager frames it.
+    // Centre the window: without a window manager, OpenSceneGraph reports twice its true position.
     window.setWindowRectangle((across - width_) / 2, (down - height_) / 2, width_, height_);
   } else {
     width_ = frame_->width();
@@ -195,7 +194,7 @@ void Stage::draw_if_seen(bool wanted) {
   } else if (wanted || (runs_ && film_ && film_->is_due(now_))) {
     draw();
   } else if (!runs_) {
-    // Nothing to see and nothing to do but wait for those who load.
+    // Nothing to draw: leave the processor to the loaders.
     std::this_thread::sleep_for(std::chrono::milliseconds(2));
   }
 }

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Where a session is shown: window or none, picture, display, pictures and films of it.
+/// The output of a session: window or off-screen picture, head-up display, pictures and films.
 
 #include <chrono>
 #include <filesystem>
@@ -26,16 +26,16 @@
 
 namespace roam::app {
 
-/// A picture that has been taken.
+/// The result of taking a picture.
 struct Picture {
   std::filesystem::path file;
-  std::string problem;  ///< why it could not be written; empty: it is
+  std::string problem;  ///< why it could not be written; empty: it was
 };
 
-/// Opens a place to draw to and draws there. All of it belongs to one thread.
+/// Opens a window or an off-screen buffer, and draws there. Call all members from one thread.
 class Stage {
  public:
-  /// Throws roam::Error when there is no display or no OpenGL, or no film can be made; the message says what to do.
+  /// Throws roam::Error if there is no display, no OpenGL, or no film can be made; the message says what to do.
   Stage(const ViewOptions& options, const ViewPlan& plan);
 
   [[nodiscard]] osgViewer::Viewer& viewer() { return *viewer_; }
@@ -45,36 +45,35 @@ class Stage {
   [[nodiscard]] bool headless() const { return context_.headless; }
   [[nodiscard]] TextureQuality texture_quality() const;
 
-  /// Shows the lines and the message; changes nothing when they are what is shown.
+  /// Shows the lines and the message; does nothing if they are shown already.
   void show(const Status& status);
   void set_hud(HudMode mode);
-  /// Adds "help", "hud", "fullscreen" and "picture", which writes numbered files; `poll_pictures` tells when one is
+  /// Adds "help", "hud", "fullscreen" and "picture", which writes numbered files. poll_pictures() returns them when
   /// written.
   void add_to(Commands& commands);
 
-  /// The pictures that are done since last asked.
+  /// The pictures finished since the last call.
   [[nodiscard]] std::vector<Picture> poll_pictures();
 
-  /// Begins a frame. Returns its seconds: in a window those of the clock; headless 1/60 if the session `runs`, else 0,
-  /// so that a session is the same on every machine.
+  /// Begins a frame. Returns its seconds: by the clock in a window. Headless: 1/60 if the session `runs`, else 0, so
+  /// that a session is the same on every machine.
   double advance(bool runs);
   /// Seconds since the session began.
   [[nodiscard]] double now() const { return now_; }
-  /// Lets all handlers see the events of the frame.
+  /// Passes the frame's events to all handlers.
   void see_events();
-  /// Updates and draws the frame. Events must have been seen to.
+  /// Updates and draws the frame. Call see_events() first.
   void draw();
-  /// Draws the frame if somebody sees it: in a window, or in a film that is due; or if it is `wanted`. Then rests, so
-  /// that frames do not run free.
+  /// Draws the frame if it is `wanted`, shown in a window, or due in a film. Then rests, which limits the frame rate.
   void draw_if_seen(bool wanted);
-  /// Draws one frame into a file and waits for it. Throws roam::Error when it can not be written.
+  /// Draws one frame into a file and waits for it. Throws roam::Error if it cannot be written.
   void draw_picture(const std::filesystem::path& path);
-  /// Adds the frames, and the files that options ask for.
+  /// Adds the frame statistics, and the files that options request.
   void fill(ViewReport& report) const;
-  /// Ends film and pictures. Throws roam::Error when one of them could not be written.
+  /// Ends film and pictures. Throws roam::Error if one of them could not be written.
   void finish();
 
-  /// 0 until there were two: the first one sets everything up.
+  /// 0 before the second frame; the first one includes the setup.
   [[nodiscard]] double last_frame_ms() const { return last_ms_; }
 
  private:
@@ -91,7 +90,7 @@ class Stage {
   std::optional<Film> film_;
   std::vector<graphics::Screenshot> pictures_;
   HudMode hud_mode_ = HudMode::full;
-  std::vector<std::string> written_;  ///< film and picture
+  std::vector<std::string> written_;  ///< names of film and picture
   const Clock::time_point begin_ = Clock::now();
   Clock::time_point frame_begin_ = begin_;
   double now_ = 0.0;  ///< s
@@ -99,7 +98,7 @@ class Stage {
   Histogram times_;  ///< ns
   double last_ms_ = 0.0;
   bool fullscreen_ = false;
-  int width_ = 0, height_ = 0;  ///< pixels, of the window before it filled the screen
+  int width_ = 0, height_ = 0;  ///< pixels, of the window before full screen
 };
 
 }  // namespace roam::app

@@ -18,9 +18,9 @@ namespace {
 
 constexpr double degree = std::numbers::pi / 180.0;
 constexpr int headings = 32;
-// Metres. Of a store, what is looked at to find where to look.
+// m: radius that is loaded from a store to choose the direction
 constexpr double sight = 60.0;
-constexpr double overview_yaw = 60.0;     // degrees: two sides of a building are seen, none of them face on
+constexpr double overview_yaw = 60.0;     // degrees: shows two sides of a building, neither frontally
 constexpr double overview_pitch = -30.0;  // degrees
 
 Vec3 direction(double yaw, double pitch) {
@@ -28,7 +28,7 @@ Vec3 direction(double yaw, double pitch) {
           std::sin(pitch * degree)};
 }
 
-/// Whether there is anything in the middle of what an eye there sees.
+/// Whether the eye at `eye` sees anything near the middle of its picture.
 bool sees_something(const Space& space, const Vec3& eye, double yaw) {
   const Box box = space.bounds();
   const double reach = box.empty() ? 0.0 : 2.0 * glm::length(box.size());
@@ -40,9 +40,9 @@ bool sees_something(const Space& space, const Vec3& eye, double yaw) {
   return false;
 }
 
-/// What an eye has before it.
+/// The view from an eye.
 struct View {
-  double yaw = 0.0;  ///< degrees, of where one sees farthest
+  double yaw = 0.0;  ///< degrees, direction of the longest view
   bool anything = false;
 };
 
@@ -51,7 +51,7 @@ View look(const Space& space, const Vec3& eye) {
   return {yaw, sees_something(space, eye, yaw)};
 }
 
-/// `find` answers a place for a body of a mode, or throws Error.
+/// `find` returns a position for a body of a mode, or throws Error.
 StartPlace start_place(const WalkerSettings& settings, Mode mode, const Box& bounds,
                        const std::function<Vec3(Mode)>& find, const std::function<View(const Vec3&)>& look_around) {
   StartPlace start;
@@ -68,7 +68,7 @@ StartPlace start_place(const WalkerSettings& settings, Mode mode, const Box& bou
       }
       const View view = look_around(centre + Vec3(0.0, 0.0, settings.eye - 0.5 * settings.height));
       start.pose = {centre, view.yaw, 0.0};
-      // Who flies may as well begin where there is something to see.
+      // A flying body may as well begin with something in view.
       if (start.mode == Mode::fly && !view.anything) start.pose = overview(bounds, fov);
       return start;
     } catch (const Error& error) {
@@ -84,7 +84,7 @@ StartPlace start_place(const WalkerSettings& settings, Mode mode, const Box& bou
 }  // namespace
 
 double open_yaw(const Space& space, const Vec3& eye) {
-  // The open is not what one came to see: a way out of the scene counts as long as the scene is.
+  // Only the part of a view inside the scene's bounds counts, not the open space outside.
   const Box box = space.bounds();
   const double reach = box.empty() ? 0.0 : std::min(glm::length(box.size()), 1e6);
   double farthest = -1.0;

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Where a session begins when nobody says it.
+/// The start of a session without a given position.
 
 #include <cstdint>
 #include <functional>
@@ -15,25 +15,24 @@ namespace roam::app {
 
 struct StartPlace {
   Pose pose;
-  Mode mode = Mode::walk;  ///< that was wished for, or fly where there is no floor to walk on
-  std::string note;        ///< a sentence for the user when it is not as wished
+  Mode mode = Mode::walk;  ///< the desired mode, or fly without a floor to walk on
+  std::string note;        ///< a sentence for the user if the start is not as desired; else empty
 };
 
-/// A free place, on a floor and inside where there is an inside (see
-/// wander_start, also for `floors`), looking where there is most to see.
-/// Where the body fits on no floor: in the air, flying; where it fits nowhere: outside of everything, flying. `goes_on`
-/// is asked now and then, and ends it by false: roam::Cancelled.
+/// A free pose on a floor, indoors if there is an indoors, in the direction with the most to see. See wander_start,
+/// also for `floors`. If the body fits on no floor: in the air, flying. If it fits nowhere: outside the scene, flying.
+/// Throws roam::Cancelled when `goes_on` returns false.
 [[nodiscard]] StartPlace find_start(const Space& space, const WalkerSettings& settings, Mode mode,
                                     std::span<const Vec3> floors, const std::function<bool()>& goes_on);
 
-/// The same in a store, looking around a few places of it only; see free_start.
+/// The same in a store, near a few points only; see free_start.
 [[nodiscard]] StartPlace find_start(const Store& store, std::uint64_t memory, const WalkerSettings& settings, Mode mode,
                                     const std::function<bool()>& goes_on);
 
-/// The level direction, in degrees, in which one sees farthest from `eye` before a wall.
+/// The horizontal direction, in degrees, with the longest view from `eye` before a wall.
 [[nodiscard]] double open_yaw(const Space& space, const Vec3& eye);
 
-/// From where all of `box` is seen by a camera of this field of view (degrees, of the smaller side of the picture).
+/// A pose from which a camera of this field of view sees all of `box`. `fov`: degrees, of the picture's smaller side.
 [[nodiscard]] Pose overview(const Box& box, double fov);
 
 }  // namespace roam::app

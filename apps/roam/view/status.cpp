@@ -15,7 +15,7 @@ namespace {
 
 using Phase = LoadState::Phase;
 
-/// How much of the loading of the collision is reading, and reading and indexing; the rest looks for a start.
+/// The finished shares of the collision's loading after reading, and after indexing; the search for a start follows.
 constexpr double reading_share = 0.6;
 constexpr double indexing_share = 0.95;
 
@@ -47,7 +47,7 @@ std::string body_text(const Status& status) {
 
 /// "64 MB, 512 tiles, ready 35 m, 3 failed"
 std::string paging_text(const PagerStats& paging) {
-  // In the unit of --memory.
+  // MiB, the unit of --memory.
   constexpr double mebi = 1 << 20;
   std::string text = fmt::format("{:.0f} MiB, {} tiles", static_cast<double>(paging.memory) / mebi, paging.tiles);
   text += std::isfinite(paging.ready_m) ? fmt::format(", ready {:.0f} m", paging.ready_m) : std::string(", all ready");
@@ -81,7 +81,7 @@ std::string load_text(const char* what, const LoadState& state) {
 
 double load_share(const LoadState& display, const LoadState& collision) {
   if (is_over(display) && is_over(collision)) return -1.0;
-  // The body waits for the collision; what is to be seen comes beside it.
+  // The body waits for the collision; the picture loads in parallel.
   return is_over(collision) ? display.share : share_of(collision);
 }
 
@@ -93,7 +93,7 @@ std::vector<StatusText> status_lines(const Status& status) {
     lines.push_back({"body", body_text(status), false});
     lines.push_back({"keys", fmt::format("{:.3g} m/s", status.pace), false});
     lines.push_back({"place", fmt::format("{:.2f}, {:.2f}, {:.2f}", p.x, p.y, p.z), false});
-    // Adding 0 makes of -0 a 0.
+    // Adding 0 turns -0 into 0.
     const double yaw = std::round(status.yaw) + 0.0, pitch = std::round(status.pitch) + 0.0;
     lines.push_back({"look", fmt::format("{:.0f}\u00b0, {:+.0f}\u00b0", yaw, pitch), false});
   }
@@ -117,9 +117,9 @@ std::vector<StatusText> status_lines(const Status& status) {
   if (!status.recording.empty()) lines.push_back({"recording", status.recording, true});
   for (const auto& [what, state] : {std::pair("scene", &status.display), std::pair("collision", &status.collision)}) {
     const bool failed = state->phase == Phase::failed;
-    // A store has come in its place.
+    // A store has replaced it.
     if (failed && state == &status.collision && status.paging) continue;
-    // Why it failed is too long for a line, and is told below.
+    // The reason is too long for a line; status_message shows it.
     const std::string text = failed ? std::string(what) + " failed" : load_text(what, *state);
     if (!text.empty()) lines.push_back({"", text, failed});
   }

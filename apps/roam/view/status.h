@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What the head-up display of `roam view` says, from what is so.
+/// The status of a session, and its text on the head-up display.
 
 #include <cstdint>
 #include <optional>
@@ -15,14 +15,14 @@
 
 namespace roam::app {
 
-/// How far the loading of one thing has come.
+/// Progress of a loading thread.
 struct LoadState {
   enum class Phase : std::uint8_t { comparing, reading, indexing, looking, done, failed };
   Phase phase = Phase::reading;
   double share = 0.0;           ///< of this phase, in [0, 1]
   std::uint64_t triangles = 0;  ///< so far
-  double seconds_left = -1.0;   ///< negative: cannot be told yet
-  Error error{""};              ///< of a failed one
+  double seconds_left = -1.0;   ///< negative: not known yet
+  Error error{""};              ///< set if the phase is failed
 };
 
 [[nodiscard]] inline bool is_over(const LoadState& state) {
@@ -31,30 +31,30 @@ struct LoadState {
 
 struct Status {
   std::optional<Mode> mode;  ///< none: no body yet
-  double speed = 0.0;        ///< m/s, now
-  double pace = 0.0;         ///< m/s, what keys move at
-  WalkerSettings body;       ///< as it is now
-  std::string size_reason;   ///< why it is not as large as elsewhere; empty: it is
+  double speed = 0.0;        ///< m/s, present speed
+  double pace = 0.0;         ///< m/s, speed of a move by keys
+  WalkerSettings body;       ///< present settings
+  std::string size_reason;   ///< why the body has another size here; empty: it has not
   bool crouched = false;
   bool grounded = false;
-  Vec3 place{0.0};                ///< of the body's centre, in the scene's frame
+  Vec3 place{0.0};                ///< the body's centre, in the scene's frame
   double yaw = 0.0, pitch = 0.0;  ///< degrees
-  std::string camera;             ///< of another manipulator than ours; empty: ours
+  std::string camera;             ///< name of the active camera, if not the body's; else empty
   LoadState display, collision;
   std::uint64_t triangles = 0;        ///< of the collision; 0: not known yet
   std::uint64_t resident = 0;         ///< bytes of the process
-  std::uint64_t world_bytes = 0;      ///< of the collision
-  std::optional<PagerStats> paging;   ///< where the collision comes from a store
-  std::optional<LoadState> building;  ///< of a store; none: nobody builds one
-  std::string store_key;              ///< builds a store, which is worth it; empty: there is nothing to build
+  std::uint64_t world_bytes = 0;      ///< bytes of the collision
+  std::optional<PagerStats> paging;   ///< set if the collision is from a store
+  std::optional<LoadState> building;  ///< progress of a store's build; none: no build
+  std::string store_key;              ///< the key that builds a store, if one is worth building; else empty
   double frame_ms = 0.0;              ///< 0: not known yet
-  double collision_us = 0.0;          ///< a frame
-  std::string recording;              ///< what is being written
-  std::vector<Told> news;             ///< for this moment
+  double collision_us = 0.0;          ///< per frame
+  std::string recording;              ///< what is being recorded
+  std::vector<Told> news;             ///< at this moment
   Told hold;
 };
 
-/// A line of the panel: what, and its value.
+/// A line of the panel.
 struct StatusText {
   std::string label;
   std::string value;
@@ -64,19 +64,19 @@ struct StatusText {
 /// The lines from top to bottom. The first alone is the minimal display.
 [[nodiscard]] std::vector<StatusText> status_lines(const Status& status);
 
-/// What is told below the middle: what holds the body, what is being loaded, and the news.
+/// The sentence below the middle: why the body is held, what is loading, or the news.
 [[nodiscard]] Told status_message(const Status& status);
 
 /// "collision 43 %: 1.2 M triangles, 8 s left"; empty when it is done.
 [[nodiscard]] std::string load_text(const char* what, const LoadState& state);
 
-/// The share of the work that is done, in [0, 1]; negative when all of it is.
+/// The finished share of the loading, in [0, 1]; negative if all of it is finished.
 [[nodiscard]] double load_share(const LoadState& display, const LoadState& collision);
 
 /// "512 MB", "1.4 GB".
 [[nodiscard]] std::string byte_text(std::uint64_t bytes);
 
-/// The memory of this process that is in RAM, in bytes; 0 where it cannot be told.
+/// The resident memory of this process, in bytes; 0 if unknown.
 [[nodiscard]] std::uint64_t resident_bytes();
 
 }  // namespace roam::app

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The collision store of a session's scene: recommended, built, handed over.
+/// The collision store of a session's scene: recommendation, build, handover.
 
 #include <filesystem>
 #include <memory>
@@ -14,7 +14,7 @@
 
 namespace roam::app {
 
-/// Builds the store when the person wants it, and says how that goes. Needs no window. All members belong to one
+/// Builds the store at the person's command, and reports the progress. Needs no window. Call all members from one
 /// thread, between two frames.
 class StoreBuilding {
  public:
@@ -22,21 +22,21 @@ class StoreBuilding {
   StoreBuilding(const SceneAndStore& what, std::filesystem::path program, const osgRoam::Manipulator& roamer,
                 News& news);
 
-  /// Ends a build; does not wait for that, as the destructor does.
+  /// Cancels a build without waiting; the destructor waits.
   void cancel();
-  /// The store that the collision was looked for in.
+  /// Takes the result of the search for a store.
   void consider(const StoreChoice& choice);
   /// Recommends a store, once.
   void recommend();
-  /// Begins to build, or stops that. `used`: the store that the body collides with, or null. `place`: where the body
-  /// is, or will probably be.
+  /// Begins a build, or cancels it. `used`: the store that the body collides with, or null. `place`: the body's
+  /// position, or the expected one.
   void toggle(const Pager* used, const Vec3& place);
-  /// In each frame with a body at `place`; says so when the build has failed.
+  /// Call it in each frame with a body at `place`; reports a failed build.
   void follow(const Vec3& place);
-  /// A pager on the new store, once, when it is built; else null.
+  /// A pager on the new store, once, after the build; else null.
   [[nodiscard]] std::shared_ptr<Pager> take();
 
-  /// `status` must say whether the body collides with a store.
+  /// `status.paging` must be set if the body collides with a store.
   void fill(Status& status) const;
   void fill(ViewReport& report) const;
 

@@ -15,11 +15,12 @@
 namespace roam::app {
 namespace {
 
-/// Some ten seconds of loading, and some gigabytes of memory.
+/// About ten seconds of loading, and some gigabytes of memory.
 constexpr std::uint64_t many_bytes = 1'000'000'000;
 constexpr std::uint64_t many_triangles = 20'000'000;
 
-/// "Data.roam/" -> "Data"; empty for another extension, and for names such as "...roam", whose rest is a folder above.
+/// "Data.roam/" -> "Data"; empty for another extension, and for names such as "...roam", which would give the parent
+/// folder.
 std::filesystem::path place_beside(const std::filesystem::path& store) {
   std::filesystem::path path = store.lexically_normal();
   if (!path.has_filename()) path = path.parent_path();
@@ -28,13 +29,13 @@ std::filesystem::path place_beside(const std::filesystem::path& store) {
   return name == "." || name == ".." ? std::filesystem::path() : path.replace_extension();
 }
 
-/// The type of what is there. A link is not followed, because the store may come from a stranger.
+/// The type of a file. A link is not followed, because the store may come from a stranger.
 std::filesystem::file_status status_of(const std::filesystem::path& path) {
   std::error_code none;
   return std::filesystem::symlink_status(path, none);
 }
 
-/// The file or folder at that place; empty if there is none.
+/// The file or folder beside a store; empty if there is none.
 std::filesystem::path scene_beside(const std::filesystem::path& store) {
   const std::filesystem::path path = place_beside(store);
   const std::filesystem::file_status status = status_of(path);
@@ -42,7 +43,7 @@ std::filesystem::path scene_beside(const std::filesystem::path& store) {
   return usable ? path : std::filesystem::path();
 }
 
-/// In what the store differs from the scene; empty when in nothing.
+/// The difference between store and scene; empty if they match.
 std::string compare(const Store& store, const SceneOptions& scene, const std::optional<StoreKey>& key,
                     const std::function<bool()>& goes_on) {
   ImportOptions reading = scene.import_options();
@@ -56,7 +57,7 @@ std::string compare(const Store& store, const SceneOptions& scene, const std::op
   }
 }
 
-/// Why nobody knows that the user built it, as a clause for people; empty where it is certain.
+/// Why the user may not have built the store, as a clause for a message; empty if the user did.
 std::string not_yours(const Store& store, const UserKey& user) {
   if (!user.key)
     return "it is not known whether you built it, for no key of yours can be used: " + std::string(user.problem.what());

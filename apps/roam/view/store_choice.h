@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Which store a session collides with, and which scene it shows.
+/// Choice of the store that a session collides with, and of the scene that it shows.
 
 #include <cstdint>
 #include <filesystem>
@@ -13,38 +13,36 @@
 
 namespace roam::app {
 
-/// What a session shows, and what it was told to collide with.
+/// The scene that a session shows, and the store that it collides with.
 struct SceneAndStore {
-  SceneOptions scene;           ///< of a store whose scene is not there: the store itself
-  std::filesystem::path store;  ///< that was named; empty: look beside the scene
-  bool store_only = false;      ///< there is no scene to be seen
-  std::uint64_t store_memory = SceneOptions::usual_store_memory;  ///< bytes; the scene that is shown does without
+  SceneOptions scene;                                             ///< the store itself if its scene is missing
+  std::filesystem::path store;                                    ///< named store; empty: search beside the scene
+  bool store_only = false;                                        ///< there is no scene to show
+  std::uint64_t store_memory = SceneOptions::usual_store_memory;  ///< bytes, for the store only
 };
 
-/// What the command line means: `store` is that of --store. Where the scene that is named is a store, it is the one to
-/// collide with, and what is shown is the scene that lies beside it: "Data.roam" -> "Data". Throws UsageError for what
-/// cannot be meant.
+/// The meaning of the command line; `store` is the value of --store. If `scene` names a store, the body collides with
+/// it, and the scene beside it is shown: "Data.roam" -> "Data". Throws UsageError for a contradiction.
 [[nodiscard]] SceneAndStore scene_and_store(const SceneOptions& scene, const std::filesystem::path& store);
 
-/// A sentence for the user if a link lies where the scene of the store would be; else empty. It is not followed.
+/// A sentence for the user if a link lies where the store's scene would be; else empty. The link is not followed.
 [[nodiscard]] std::string link_beside(const SceneAndStore& what);
 
-/// Where the store of a scene is, or would be built.
+/// The path of a scene's store, existing or not.
 [[nodiscard]] std::filesystem::path store_place(const SceneAndStore& what);
 
 struct StoreChoice {
-  std::shared_ptr<const Store> store;  ///< null: there is none, or none that can be used
-  bool stale = false;                  ///< there is one, but it is not of this very scene, or not the user's
-  std::string note;                    ///< a sentence for the user when something is not as it should be
+  std::shared_ptr<const Store> store;  ///< null: there is no usable store
+  bool stale = false;                  ///< there is a store, but of another scene, or not built by the user
+  std::string note;                    ///< a sentence for the user if something is wrong; else empty
 };
 
-/// A store that was named is opened, whatever scene it is of; one that lies beside the scene only where the
-/// user built it, with the user's key, and it is of this very scene. That reads the scene's files where their times
-/// tell nothing: `goes_on` is asked now and then, and ends it by false (roam::Cancelled). Throws roam::Error when a
-/// store that was named cannot be opened.
+/// Opens a named store, even if it is of another scene. Opens a store beside the scene only if it has the user's key
+/// and matches the scene. If the times of the scene's files do not settle that, reads the files. Throws roam::Cancelled
+/// when `goes_on` returns false, and roam::Error if a named store cannot be opened.
 [[nodiscard]] StoreChoice choose_store(const SceneAndStore& what, const std::function<bool()>& goes_on);
 
-/// Whether loading a scene whole takes so long, or so much memory, that a store is worth building.
+/// Whether loading the whole scene takes so much time or memory that a store is worth building.
 [[nodiscard]] bool is_large(std::uint64_t bytes, std::uint64_t triangles);
 
 }  // namespace roam::app

@@ -14,8 +14,8 @@ namespace roam::app {
 namespace {
 
 constexpr std::size_t most_shown = 1'000'000;
-constexpr std::size_t batch = 16'384;     // triangles that are drawn, or left out of sight, together
-constexpr std::size_t piece = 8 * batch;  // triangles that come into the picture together
+constexpr std::size_t batch = 16'384;     // triangles that are drawn, or culled, together
+constexpr std::size_t piece = 8 * batch;  // triangles that appear together
 
 osg::ref_ptr<osg::Geometry> geometry_of(std::span<const Triangle> triangles, const Vec3& origin) {
   DisplayGeometry geometry;
@@ -46,7 +46,7 @@ DisplayReport show_store(const Store& store, const Vec3& place,
   StoreTriangles shown;
   shown.all = store.info().triangles <= most_shown && triangles_in(store, bounds, most_shown, goes_on, shown);
   if (!shown.all) {
-    // Wider and wider: what is read in vain is less than what is shown.
+    // Widen the box while its triangles are few enough: less is read in vain than is shown.
     const Vec3 farthest = glm::max(bounds.upper - place, place - bounds.lower);
     const double enough = std::max({farthest.x, farthest.y, farthest.z, 1.0});
     shown = triangles_around(store, place, 8.0, most_shown, goes_on);

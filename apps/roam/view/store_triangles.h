@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// A store's own triangles, for those who look at them.
+/// A store's own triangles, for display.
 
 #include <functional>
 
@@ -10,8 +10,8 @@
 
 namespace roam::app {
 
-/// For a store whose scene is not there: the triangles around a place, as many as are drawn fluently, each piece handed
-/// to `take`, and a sentence for the user of what is shown.
+/// For a store without its scene: passes the triangles around `place` to `take`, piece by piece, as many as can be
+/// drawn smoothly. The report has a sentence for the user about the part shown.
 [[nodiscard]] DisplayReport show_store(const Store& store, const Vec3& place,
                                        const std::function<void(DisplayNode&&, std::uint64_t triangles)>& take,
                                        const std::function<bool()>& goes_on);

@@ -17,7 +17,7 @@ Json to_json(const Times& times) { return {{"median", times.median}, {"p99", tim
 
 /// Degrees in (-180, 180].
 double normalized(double yaw) {
-  const double angle = std::remainder(yaw, 360.0) + 0.0;  // of -0 it makes 0
+  const double angle = std::remainder(yaw, 360.0) + 0.0;  // turns -0 into 0
   return angle <= -180.0 ? 180.0 : angle;
 }
 

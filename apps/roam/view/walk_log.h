@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What is kept of a session's steps: the trace, the pieces for --verify, times, the least clearance.
+/// Log of a session's steps: the trace, the pieces for --verify, times, the least clearance.
 
 #include <cstdint>
 #include <filesystem>
@@ -15,24 +15,23 @@
 
 namespace roam::app {
 
-/// Takes down every step of a body that a person leads. It takes the same memory for a minute and for a
-/// day.
+/// Records every step of a body that a person leads. Its memory does not grow with time.
 class WalkLog {
  public:
-  /// An empty path: no trace. `keep_pieces`: for verify().
+  /// `trace`: empty: no trace. `keep_pieces`: for verify().
   WalkLog(const std::filesystem::path& trace, bool keep_pieces);
 
-  /// After a step of `seconds`, or a placement (0). The first is the start. Steps of a ghost stand in the trace,
-  /// but are nothing that could be verified.
+  /// Call it after a step of `seconds`, or a placement (0). The first is the start. A ghost's steps are in the trace,
+  /// but cannot be verified.
   void take(const StepReport& report, Mode mode, double seconds);
-  /// The time that all steps of a frame took, ns: by the clock, and what their thread itself used of it.
+  /// Adds the time of all steps of a frame, ns: `passed` by the clock, `own` the thread's processor time.
   void take_frame(std::int64_t passed, std::int64_t own);
-  /// Writes what is left. Throws roam::Error when not all of the trace could be written.
+  /// Writes the rest. Throws roam::Error if the trace is incomplete.
   void finish();
 
   /// Sums over the steps and placements; a ghost has no clearance.
   [[nodiscard]] const Tally& tally() const { return tally_; }
-  /// Adds the steps and the trace, and gives away the pieces for verify().
+  /// Adds the steps and the trace, and moves out the pieces for verify().
   void fill(ViewReport& report);
 
  private:
@@ -40,8 +39,8 @@ class WalkLog {
   std::optional<TraceFile> trace_;
   bool keep_pieces_;
   verification::PieceLog pieces_;
-  Histogram collision_, own_collision_;  ///< ns a frame with steps: by the clock, and the thread's own
-  std::uint64_t rows_ = 0;               ///< of the trace, counted in steps and placements
+  Histogram collision_, own_collision_;  ///< ns per frame with steps: by the clock, and the thread's processor time
+  std::uint64_t rows_ = 0;               ///< rows of the trace: steps and placements
   Tally tally_;
 };
 

@@ -22,11 +22,11 @@ void check_against(const SceneOptions& scene) {
 verification::Verification verify_against(const SceneOptions& scene, const OpenScene& walked,
                                           const verification::PieceLog& pieces,
                                           const std::function<bool(std::uint64_t, std::uint64_t)>& progress) {
-  // Half of the memory for pieces: more than the walk of an hour, in 64 MiB.
+  // Half of the memory for pieces: in 64 MiB, more than an hour's walk.
   const auto together = static_cast<std::size_t>(walked.memory() / (2 * sizeof(verification::Piece)));
   const std::uint64_t readings = std::max<std::uint64_t>(1, (pieces.size() + together - 1) / together);
   verification::Verification all;
-  std::uint64_t bytes = 0, reading_number = 0;  // that were read before
+  std::uint64_t bytes = 0, reading_number = 0;  // in finished readings
   const auto check = [&](std::span<const verification::Piece> some) {
     verification::Verifier verifier(some);
     ImportOptions reading = scene.import_options();

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// `roam walk --against`: a walk through a store, checked against the scene that the store was made of.
+/// `roam walk --against`: verification of a walk through a store against the store's scene.
 
 #include <cstdint>
 #include <functional>
@@ -11,12 +11,12 @@
 namespace roam::app {
 
 /// Checks the input of verify_against() before a walk that may take hours. Throws UsageError for a store, and
-/// roam::Error for a scene that is not there.
+/// roam::Error for a missing scene.
 void check_against(const SceneOptions& scene);
 
-/// Every piece against every triangle of a scene that is read piece by piece, however large it is. It is read once for
-/// as many pieces as fit in half of the memory. Where it has not as many triangles as the store that was `walked`, a
-/// note on standard error says so. `progress` as of verify, but with bytes done and in all.
+/// Checks every piece against every triangle of a scene of any size, which is read part by part. It reads the scene
+/// once for as many pieces as fit in half of the memory. If the triangle counts of scene and `walked` store differ, a
+/// note on standard error says so. `progress` is that of verify, with bytes: done, and in all.
 [[nodiscard]] verification::Verification verify_against(
     const SceneOptions& scene, const OpenScene& walked, const verification::PieceLog& pieces,
     const std::function<bool(std::uint64_t, std::uint64_t)>& progress);

@@ -12,7 +12,7 @@
 namespace roam::app {
 namespace {
 
-/// Refuses to write an output over what is read.
+/// Refuses to overwrite an input.
 void check_output(const WalkOptions& options, const char* option, const std::filesystem::path& output) {
   const auto is_output = [&](const std::filesystem::path& file) {
     std::error_code none;

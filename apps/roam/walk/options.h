@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The options of `roam walk`, and the body that they mean.
+/// The options of `roam walk`, and the body that follows from them.
 
 #include <filesystem>
 #include <optional>
@@ -22,44 +22,44 @@ struct WalkOptions {
   SceneOptions scene;
   std::filesystem::path path;
   std::optional<double> wander;  ///< seconds
-  std::vector<double> from;      ///< where wandering starts: x, y, z, or nothing
+  std::vector<double> from;      ///< start of wandering: x, y, z; or empty
   std::optional<std::string> mode;
   WalkerSettings settings;
   std::optional<double> radius, support_radius, height, eye, step, slope;
-  std::optional<RecordedBody> recorded;  ///< that the path was recorded with
+  std::optional<RecordedBody> recorded;  ///< the body that recorded the path
   bool no_profile = false;
-  std::optional<SceneProfile> profile;  ///< that the body is taken from
+  std::optional<SceneProfile> profile;  ///< the profile that gives the body its size
   RouteOptions route;
   std::filesystem::path trace;
   std::filesystem::path picture;
   bool verify = false;
-  SceneOptions against;  ///< the scene that a store was made of
+  SceneOptions against;  ///< scene of a store, for verification
   bool json = false;
   bool stats = false;
 
-  /// Whether every move is checked against triangles.
+  /// Whether every move is verified.
   [[nodiscard]] bool checks() const { return verify || !against.scenes.empty(); }
   [[nodiscard]] Mode walker_mode() const {
     if (!mode) return recorded ? recorded->mode : Mode::walk;
     return *mode == "fly" ? Mode::fly : *mode == "ghost" ? Mode::ghost : Mode::walk;
   }
 
-  /// Adds all of them to the verb.
+  /// Adds all options to the verb.
   void add_to(CLI::App& verb);
 };
 
-/// Looks for the scene's profile where the radius is left out: see find_scene_profile.
+/// Finds the scene's profile if no radius is given; see find_scene_profile.
 void take_profile(WalkOptions& options);
 
-/// The options as they are meant: where the radius is left out, the body that recorded the path or that was trained for
-/// the scene, with what else is said changed; the height that follows from the radius, the eye that follows from the
-/// height. Throws UsageError for what cannot be.
+/// The settings that the options stand for. Without a radius: those of the recorded or trained body, with the given
+/// options changed. The height follows from the radius, and the eye from the height. Throws UsageError for invalid
+/// ones.
 [[nodiscard]] WalkerSettings walker_settings(const WalkOptions& options);
 
-/// Throws UsageError if the options name no way.
+/// Throws UsageError if the options name no path to follow.
 void check_way(const WalkOptions& options);
 
-/// Throws UsageError for outputs that would overwrite what is read, or each other, and for what is no picture.
+/// Throws UsageError for outputs that would overwrite an input or each other, and for unknown kinds of picture.
 void check_outputs(const WalkOptions& options);
 
 }  // namespace roam::app

@@ -14,12 +14,12 @@
 namespace roam::app {
 namespace {
 
-/// The least clearance as a lower bound: reported clearances may be too low, and are capped.
+/// The least clearance as a lower bound: reported clearances may be too low, and have a maximum.
 std::string clearance_line(const WalkReport& report) {
   const RouteResult& result = report.result;
   if (!words::knows_clearance(report)) return "not known: the body fitted nowhere";
   const double reach = report.settings.clearance_reach;
-  constexpr double near_cap = 0.7;  // of the reach: from here on nothing need have been there
+  constexpr double near_cap = 0.7;  // share of the reach: above, there may have been no surface nearby
   const std::string cap = result.least_gap < near_cap * reach
                               ? ""
                               : fmt::format("; it was looked for no farther than {:g} m from the surface", reach);

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What `roam walk` prints.
+/// Report of `roam walk`.
 
 #include <cstdint>
 #include <optional>
@@ -13,27 +13,27 @@
 
 namespace roam::app {
 
-/// The times of steps, ns; zeros where there was no step.
+/// Times of steps, ns; zeros without steps.
 struct StepTimes {
-  double median = 0.0;  ///< to 1 %, as a Histogram says it
-  double p99 = 0.0;     ///< the same
+  double median = 0.0;  ///< accurate to 1 %, from a Histogram
+  double p99 = 0.0;     ///< accurate to 1 %, from a Histogram
   double max = 0.0;
 };
 
 struct WalkReport : words::EndedWalk {
   std::string scene;  ///< the file names
   std::uint64_t triangles = 0;
-  std::string profile;  ///< the file that the body was taken from; empty: none
-  Vec3 eye{0.0};        ///< the camera at the end
+  std::string profile;  ///< file of the body's profile; empty: none
+  Vec3 eye{0.0};        ///< the camera's position at the end
   StepTimes times;
   std::optional<verification::Verification> verified;
   double verify_seconds = 0.0;
-  std::optional<PagerStats> paging;  ///< where the scene is a store
+  std::optional<PagerStats> paging;  ///< set if the scene is a store
 };
 
 [[nodiscard]] Json json_report(const WalkReport& report);
 [[nodiscard]] std::string text_report(const WalkReport& report);
-/// For `--stats`: certified clearances, times, paging, counts of the check.
+/// For `--stats`: certified clearances, times, paging, counts of the verification.
 [[nodiscard]] std::string stats_report(const WalkReport& report);
 
 }  // namespace roam::app

@@ -27,8 +27,8 @@ struct PartCell {
   int bits = 0;  ///< as CurveCell
 };
 
-/// A range of the curve. Its cells, in order, are those whose borders every cut into tiles has: the cell around two of
-/// them holds more triangles than a tile.
+/// A range of the curve. Every division into tiles has borders at those of its cells, which are in order: the smallest
+/// cell around two of them holds more triangles than a tile.
 struct Stretch {
   std::vector<CurveCell> cells;
   /// If a single smallest cell holds more triangles than a shard: the triangles from `skip` on, by part and number,

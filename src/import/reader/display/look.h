@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Looks of surfaces: the data that readers pass on beside the shape.
+/// Looks of surfaces: normals, texture coordinates, colours and transparency.
 
 #include <algorithm>
 #include <array>
