@@ -75,7 +75,7 @@ std::vector<ProbedSize> matrix_sizes(const std::string& text) {
       throw UsageError(Error::at(error.where(), fmt::format("{}; and there is no file \"{}\"", error.what(), text)));
     }
   }
-  if (sizes.empty()) throw UsageError(fmt::format("--matrix {}", text), "there are no sizes in it");
+  if (sizes.empty()) throw UsageError(text.empty() ? "--matrix \"\"" : "--matrix " + text, "there are no sizes in it");
   return sizes;
 }
 

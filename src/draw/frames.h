@@ -7,7 +7,7 @@
 
 #include "draw/geometry.h"
 #include "draw/marks.h"
-#include "draw/survey.h"
+#include "draw/stations.h"
 #include "draw/way.h"
 #include "roam/walker.h"
 

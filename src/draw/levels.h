@@ -21,7 +21,7 @@
 #include <vector>
 
 #include "draw/geometry.h"
-#include "draw/survey.h"
+#include "draw/stations.h"
 
 namespace roam::draw {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "draw/survey.h"
+#include "draw/stations.h"
 #include "draw/way.h"
 #include "words/walk.h"
 

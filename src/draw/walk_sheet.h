@@ -20,7 +20,7 @@
 
 #include "draw/lines.h"
 #include "draw/sheet.h"
-#include "draw/survey.h"
+#include "draw/stations.h"
 #include "draw/way.h"
 #include "roam/mesh.h"
 #include "roam/space.h"

@@ -93,7 +93,7 @@ NarrowPlace Along::refined(const NarrowPlace& place, const Vec3& heading) const 
   const auto improve = [&](const Vec3& centre, double angle) {
     auto found = width_at(centre, place.body, heading, angle);
     if (!found || !(found->width < best.width) || !room_.is_passage(place.body, centre, heading)) return;
-    found->along = place.along + glm::dot(centre - place.centre, heading);
+    found->along = std::max(0.0, place.along + glm::dot(centre - place.centre, heading));
     best = *found;
   };
   for (int k = -refinement; k <= refinement; ++k) improve(place.centre + between_ * k / refinement * heading, 0.0);

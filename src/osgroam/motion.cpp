@@ -5,7 +5,6 @@
 #include <chrono>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <numbers>
 #include <osg/Notify>
 #include <utility>
 
@@ -27,9 +26,6 @@ constexpr double least_owed = 1e-6;
 
 /// Most steps of a pilot in one frame, however short they are.
 constexpr int pilot_limit = 256;
-
-/// Radians for a mouse movement over the height of the window: a quarter turn.
-constexpr double default_look_speed = 0.5 * std::numbers::pi;
 
 /// Processor time of this thread since its start, nanoseconds.
 std::int64_t own_nanoseconds() {
@@ -59,29 +55,6 @@ class StepTimer {
 };
 
 }  // namespace
-
-Manipulator::State::State() : look_speed(default_look_speed) {
-  pose.yaw = 0.5 * std::numbers::pi;  // along +y, like every manipulator of osgGA
-  using enum Controls::Kind;
-  keys.add("forward", "W, Up", "walks or flies forward", held);
-  keys.add("back", "S, Down", "goes back", held);
-  keys.add("left", "A, Left", "goes to the left", held);
-  keys.add("right", "D, Right", "goes to the right", held);
-  keys.add("up", "E, Page_Up", "rises (flying)", held);
-  keys.add("down", "Q, Page_Down", "sinks (flying)", held);
-  keys.add("fast", "Shift", "hurries", held);
-  keys.add("slow", "Ctrl", "goes slowly", held);
-  keys.add("jump", "Space", "jumps (walking)", pressed);
-  keys.add("crouch", "C", "crouches (walking)", held);
-  keys.add("gravity", "G", "changes between walking and flying", pressed);
-  keys.add("ghost", "N", "passes through walls, or no longer", pressed);
-  keys.add("home", "Home", "goes back to the start", pressed);
-  keys.add("grab", "M", "lets the mouse look without a button", pressed);
-  keys.add("release", "Escape", "lets go of the mouse", pressed);
-  keys.add("look", "Drag", "looks around", gesture);
-  keys.add("speed", "Wheel", "makes faster or slower", gesture);
-  keys.add("go", "Double click", "goes to what was clicked", gesture);
-}
 
 roam::Vec3 Manipulator::State::eye() const { return walker ? soft.eye(*walker) : pose.eye; }
 

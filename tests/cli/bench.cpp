@@ -90,7 +90,7 @@ TEST(BenchEngines, NamesEnginesThatAreNotHereAndWhatToInstall) {
   const TestFolder folder;
   const ProgramResult elsewhere = bench(with(small, {"--engines", "physx", "--wasm-engines", folder.file("nothing")}));
   EXPECT_EQ(elsewhere.status, 1);
-  EXPECT_TRUE(says(elsewhere.err, "none of the engines")) << elsewhere.err;
+  EXPECT_TRUE(says(elsewhere.err, "none of the chosen engines")) << elsewhere.err;
   EXPECT_TRUE(says(elsewhere.err, "npm install --prefix " + folder.file("nothing"))) << elsewhere.err;
 }
 

@@ -63,7 +63,8 @@ TEST(Json, HasTheLinesOfTheReportForPeople) {
     Arguments all = arguments;
     all.push_back("--json");
     std::string text;
-    for (const json& line : object_of(roam(all))["text"]) text += line.get<std::string>() + "\n";
+    const json report = object_of(roam(all));
+    for (const json& line : report["text"]) text += line.get<std::string>() + "\n";
     EXPECT_EQ(text, roam(arguments).out);
     EXPECT_NE(text, "");
   }

@@ -9,7 +9,7 @@
 #include "draw/frames.h"
 #include "draw/levels.h"
 #include "draw/lines.h"
-#include "draw/survey.h"
+#include "draw/stations.h"
 #include "draw/way.h"
 #include "walker_scenes.h"
 

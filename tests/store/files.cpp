@@ -244,6 +244,7 @@ Manifest some_manifest() {
   manifest.parts = {{"a \"quoted\" ünïcode.ply", "f", std::string(64, 'c'), 10, 40, 1},
                     {"b", "g", std::string(64, 'd'), 11, 2, 7}};
   manifest.shards = {some_shard(30), some_shard(12)};
+  manifest.shards[1].pack = std::string(64, 'e');
   manifest.notes = {"A note."};
   return manifest;
 }

@@ -180,24 +180,6 @@ ProbeLimit steepest(const ProbeSearch& search, const Passage& passage, double mo
 
 }  // namespace
 
-Measure ProbeSearch::measure() const {
-  Measure measure{options.mode,      options.mode == Mode::fly ? 0.0 : options.height,
-                  options.step,      options.widest,
-                  options.narrowest, options.support_max};
-  // As widest_way() begins; it lowers a sphere's step to its radius.
-  if (measure.mode == Mode::walk && measure.height == 0.0) measure.step = std::min(measure.step, measure.widest);
-  return measure;
-}
-
-Passage ProbeSearch::widest() const {
-  PassageOptions watched = options;
-  bool wanted = true;
-  watched.progress = [&](std::uint64_t places) { return wanted = !question.progress || question.progress(places); };
-  Passage passage = widest_way(survey, question.from, question.to, watched);
-  if (!wanted) throw Cancelled();
-  return passage;
-}
-
 std::optional<ProbeLimit> limit_of(const ProbeSearch& search, const Passage& passage, const ProbeEnds& ends,
                                    double radius) {
   auto end = end_limit(search, passage, ends.start, ProbeLimit::Kind::start, radius);

@@ -1,7 +1,8 @@
-// Events of keys and mouse.
+// The commands of the manipulator, their keys, and what they do.
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <numbers>
 
 #include "osgroam/manipulator_state.h"
 
@@ -16,6 +17,9 @@ constexpr double notch = 1.25;
 /// Metres: the limit of a click's distance.
 constexpr double click_limit = 1e5;
 
+/// Radians for a mouse movement over the height of the window: a quarter turn.
+constexpr double default_look_speed = 0.5 * std::numbers::pi;
+
 int symbol(const Adapter& event) {
   const int unmodified = event.getUnmodifiedKey();
   return Controls::canonical(unmodified > 0 ? unmodified : event.getKey());
@@ -26,6 +30,29 @@ int symbol(const Adapter& event) {
 bool leaves_window(int key) { return key >= Adapter::KEY_Meta_L && key <= Adapter::KEY_Hyper_R; }
 
 }  // namespace
+
+Manipulator::State::State() : look_speed(default_look_speed) {
+  pose.yaw = 0.5 * std::numbers::pi;  // along +y, like every manipulator of osgGA
+  using enum Controls::Kind;
+  keys.add("forward", "W, Up", "walks or flies forward", held);
+  keys.add("back", "S, Down", "goes back", held);
+  keys.add("left", "A, Left", "goes to the left", held);
+  keys.add("right", "D, Right", "goes to the right", held);
+  keys.add("up", "E, Page_Up", "rises (flying)", held);
+  keys.add("down", "Q, Page_Down", "sinks (flying)", held);
+  keys.add("fast", "Shift", "hurries", held);
+  keys.add("slow", "Ctrl", "goes slowly", held);
+  keys.add("jump", "Space", "jumps (walking)", pressed);
+  keys.add("crouch", "C", "crouches (walking)", held);
+  keys.add("gravity", "G", "changes between walking and flying", pressed);
+  keys.add("ghost", "N", "passes through walls, or no longer", pressed);
+  keys.add("home", "Home", "goes back to the start", pressed);
+  keys.add("grab", "M", "lets the mouse look without a button", pressed);
+  keys.add("release", "Escape", "lets go of the mouse", pressed);
+  keys.add("look", "Drag", "looks around", gesture);
+  keys.add("speed", "Wheel", "makes faster or slower", gesture);
+  keys.add("go", "Double click", "goes to what was clicked", gesture);
+}
 
 bool Manipulator::State::key_down(const Adapter& event) {
   const int key = symbol(event);

@@ -1,3 +1,4 @@
+// Confines a reader: limits, an empty folder, then Landlock and seccomp.
 #include <fcntl.h>
 #include <signal.h>
 #include <sys/resource.h>

@@ -1,4 +1,4 @@
-#include "draw/survey.h"
+#include "draw/stations.h"
 
 #include <cmath>
 #include <glm/geometric.hpp>
