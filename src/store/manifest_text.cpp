@@ -89,6 +89,7 @@ class Members {
     }
     if (out.empty()) bad(name);
   }
+  [[nodiscard]] bool has(const char* name) const { return json_.contains(name); }
   /// Its elements have been read before.
   void list(const char* name) const { static_cast<void>(at(name, Json::value_t::array)); }
   [[noreturn]] void bad(std::string_view name) const {
@@ -124,7 +125,7 @@ struct Kind {
 enum KindNumber : std::size_t { the_manifest, a_part, a_shard, a_page };
 constexpr std::array<Kind, 4> kinds{
     {{"the manifest", {"format", "lossless", "options", "bounds", "geometry_hash", "parts", "shards", "notes"}},
-     {"a part", {"name", "fingerprint", "file", "bytes", "triangles", "objects"}},
+     {"a part", {"name", "fingerprint", "file", "bytes", "triangles", "objects", "references"}},
      {"a shard",
       {"key", "pack", "bytes", "triangles", "tiles", "geometry_bytes", "number_bytes", "resident_bytes", "bounds",
        "largest_error_m", "geometry_hash", "pages"}},
@@ -173,6 +174,12 @@ class ManifestReader {
       if (!json.is_string()) bad();
       reader_.keep(element_cost<std::string> + json.get_ref<const std::string&>().size());
       manifest.notes.push_back(json.get<std::string>());
+      return false;
+    }
+    if (level == 4 && is_in(a_part, "references")) {
+      if (!json.is_string()) bad();
+      reader_.keep(element_cost<std::string> + json.get_ref<const std::string&>().size());
+      manifest.parts.back().references.push_back(json.get<std::string>());
       return false;
     }
     std::optional<KindNumber> kind;
@@ -275,6 +282,7 @@ class ManifestReader {
     m.whole("bytes", part.bytes);
     m.whole("triangles", part.triangles);
     m.whole("objects", part.objects);
+    if (m.has("references")) m.list("references");
     add(triangles_, part.triangles, "parts");
   }
   void take(const Members& m) {
@@ -335,6 +343,7 @@ std::string to_text(const Manifest& manifest) {
                      {"bytes", part.bytes},
                      {"triangles", part.triangles},
                      {"objects", part.objects}});
+    if (!part.references.empty()) parts.back()["references"] = part.references;
   }
   for (const ShardInfo& shard : manifest.shards) shards.push_back(json_of(shard));
   const Json json = {{"format", manifest.format},
