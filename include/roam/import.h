@@ -164,8 +164,8 @@ struct ScenePart {
   std::filesystem::path path;           ///< as passed to scene_parts
   std::string tile;                     ///< name of the tile in its folder; empty for a file
   std::optional<Georeference> frame{};  ///< of the first folder, into which this part is placed
-  /// Files that the part is read from: absolute, sorted. For a tile all files of its folder, then metadata.xml; empty
-  /// if the tile is missing.
+  /// Files of the part: absolute, sorted. For a file that file; it may refer to others. For a tile all files of its
+  /// folder, then metadata.xml; empty if the tile is missing.
   std::vector<std::filesystem::path> files{};
   std::uint64_t bytes = 0;  ///< of these files
 };
@@ -176,9 +176,21 @@ struct ScenePart {
 [[nodiscard]] std::vector<ScenePart> scene_parts(std::span<const std::filesystem::path> paths,
                                                  const ImportOptions& options = {});
 
+/// A file that a reader looked for in the scene, and its state just before the reader could open it.
+struct FileLookUp {
+  std::filesystem::path file;   ///< absolute, without "..", perhaps with links; empty: the reader's library opens files
+                                ///< that are not reported
+  bool found = false;           ///< whether it is a regular file of the scene
+  std::uint64_t bytes = 0;      ///< its size
+  std::int64_t changed_ns = 0;  ///< time of change (ctime), ns since 1970
+};
+using LookUpSink = std::function<void(const FileLookUp&)>;
+
 /// Reads one part, with a reader of its own. A tile that is missing or has no triangle gives no piece and no error; the
 /// report counts the missing page. For a tile, unmatched patterns of ImportOptions::ignore are not reported.
-ImportReport stream_part(const ScenePart& part, const ImportOptions& options, const PieceSink& sink);
+/// `look_ups` receives each path that the reader looked up, as the reader states it; exceptions pass through.
+ImportReport stream_part(const ScenePart& part, const ImportOptions& options, const PieceSink& sink,
+                         const LookUpSink& look_ups = {});
 
 /// The walls that hold on this machine, reported by a reader. Throws roam::Error if the reader cannot be run.
 [[nodiscard]] Confinement reader_confinement(const ImportOptions& options = {});

@@ -22,37 +22,30 @@ struct Tile {
   bool present = false;
 };
 
-/// Receives the tiles of a folder, or the files that a file names.
+/// Receives the tiles of a folder.
 class PartList : public reader::StreamReceiver {
  public:
   PartList(ImportReport& report, std::size_t ignore_patterns) : StreamReceiver(report, ignore_patterns, text_bytes) {}
 
   [[nodiscard]] std::uint64_t triangles() const override { return 0; }
   [[nodiscard]] const std::vector<Tile>& tiles() const { return tiles_; }
-  [[nodiscard]] const std::vector<fs::path>& files() const { return files_; }
 
  private:
   /// Enough for the names of millions of tiles.
   static constexpr std::uint64_t text_bytes = 1ull << 30;
 
   void take_content(reader::FrameKind kind, std::span<const std::byte> payload) override {
-    const bool is_tile = kind == reader::FrameKind::tile;
-    if (!is_tile && kind != reader::FrameKind::file) throw StreamDamaged{"a frame of unknown kind"};
+    if (kind != reader::FrameKind::tile) throw StreamDamaged{"a frame of unknown kind"};
     count_bytes(payload.size());
     reader::PayloadReader fields(payload);
     fs::path file = fields.take_text();
-    const bool present = !is_tile || fields.take<std::uint8_t>() != 0;
+    const bool present = fields.take<std::uint8_t>() != 0;
     if (!fields.complete()) throw StreamDamaged{"a frame of broken length"};
-    if (is_tile) {
-      tiles_.push_back({std::move(file), present});
-    } else {
-      files_.push_back(std::move(file));
-    }
+    tiles_.push_back({std::move(file), present});
   }
   void finish_content(const reader::Totals&) override {}
 
   std::vector<Tile> tiles_;
-  std::vector<fs::path> files_;
 };
 
 /// Deepest nesting of folders in a tile's folder: the cost of looking at them grows with its cube.
@@ -170,10 +163,7 @@ std::vector<ScenePart> scene_parts(std::span<const fs::path> paths, const Import
     ScenePart part;
     part.name = names.unique(reading.scope.scene.filename().string());
     part.path = path;
-    for (const fs::path& file : list.files()) {
-      if (!reading.scope.find(file).empty()) part.files.push_back(file);
-    }
-    part.files.insert(part.files.begin(), reading.scope.scene);
+    part.files.push_back(reading.scope.scene);
     count_bytes(part);
     parts.push_back(std::move(part));
   }

@@ -9,8 +9,9 @@
 ///     hello         Greeting                                                 first, once
 ///     opened        text file                                                at any time; each file once
 ///     outside       text file                                                a reference that was left out
-///     file          text file                                                in a list: a file that the scene's file
-///                                                                            names
+///     looked_up     text path; LookedUp                                      each path once, before its file is
+///     opened;
+///                                                                            empty: a library opens files by itself
 ///     progress      u64 bytes read so far                                    at any time
 ///     georeference  f64 x, y, z; text srs                                    of a folder of tiles, at most once
 ///     tile          text root file; u8 whether it exists                     in a list of a folder's tiles
@@ -48,7 +49,7 @@
 namespace roam::reader {
 
 inline constexpr int stream_fd = 3;
-inline constexpr std::uint32_t stream_version = 6;
+inline constexpr std::uint32_t stream_version = 7;
 inline constexpr std::uint32_t frame_magic = 0x31524d52;  // "RMR1"
 /// Largest payload, in bytes; a sender splits vertices and triangles accordingly.
 inline constexpr std::uint32_t payload_limit = 4u << 20;
@@ -59,7 +60,7 @@ enum class FrameKind : std::uint16_t {
   hello,
   opened,
   outside,
-  file,
+  looked_up,
   progress,
   georeference,
   tile,
@@ -84,6 +85,13 @@ struct FrameHeader {
   std::uint32_t bytes = 0;
 };
 static_assert(sizeof(FrameHeader) == 16);
+
+/// The state of a regular file when its path was looked up; `found` is 0 if there is none in the scene.
+struct LookedUp {
+  std::uint64_t bytes = 0;
+  std::int64_t changed_ns = 0;  ///< ctime
+  std::uint64_t found = 0;
+};
 
 enum class LeftOutReason : std::uint8_t { bad_vertices, ignored };
 

@@ -79,6 +79,9 @@ void StreamReceiver::handle(const FrameHeader& header, std::span<const std::byte
       opened_.push_back(std::move(file));
       break;
     }
+    case FrameKind::looked_up:
+      take_looked_up(fields);
+      break;
     case FrameKind::outside:
       ++report_.outside_references;
       take_name(fields, report_.outside_files);
@@ -141,6 +144,14 @@ void StreamReceiver::take_hello(PayloadReader& fields) {
       Confinement{std::min(greeting.landlock, before.landlock), greeting.system_calls != 0 && before.system_calls,
                   greeting.no_new_privileges != 0 && before.no_new_privileges, greeting.limits != 0 && before.limits,
                   greeting.empty_folder != 0 && before.empty_folder};
+}
+
+void StreamReceiver::take_looked_up(PayloadReader& fields) {
+  std::string file = fields.take_text();
+  const auto state = fields.take<LookedUp>();
+  if (file.size() > longest_path) throw StreamDamaged{"a path that is too long"};
+  if (!fields.complete() || look_ups_ == nullptr || !*look_ups_) return;
+  (*look_ups_)({std::move(file), state.found != 0, state.bytes, state.changed_ns});
 }
 
 void StreamReceiver::spell(std::string readers_name, std::string users_name) {

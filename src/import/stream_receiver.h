@@ -24,6 +24,8 @@ class StreamReceiver {
   StreamReceiver(const StreamReceiver&) = delete;
   StreamReceiver& operator=(const StreamReceiver&) = delete;
 
+  /// From now on passes on which files the reader looks up. `sink` must outlive the reading.
+  void pass_look_ups(const LookUpSink& sink) { look_ups_ = &sink; }
   /// From now on replaces the reader's name of the path by the user's name in sentences.
   void spell(std::string readers_name, std::string users_name);
 
@@ -64,6 +66,7 @@ class StreamReceiver {
  private:
   void handle(const FrameHeader& header, std::span<const std::byte> payload);
   void take_hello(PayloadReader& fields);
+  void take_looked_up(PayloadReader& fields);
   void take_left_out(PayloadReader& fields);
   void take_end(PayloadReader& fields);
   [[nodiscard]] std::string spelt(std::string sentence) const;
@@ -78,6 +81,7 @@ class StreamReceiver {
   std::uint64_t bytes_read_ = 0;
   std::vector<bool> matched_;
   std::vector<std::string> opened_;
+  const LookUpSink* look_ups_ = nullptr;
   std::string readers_name_, users_name_;
 };
 

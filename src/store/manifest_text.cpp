@@ -5,6 +5,8 @@
 #include <nlohmann/json.hpp>
 #include <set>
 #include <string_view>
+#include <utility>
+#include <variant>
 
 #include "index/partition.h"
 #include "store/json_reader.h"
@@ -159,6 +161,7 @@ class ManifestText : public JsonReader {
       keep(element_cost<PartInfo> + part_cost);
       manifest.parts.emplace_back();
       part_seen_ = 0;
+      references_seen_ = false;
     } else if (path.starts_with(shards)) {
       if (path == shards) {
         keep(element_cost<ShardInfo> + shard_cost);
@@ -214,6 +217,14 @@ class ManifestText : public JsonReader {
       JsonMembers members(*this, note_seen_ = 0, "the notes", "note", at, value);
       keep(element_cost<std::string>);
       members.text("note", manifest.notes.emplace_back());
+    } else if (path == "parts/*/references") {
+      // The only member that may be missing.
+      if (value != nullptr || std::exchange(references_seen_, true)) refuse_references();
+    } else if (path == "parts/*/references/*") {
+      auto* const* const text = value != nullptr ? std::get_if<std::string*>(value) : nullptr;
+      if (text == nullptr) refuse_references();
+      keep(element_cost<std::string> + (*text)->size());
+      manifest.parts.back().references.push_back(**text);
     } else if (path.starts_with("parts/*/")) {
       JsonMembers members(*this, part_seen_, "a part", path.substr(8), at, value);
       list(members, manifest.parts.back());
@@ -236,6 +247,7 @@ class ManifestText : public JsonReader {
     m.list("shards");
     m.list("notes");
   }
+  [[noreturn]] void refuse_references() const { refuse("'references' of a part are not what they should be"); }
   static void list(JsonMembers& m, PartInfo& part) {
     m.text("name", part.name);
     m.text("fingerprint", part.fingerprint);
@@ -248,6 +260,7 @@ class ManifestText : public JsonReader {
   std::string manifest_name_;
   ShardReader shard_{*this};
   std::uint64_t seen_ = 0, part_seen_ = 0, note_seen_ = 0;
+  bool references_seen_ = false;
   std::uint64_t triangles_ = 0, shard_triangles_ = 0;
 };
 
@@ -273,6 +286,7 @@ std::string to_text(const Manifest& manifest) {
                      {"bytes", part.bytes},
                      {"triangles", part.triangles},
                      {"objects", part.objects}});
+    if (!part.references.empty()) parts.back()["references"] = part.references;
   }
   for (const ShardInfo& shard : manifest.shards) shards.push_back(json_of(shard));
   const Json json = {{"format", manifest.format},

@@ -73,16 +73,14 @@ class StoreTrust : public testing::Test {
     const auto id_in = [](const std::string& of) {
       return fs::directory_iterator(of + "/scratch/parts")->path().stem().string();
     };
-    const auto fingerprint_in = [&](const std::string& of, const std::string& id) {
-      std::string text = content(of).at("scratch/parts/" + id + ".json");
-      const std::string start = "\"fingerprint\": \"";
+    const std::string file = "scratch/parts/" + id_in(store()) + ".json";
+    const auto fingerprint_in = [&](const std::string& of) {
+      const std::string text = content(of).at(file), start = "\"fingerprint\": \"";
       return text.substr(text.find(start) + start.size(), 64);
     };
-    const std::string true_id = id_in(folder_.file("true.roam")), id = id_in(store());
-    std::string record = content(store()).at("scratch/parts/" + id + ".json");
-    record.replace(record.find(fingerprint_in(store(), id)), 64, fingerprint_in(folder_.file("true.roam"), true_id));
-    std::ofstream(store() + "/scratch/parts/" + true_id + ".json") << record;
-    fs::rename(store() + "/scratch/runs/" + id + ".0.run", store() + "/scratch/runs/" + true_id + ".0.run");
+    std::string record = content(store()).at(file);
+    record.replace(record.find(fingerprint_in(store())), 64, fingerprint_in(folder_.file("true.roam")));
+    std::ofstream(store() + "/" + file) << record;
   }
 
   /// roam view on the scene, straight on through the front wall.

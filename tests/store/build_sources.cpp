@@ -20,22 +20,22 @@ constexpr std::uint64_t mebibyte = 1 << 20;
 /// Fingerprints of one part a file, each of the same name. `most`: MiB that may be hashed until it is given up.
 std::vector<std::string> fingerprints(const std::vector<std::string>& files, std::int64_t most) {
   const TestFolder folder;
-  std::vector<roam::ScenePart> parts;
+  std::vector<roam::store::SourcePart> parts;
   for (const std::string& file : files) {
-    roam::ScenePart part;
+    roam::store::SourcePart part;
     part.name = "part";
     part.path = file;
     part.files = {file};
     parts.push_back(part);
   }
-  Sources sources(folder.file(""), std::nullopt);
+  Sources sources(folder.file(""), std::nullopt, {});
   std::atomic<std::int64_t> ticks = 0;
-  sources.look(parts, {}, [&] {
+  sources.look(parts, [&] {
     // Once for each file besides.
     if (++ticks > most + 2 * static_cast<std::int64_t>(files.size())) throw roam::Cancelled();
   });
   std::vector<std::string> found;
-  for (const roam::ScenePart& part : parts) found.push_back(sources.fingerprint(part, ""));
+  for (const roam::store::SourcePart& part : parts) found.push_back(sources.fingerprint(part, ""));
   return found;
 }
 
@@ -113,15 +113,15 @@ TEST(StoreSources, ReadNoPipeAndNothingOutsideThatTookAFilesPlace) {
     fs::remove_all(folder.file("aside"));
     fs::create_directory(folder.file("scene/inner"));
     folder.write("scene/inner/file", "text");
-    roam::ScenePart part;
+    roam::store::SourcePart part;
     part.name = "part";
     part.path = slow;
     part.files = {slow, file};
-    Sources sources(folder.file(""), std::nullopt);
+    Sources sources(folder.file(""), std::nullopt, {});
     try {
       swap();
-      sources.look({part}, {}, [] {});
-      sources.check_unchanged(part);
+      sources.look({part}, [] {});
+      sources.check_unchanged(part, {part, sources.scope(slow), 0});
     } catch (const roam::Error& error) {
       return std::string(error.what());
     }

@@ -123,7 +123,7 @@ class AssimpFiles : public Assimp::DefaultIOSystem {
  public:
   explicit AssimpFiles(SceneFiles& files) : files_(files) {}
 
-  bool Exists(const char* name) const override { return !files_.find(name).empty(); }
+  bool Exists(const char* name) const override { return !files_.look_up(name).empty(); }
   Assimp::IOStream* Open(const char* name, const char* mode) override {
     if (!files_.resolve(name)) files_.leave_out(name);
     const std::filesystem::path file = files_.open(name);

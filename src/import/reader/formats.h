@@ -26,8 +26,4 @@ void read_tiles(const std::filesystem::path& folder, SceneFiles& files, MeshSink
 /// Formats that only assimp reads: glb, gltf, fbx, ifc and others. `extension` is lower case without the dot.
 void read_assimp(const std::filesystem::path& path, const std::string& extension, SceneFiles& files, MeshSink& sink);
 
-/// Reports the files that a .gltf file names as its buffers, in the order of their names. Reads the text as a stream,
-/// without storing it.
-void list_gltf_buffers(const std::filesystem::path& path, SceneFiles& files, MeshSink& sink);
-
 }  // namespace roam::reader

@@ -90,7 +90,6 @@ class MeshSink {
     frames_.send(FrameKind::tile, PayloadWriter().add_text(root).add(static_cast<std::uint8_t>(present)));
   }
   /// Reports a file for a list.
-  void report_file(std::string_view file) { frames_.send(FrameKind::file, PayloadWriter().add_text(file)); }
   void report_missing_page(std::string_view file);
   void report_note(std::string_view sentence);
   /// The same, but reports each sentence only once.

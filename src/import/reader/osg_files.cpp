@@ -52,7 +52,7 @@ bool names_files(std::string_view extension) {
 /// The path of a file that another file names. An absolute name is returned as it is. Otherwise tries the name, then
 /// its last part, in the folders of the files that name it. Returns the first that exists, else a path outside of the
 /// scene if the name leads there, else the path where the file would be.
-fs::path place_of(const std::string& name, const osgDB::Options* options, const SceneFiles& files) {
+fs::path place_of(const std::string& name, const osgDB::Options* options, SceneFiles& files) {
   std::string spelling = name;
   std::replace(spelling.begin(), spelling.end(), '\\', '/');
   const fs::path path(spelling);
@@ -63,7 +63,7 @@ fs::path place_of(const std::string& name, const osgDB::Options* options, const 
       const fs::path place = fs::path(folder) / wanted;
       if (first.empty()) first = place;
       if (outside.empty() && !files.resolve(place)) outside = place;
-      if (!files.find(place).empty()) return place;
+      if (!files.look_up(place).empty()) return place;
     }
   }
   return outside.empty() ? first : outside;

@@ -78,10 +78,9 @@ void read_path(const std::string& name, SceneFiles& files, MeshSink& sink, const
   refuse_stand_ins(path);
   const std::string extension = extension_of(path);
   if (const Format* format = format_of(extension)) {
-    if (settings.only_list) {
-      if (extension == "gltf") list_gltf_buffers(path, files, sink);
-      return;
-    }
+    if (settings.only_list) return;
+    // The library of Inventor opens the files that a scene names by itself.
+    if (extension == "iv") files.report_unseen();
     switch (format->family) {
       case Family::obj:
         return read_obj(path, sink);

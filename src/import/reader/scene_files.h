@@ -16,7 +16,7 @@ namespace roam::reader {
 /// for code that does not.
 class SceneFiles {
  public:
-  /// `frames`: receives reports of files that were opened or left out.
+  /// `frames`: receives reports of files that were looked up, opened or left out.
   SceneFiles(SceneScope scope, FrameWriter& frames);
 
   /// See SceneScope.
@@ -25,8 +25,13 @@ class SceneFiles {
   }
   [[nodiscard]] std::filesystem::path find(const std::filesystem::path& path) const { return scope_.find(path); }
 
-  /// The same as find(), and reports the file as opened. Call it once for every file that is read.
+  /// The same as find(), and reports each path once, with the state of its file. Call it where the triangles depend on
+  /// whether there is a file. The tiles of a folder need none: scene_parts() lists them anew.
+  std::filesystem::path look_up(const std::filesystem::path& path);
+  /// The same as look_up(), and reports the file as opened. Call it before a file is read.
   std::filesystem::path open(const std::filesystem::path& path);
+  /// Reports that a library opens files by itself, so that their names are not known.
+  void report_unseen();
 
   /// Reports a reference that leads outside; each path once.
   void leave_out(const std::filesystem::path& path);
@@ -39,7 +44,7 @@ class SceneFiles {
  private:
   SceneScope scope_;
   FrameWriter& frames_;
-  std::unordered_set<std::size_t> opened_, left_out_;  ///< hashes of paths
+  std::unordered_set<std::size_t> looked_up_, opened_, left_out_;  ///< hashes of paths
   std::string first_left_out_;
 };
 

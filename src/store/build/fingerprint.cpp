@@ -201,7 +201,8 @@ void read_as(const std::string& text, ImportOptions& options) {
   options = std::move(read);
 }
 
-Sources::Sources(Folder store, const std::optional<StoreKey>& key) : store_(std::move(store)), key_(key) {
+Sources::Sources(Folder store, const std::optional<StoreKey>& key, const ImportOptions& import)
+    : store_(std::move(store)), key_(key), import_(import) {
   if (!size_of(store_, sources_file)) return;
   if (*size_of(store_, sources_file) > sources_memory / 4) return;
   const std::optional<std::string> text = read_coded(store_, sources_file, sources_memory / 4, key_);
@@ -233,29 +234,52 @@ Sources::Seen Sources::status(const fs::path& real, Number* number) {
       static_cast<std::uint64_t>(status.st_size), ns(status.st_ctim), {}, ns(now) - ns(status.st_ctim) > clock_steps};
 }
 
-void Sources::look(const std::vector<ScenePart>& parts, const ImportOptions& import,
-                   const std::function<void()>& tick) {
+const reader::SceneScope& Sources::scope(const fs::path& path) {
+  const std::lock_guard lock(mutex_);
+  const auto known = scopes_.find(path);
+  return known != scopes_.end() ? known->second : scopes_.emplace(path, reader::scope_of(path, import_)).first->second;
+}
+
+std::optional<SourcePart> Sources::with_references(const ScenePart& part, const std::vector<std::string>& names) {
+  SourcePart whole(part);
+  for (const std::string& name : names) {
+    const std::optional<fs::path> file = reference_file(name, scope(part.path));
+    if (!file) return std::nullopt;
+    whole.references.emplace(name, *file);
+  }
+  return whole;
+}
+
+void Sources::look(const std::vector<SourcePart>& parts, const std::function<void()>& tick) {
   struct File {
     std::string name;
     const reader::SceneScope* scope;
+    bool is_reference;
     fs::path real;
     Seen seen;
     Number number;
     bool hashed = false;
   };
   std::vector<File> files;
-  std::map<fs::path, reader::SceneScope> scopes;
-  for (const ScenePart& part : parts) {
-    if (!scopes.contains(part.path)) scopes.emplace(part.path, reader::scope_of(part.path, import));
-    const reader::SceneScope* const scope = &scopes.at(part.path);
-    for (const fs::path& file : part.files) {
-      files.push_back({fs::absolute(file).lexically_normal().string(), scope, {}, {}, {}});
-    }
+  std::set<std::string> taken;
+  for (const SourcePart& part : parts) {
+    const reader::SceneScope* const its_scope = &scope(part.path);
+    const std::lock_guard lock(mutex_);
+    const auto take = [&](const std::string& name, bool is_reference) {
+      if (seen_.contains(name) || !taken.insert(name).second) return;
+      files.push_back({name, its_scope, is_reference, {}, {}, {}});
+    };
+    for (const fs::path& file : part.files) take(fs::absolute(file).lexically_normal().string(), false);
+    for (const auto& [name, file] : part.references) take(file.string(), true);
   }
   tbb::parallel_for(std::size_t{0}, files.size(), [&](std::size_t i) {
     File& file = files[i];
     // The folder may change meanwhile, so no link is followed from here on.
     file.real = file.scope->find(file.name);
+    if (file.real.empty() && file.is_reference) {
+      file.seen.is_absent = file.hashed = true;
+      return;
+    }
     if (file.real.empty())
       throw Error::at(file.name, fmt::format("cannot read {}: it is no file of the scene any more", file.name));
     file.seen = status(file.real, &file.number);
@@ -271,6 +295,7 @@ void Sources::look(const std::vector<ScenePart>& parts, const ImportOptions& imp
   // A file may have many names, by links of either kind. It is read once.
   std::map<Number, std::size_t> first;
   for (std::size_t i = 0; i < files.size(); ++i) {
+    if (files[i].seen.is_absent) continue;
     const auto [same, is_new] = first.emplace(files[i].number, i);
     if (!is_new && files[i].hashed && !files[same->second].hashed) same->second = i;
   }
@@ -280,19 +305,25 @@ void Sources::look(const std::vector<ScenePart>& parts, const ImportOptions& imp
   }
   tbb::parallel_for(std::size_t{0}, unread.size(), [&](std::size_t k) {
     File& file = files[unread[k]];
+    if (file.is_reference && !open_without_links(file.real, O_RDONLY).is_open() && errno == EACCES) {
+      file.seen.hash = "unreadable";  // to the reader, too
+      return;
+    }
     FileHash hash(file.real, tick);
     if (hash.number() != file.number) fail_changed(file.name);
     file.seen.hash = hash.digits();
   });
+  const std::lock_guard lock(mutex_);
   for (File& file : files) {
     if (!file.hashed) file.seen.hash = files[first.at(file.number)].seen.hash;
-    if (file.real != file.name) linked_.insert({file.name, file.real});
+    if (!file.seen.is_absent && file.real != file.name) linked_.insert({file.name, file.real});
     seen_.insert({std::move(file.name), file.seen});
   }
 }
 
-std::string Sources::fingerprint(const ScenePart& part, const std::string& options) const {
-  std::string text = fmt::format("roam part 2\n{}\n{}\n{}\n", options, part.name, part.tile);
+std::string Sources::fingerprint(const SourcePart& part, const std::string& options) const {
+  const std::lock_guard lock(mutex_);
+  std::string text = fmt::format("roam part 3\n{}\n{}\n{}\n", options, part.name, part.tile);
   if (part.frame) {
     const Vec3& o = part.frame->origin;
     text += fmt::format("{} {} {} {}\n", part.frame->srs, o.x, o.y, o.z);
@@ -301,22 +332,36 @@ std::string Sources::fingerprint(const ScenePart& part, const std::string& optio
     const Seen& seen = seen_.at(fs::absolute(file).lexically_normal().string());
     text += fmt::format("{} {} {}\n", seen.hash, seen.size, name_in(part, file));
   }
+  for (const auto& [name, file] : part.references) {
+    const Seen& seen = seen_.at(file.string());
+    text += fmt::format("{} {} reference {}\n", seen.is_absent ? "absent" : seen.hash, seen.size, name);
+  }
   return sha256(std::as_bytes(std::span(text)));
 }
 
-void Sources::check_unchanged(const ScenePart& part) const {
-  for (const fs::path& file : part.files) {
-    const std::string name = fs::absolute(file).lexically_normal().string();
-    const auto linked = linked_.find(name);
-    const Seen before = seen_.at(name), now = status(linked == linked_.end() ? fs::path(name) : linked->second);
-    if (before.size != now.size || before.changed_ns != now.changed_ns) fail_changed(name);
+void Sources::check_unchanged(const std::string& name) const {
+  const auto linked = linked_.find(name);
+  const Seen before = seen_.at(name), now = status(linked == linked_.end() ? fs::path(name) : linked->second);
+  if (before.size != now.size || before.changed_ns != now.changed_ns) fail_changed(name);
+}
+
+void Sources::check_unchanged(const SourcePart& part, const LookUps& look_ups) const {
+  const std::lock_guard lock(mutex_);
+  for (const fs::path& file : part.files) check_unchanged(fs::absolute(file).lexically_normal().string());
+  for (const auto& [name, file] : part.references) {
+    const Seen& seen = seen_.at(file.string());
+    const FileLookUp& then = look_ups.files().at(name);
+    if (seen.is_absent == then.found || seen.size != then.bytes || seen.changed_ns != then.changed_ns) {
+      fail_changed(file.string());
+    }
+    if (then.found) check_unchanged(file.string());
   }
 }
 
 void Sources::save() const {
   std::map<std::string, Seen> settled;
   for (const auto& [name, seen] : seen_) {
-    if (seen.time_is_conclusive) settled.insert({name, seen});
+    if (seen.time_is_conclusive && !seen.is_absent) settled.insert({name, seen});
   }
   if (settled == known_) return;
   Json json = Json::object();

@@ -6,14 +6,17 @@
 #include <filesystem>
 #include <functional>
 #include <map>
+#include <mutex>
 #include <optional>
 #include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "import/scene_scope.h"
 #include "roam/import.h"
 #include "roam/store.h"
+#include "store/build/references.h"
 #include "store/folder.h"
 
 namespace roam::store {
@@ -27,22 +30,31 @@ void read_as(const std::string& text, ImportOptions& options);
 /// are those of the last time. It is read again if that change was too recent for the file system's clock.
 ///
 /// The fingerprint of a part depends on names, contents and options, not on times: a copy of the scene has the same
-/// one.
+/// one. It covers the files that scene_parts() lists and the references, with those that are absent.
+///
+/// Thread-safe, except save().
 class Sources {
  public:
   /// The results are saved in the folder of the store. Damaged results, or those without a code of the key, are
   /// ignored.
-  Sources(Folder store, const std::optional<StoreKey>& key);
+  Sources(Folder store, const std::optional<StoreKey>& key, const ImportOptions& import);
 
-  /// Examines all files of the parts, on all threads of the calling arena. Calls `tick`, which may throw, for each MB
-  /// hashed. A file with several names is hashed once; holes are not read. Opens only regular files of the parts'
-  /// scenes and of ImportOptions::allow, even if other files take their places meanwhile. Throws roam::Error for any
-  /// other file, and for a file that is hardly more than a hole.
-  void look(const std::vector<ScenePart>& parts, const ImportOptions& import, const std::function<void()>& tick);
+  /// The part with these references. None if a name leads out of the scene.
+  [[nodiscard]] std::optional<SourcePart> with_references(const ScenePart& part, const std::vector<std::string>& names);
+  /// The scope of a scene.
+  [[nodiscard]] const reader::SceneScope& scope(const std::filesystem::path& path);
+
+  /// Examines all files of the parts that it has not examined before, on all threads of the calling arena. Calls
+  /// `tick`, which may throw, for each MB hashed. A file with several names is hashed once; holes are not read. Opens
+  /// only regular files of the parts' scenes and of ImportOptions::allow, even if other files take their places
+  /// meanwhile. Any other reference counts as absent. Throws roam::Error for any other listed file, and for a file that
+  /// is hardly more than a hole.
+  void look(const std::vector<SourcePart>& parts, const std::function<void()>& tick);
   /// The fingerprint of a part that look() has examined.
-  [[nodiscard]] std::string fingerprint(const ScenePart& part, const std::string& options) const;
-  /// Throws roam::Error if a file of the part has changed since look().
-  void check_unchanged(const ScenePart& part) const;
+  [[nodiscard]] std::string fingerprint(const SourcePart& part, const std::string& options) const;
+  /// Throws roam::Error if a file of the part has changed since look(), or was not the same when its reader looked it
+  /// up.
+  void check_unchanged(const SourcePart& part, const LookUps& look_ups) const;
   void save() const;
 
  private:
@@ -51,14 +63,20 @@ class Sources {
     std::int64_t changed_ns = 0;      ///< ctime: no program can set it back
     std::string hash;                 ///< SHA-256
     bool time_is_conclusive = false;  ///< it had changed long before it was examined
+    bool is_absent = false;
     bool operator==(const Seen&) const = default;
   };
   using Number = std::pair<std::uint64_t, std::uint64_t>;  ///< of a file, independent of its names: device and inode
   /// `real`: without links.
   static Seen status(const std::filesystem::path& real, Number* number = nullptr);
+  /// Throws roam::Error if the file has changed since look(). The mutex is held.
+  void check_unchanged(const std::string& name) const;
 
   Folder store_;
   std::optional<StoreKey> key_;
+  ImportOptions import_;
+  mutable std::mutex mutex_;  ///< of all below
+  std::map<std::filesystem::path, reader::SceneScope> scopes_;
   std::map<std::string, Seen> known_, seen_;
   std::map<std::string, std::filesystem::path> linked_;  ///< targets of names that contain links
 };

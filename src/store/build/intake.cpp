@@ -35,6 +35,9 @@ class Intake {
       filling_.triangles.push_back({first + t[0], first + t[1], first + t[2]});
     }
     part_.triangles += piece.triangles.size();
+    const std::array<std::uint64_t, 3> hashes{content_, xxh3(std::as_bytes(std::span(piece.vertices))),
+                                              xxh3(std::as_bytes(std::span(piece.triangles)))};
+    content_ = xxh3(std::as_bytes(std::span(hashes)));
     work_.add_triangles(piece.triangles.size());
     work_.tick();
   }
@@ -46,6 +49,7 @@ class Intake {
     return std::move(part_);
   }
   [[nodiscard]] const std::vector<PartRecord::Run>& runs() const { return runs_; }
+  [[nodiscard]] std::uint64_t content() const { return content_; }
 
   ~Intake() {
     if (sorting_.valid()) sorting_.wait();
@@ -86,6 +90,7 @@ class Intake {
   std::string id_;
   bool sorts_beside_;
   PartFile part_;
+  std::uint64_t content_ = 0;
   RunContent filling_;
   // Used by the sorting thread:
   RunContent full_;
@@ -125,25 +130,30 @@ CurveKey parse_key(const std::string& text) {
 Json json_of(const PartRecord& record) {
   Json runs = Json::array();
   for (const auto& run : record.runs) runs.push_back({key_text(run.first), key_text(run.last)});
-  return {{"name", record.info.name},
+  return {{"id", record.id},
+          {"name", record.info.name},
           {"fingerprint", record.info.fingerprint},
           {"file", record.info.file},
           {"bytes", record.info.bytes},
           {"triangles", record.info.triangles},
           {"objects", record.info.objects},
+          {"references", record.info.references},
           {"runs", std::move(runs)},
           {"notes", record.notes}};
 }
 
 PartRecord record_of(const Json& json) {
   PartRecord record;
+  record.id = json.at("id").get<std::string>();
   record.info.name = json.at("name").get<std::string>();
   record.info.fingerprint = json.at("fingerprint").get<std::string>();
   record.info.file = json.at("file").get<std::string>();
-  if (!is_digits(record.info.file, 64)) throw std::runtime_error("the name of a file is not what it should be");
+  if (!is_digits(record.info.file, 64) || !is_digits(record.id, record_digits))
+    throw std::runtime_error("the name of a file is not what it should be");
   record.info.bytes = json.at("bytes").get<std::uint64_t>();
   record.info.triangles = json.at("triangles").get<std::uint64_t>();
   record.info.objects = json.at("objects").get<std::uint64_t>();
+  record.info.references = json.at("references").get<std::vector<std::string>>();
   for (const Json& run : json.at("runs")) {
     record.runs.push_back({parse_key(run.at(0).get<std::string>()), parse_key(run.at(1).get<std::string>())});
   }
@@ -156,9 +166,15 @@ std::string record_id(const std::string& name, const std::string& fingerprint) {
   return sha256(std::as_bytes(std::span(text))).substr(0, record_digits);
 }
 
-std::optional<PartRecord> find_record(const Work& work, const std::string& id) {
+void publish_record(const Work& work, const PartRecord& record) {
+  Json json = json_of(record);
+  json["scratch_version"] = scratch_version;
+  write_coded(work.store, record_file(record_id(record.info.name, "")), json.dump(1) + "\n", work.options.key);
+}
+
+std::optional<PartRecord> find_record(const Work& work, const std::string& name) {
   const Folder& store = work.store;
-  const std::string file = record_file(id);
+  const std::string file = record_file(record_id(name, ""));
   const std::optional<std::string> text = read_coded(store, file, record_memory, work.options.key);
   if (!text) return {};
   PartRecord record;
@@ -170,19 +186,17 @@ std::optional<PartRecord> find_record(const Work& work, const std::string& id) {
     return {};  // the part is read again
   }
   for (std::size_t i = 0; i < record.runs.size(); ++i) {
-    if (!size_of(store, run_file(id, i))) return {};
+    if (!size_of(store, run_file(record.id, i))) return {};
   }
   if (size_of(store, part_file(record.info.file)) != record.info.bytes) return {};
-  record.id = id;
   record.has_runs = true;
   return record;
 }
 
-PartRecord read_part(Work& work, const ScenePart& part, const std::string& fingerprint, int readers) {
+PartRecord read_part(Work& work, const ScenePart& part, const std::string& id, int readers, LookUps& look_ups) {
   PartRecord record;
   record.info.name = part.name;
-  record.info.fingerprint = fingerprint;
-  record.id = record_id(part.name, fingerprint);
+  record.id = id;
   Intake intake(work, record.id, work.sorts_beside_reading(readers));
   ImportOptions options = work.options.import;
   options.memory_limit = work.reader_memory(readers);
@@ -197,11 +211,13 @@ PartRecord read_part(Work& work, const ScenePart& part, const std::string& finge
     }
     return true;
   };
-  const ImportReport report =
-      stream_part(part, options, [&](const Mesh& piece, bool continues) { intake.add(piece, continues); });
+  const ImportReport report = stream_part(
+      part, options, [&](const Mesh& piece, bool continues) { intake.add(piece, continues); },
+      [&](const FileLookUp& file) { look_ups.add(file); });
   const PartFile file = intake.finish();
   record.runs = intake.runs();
   record.has_runs = true;
+  record.content = intake.content();
   for (const std::string& note : report.notes) record.notes.push_back(valid(note_of(part, note)));
   const std::vector<std::byte> bytes = encode_part(file);
   NewFile out(work.store, part_file("new"));
@@ -210,9 +226,6 @@ PartRecord read_part(Work& work, const ScenePart& part, const std::string& finge
   record.info.bytes = bytes.size();
   record.info.triangles = file.triangles;
   record.info.objects = file.objects.size();
-  Json json = json_of(record);
-  json["scratch_version"] = scratch_version;
-  write_coded(work.store, record_file(record.id), json.dump(1) + "\n", work.options.key);
   work.add_bytes(std::max(told, part.bytes) - told);
   work.tick();
   return record;

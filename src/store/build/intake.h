@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "roam/import.h"
+#include "store/build/references.h"
 #include "store/build/work.h"
 #include "store/json_reader.h"
 #include "store/manifest.h"
@@ -16,28 +17,31 @@ namespace roam::store {
 /// The known facts of a part.
 struct PartRecord {
   PartInfo info;
-  std::string id;  ///< names its files in the scratch folder; identifies the part and its state
+  std::string id;  ///< names its runs in the scratch folder
   struct Run {
     CurveKey first = 0, last = 0;  ///< keys
   };
   std::vector<Run> runs;
   bool has_runs = false;           ///< the runs are in the scratch folder
   std::vector<std::string> notes;  ///< of the import; each begins with the name of the part
+  std::uint64_t content = 0;       ///< XXH3 of what was read; only of a part that was read just now
 };
 
-/// All but PartRecord::id and has_runs, for the files of the scratch folder.
+/// All but PartRecord::has_runs and content, for the files of the scratch folder.
 [[nodiscard]] Json json_of(const PartRecord& record);
 /// The reverse. Throws an exception if the JSON does not hold a record.
 [[nodiscard]] PartRecord record_of(const Json& json);
 
-/// Computes PartRecord::id.
+/// Computes PartRecord::id. `fingerprint`: of what is known of the part before it is read.
 [[nodiscard]] std::string record_id(const std::string& name, const std::string& fingerprint);
 
-/// The record that read_part left in the scratch folder with the same key, if all its files are there.
-[[nodiscard]] std::optional<PartRecord> find_record(const Work& work, const std::string& id);
+/// The record that publish_record left in the scratch folder with the same key, if all its files are there.
+[[nodiscard]] std::optional<PartRecord> find_record(const Work& work, const std::string& name);
+void publish_record(const Work& work, const PartRecord& record);
 
-/// Reads the part, as one of `readers` that run at once. Publishes its runs, its part file and, last, its record.
-PartRecord read_part(Work& work, const ScenePart& part, const std::string& fingerprint, int readers);
+/// Reads the part, as one of `readers` that run at once. Publishes its runs and its part file. The record lacks
+/// fingerprint and references.
+PartRecord read_part(Work& work, const ScenePart& part, const std::string& id, int readers, LookUps& look_ups);
 
 // Keys in JSON: 32 hexadecimal digits.
 [[nodiscard]] std::string key_text(CurveKey key);

@@ -45,7 +45,6 @@ void write_plan(const Work& work, const Plan& plan) {
   Json parts = Json::array(), shards = Json::array();
   for (const PartRecord& record : plan.parts) {
     Json json = json_of(record);
-    json["id"] = record.id;
     json["has_runs"] = record.has_runs;
     parts.push_back(std::move(json));
   }
@@ -88,8 +87,6 @@ Plan read_plan(const Work& work) {
     plan.lossless = json.at("lossless").get<bool>();
     for (const Json& part : json.at("parts")) {
       PartRecord& record = plan.parts.emplace_back(record_of(part));
-      record.id = part.at("id").get<std::string>();
-      if (!is_digits(record.id, record_digits)) throw std::runtime_error("the name of a file is not what it should be");
       record.has_runs = part.at("has_runs").get<bool>();
     }
     for (const Json& item : json.at("shards")) {

@@ -38,7 +38,7 @@ bool is_inside(const fs::path& inner, const fs::path& outer) {
 class Planner {
  public:
   Planner(Work& work, const std::set<std::string>& damaged, StoreBuildReport& report)
-      : work_(work), damaged_(damaged), report_(report), sources_(work.store, work.options.key) {}
+      : work_(work), damaged_(damaged), report_(report), sources_(work.store, work.options.key, work.options.import) {}
 
   std::optional<Plan> run() {
     work_.begin(Work::Step::read, 0, 0);
@@ -51,7 +51,6 @@ class Planner {
     }
     parts_ = scene_parts(work_.options.scene, work_.options.import);
     plan_.lossless = work_.options.lossless;
-    work_.arena.execute([&] { sources_.look(parts_, work_.options.import, [&] { work_.tick(); }); });
     take_records();
     report_.parts = parts_.size();
     if (unchanged()) {
@@ -61,6 +60,7 @@ class Planner {
     read(unknown_);
     do {
       work_.begin(Work::Step::plan, 0, 0);
+      limit_references();
       lay_out();
     } while (read(needed()));
     sources_.save();
@@ -68,37 +68,67 @@ class Planner {
   }
 
  private:
-  /// Collects the known facts of each part without reading it.
-  void take_records() {
+  /// What a part was when it was read, and the files that decide whether it still is.
+  struct Earlier {
+    std::size_t part;
+    PartRecord record;
+    SourcePart sources;
+  };
+
+  /// The earlier states of all parts, by part: from the scratch folder, then from the store in force.
+  std::vector<Earlier> earlier_parts() {
     std::map<std::string, std::size_t> before;
     std::vector<std::vector<std::string>> notes;
+    std::uint64_t references = 0;
     if (in_force_) {
       for (std::size_t i = 0; i < in_force_->parts.size(); ++i) before[in_force_->parts[i].name] = i;
+      for (const PartInfo& part : in_force_->parts) references += references_cost(part.references);
       notes = notes_by_part(*in_force_);
     }
+    std::vector<Earlier> earlier;
+    const auto add = [&](std::size_t i, PartRecord&& record) {
+      if (std::optional<SourcePart> sources = sources_.with_references(parts_[i], record.info.references)) {
+        earlier.push_back({i, std::move(record), std::move(*sources)});
+      }
+    };
     for (std::size_t i = 0; i < parts_.size(); ++i) {
-      const std::string fingerprint = sources_.fingerprint(parts_[i], plan_.options);
-      const std::string id = record_id(parts_[i].name, fingerprint);
-      std::optional<PartRecord> record = find_record(work_, id);
+      if (std::optional<PartRecord> record = find_record(work_, parts_[i].name)) add(i, std::move(*record));
       const auto old = before.find(parts_[i].name);
-      if (!record && old != before.end()) {
-        const PartInfo& info = in_force_->parts[old->second];
-        if (info.fingerprint == fingerprint && is_there(info)) {
-          record.emplace();
-          record->info = info;
-          record->id = id;
-          record->notes = notes[old->second];
-        }
-      }
-      if (!record) {
-        record.emplace();
-        record->info.name = parts_[i].name;
-        record->info.fingerprint = fingerprint;
-        record->id = id;
-        unknown_.push_back(i);
-      }
-      plan_.parts.push_back(std::move(*record));
+      if (old == before.end() || references > most_reference_bytes) continue;
+      add(i, {in_force_->parts[old->second], "", {}, false, notes[old->second]});
     }
+    return earlier;
+  }
+
+  /// Collects the known facts of each part without reading it.
+  void take_records() {
+    std::vector<Earlier> earlier = earlier_parts();
+    std::vector<SourcePart> sources(parts_.begin(), parts_.end());
+    for (const Earlier& part : earlier) sources.push_back(part.sources);
+    look(sources);
+    auto next = earlier.begin();
+    for (std::size_t i = 0; i < parts_.size(); ++i) {
+      // An interrupted reading and its repetition have the same id, so that the latter replaces the runs.
+      const SourcePart known = next != earlier.end() && next->part == i ? next->sources : SourcePart(parts_[i]);
+      PartRecord record;
+      record.info.name = parts_[i].name;
+      record.id = record_id(parts_[i].name, sources_.fingerprint(known, plan_.options));
+      bool found = false;
+      for (; next != earlier.end() && next->part == i; ++next) {
+        const PartInfo& info = next->record.info;
+        if (found || info.fingerprint != sources_.fingerprint(next->sources, plan_.options) || !is_there(info))
+          continue;
+        found = true;
+        if (next->record.id.empty()) next->record.id = record_id(info.name, info.fingerprint);
+        record = std::move(next->record);
+      }
+      if (!found) unknown_.push_back(i);
+      plan_.parts.push_back(std::move(record));
+    }
+  }
+
+  void look(const std::vector<SourcePart>& parts) {
+    work_.arena.execute([&] { sources_.look(parts, [&] { work_.tick(); }); });
   }
 
   [[nodiscard]] bool is_there(const PartInfo& info) const {
@@ -158,8 +188,44 @@ class Planner {
   }
 
   void read_one(std::size_t i, int readers) {
-    plan_.parts[i] = read_part(work_, parts_[i], plan_.parts[i].info.fingerprint, readers);
-    sources_.check_unchanged(parts_[i]);
+    // A sixteenth of the memory for the names of files.
+    LookUps look_ups(parts_[i], sources_.scope(parts_[i].path),
+                     work_.options.memory / (16 * static_cast<std::uint64_t>(readers)));
+    PartRecord record = read_part(work_, parts_[i], plan_.parts[i].id, readers, look_ups);
+    SourcePart sources(parts_[i]);
+    for (const auto& [name, file] : look_ups.files()) {
+      record.info.references.push_back(name);
+      sources.references.emplace(name, file.file);
+    }
+    look({sources});
+    sources_.check_unchanged(sources, look_ups);
+    record.info.fingerprint = sources_.fingerprint(sources, plan_.options);
+    if (!look_ups.are_all()) {
+      record.info.fingerprint += fmt::format(" {:016x}", record.content);
+      forget_references(record);
+    }
+    publish_record(work_, record);
+    plan_.parts[i] = std::move(record);
+  }
+
+  /// Gives a part whose references cannot be recorded a fingerprint that no list of files has: it is always read again.
+  static void forget_references(PartRecord& record) {
+    const std::string text = "roam part of unknown files\n" + record.info.fingerprint;
+    record.info.fingerprint = sha256(std::as_bytes(std::span(text)));
+    record.info.references.clear();
+  }
+
+  /// Keeps the references within the limit of a manifest.
+  void limit_references() {
+    std::uint64_t bytes = 0;
+    for (PartRecord& part : plan_.parts) {
+      const std::uint64_t cost = references_cost(part.info.references);
+      if (cost > most_reference_bytes - bytes) {
+        forget_references(part);
+      } else {
+        bytes += cost;
+      }
+    }
   }
 
   static bool is_cancelled(const std::exception_ptr& failure) {

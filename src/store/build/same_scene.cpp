@@ -20,11 +20,17 @@ std::string difference(const Store& store, std::span<const std::filesystem::path
   }
   if (parts.size() > manifest.parts.size()) return parts[manifest.parts.size()].name + " is new";
   if (parts.size() < manifest.parts.size()) return manifest.parts[parts.size()].name + " is gone";
-  Sources sources(store.name(), key);
-  sources.look(parts, import, tick);
+  Sources sources(store.name(), key, import);
+  std::vector<SourcePart> recorded;
   for (std::size_t i = 0; i < parts.size(); ++i) {
-    if (sources.fingerprint(parts[i], options) != manifest.parts[i].fingerprint) {
-      return parts[i].name + " has changed since";
+    std::optional<SourcePart> part = sources.with_references(parts[i], manifest.parts[i].references);
+    if (!part) return parts[i].name + " has changed since";
+    recorded.push_back(std::move(*part));
+  }
+  sources.look(recorded, tick);
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    if (sources.fingerprint(recorded[i], options) != manifest.parts[i].fingerprint) {
+      return parts[i].name + ", or a file that it refers to, has changed since";
     }
   }
   return "";
