@@ -49,7 +49,7 @@ struct PartInfo {
   std::string file;         ///< SHA-256 of the part file, 64 digits
   std::uint64_t bytes = 0;  ///< size of the part file
   std::uint64_t triangles = 0, objects = 0;
-  std::vector<std::string> references;  ///< see build/references.h
+  std::vector<std::string> references{};  ///< see build/references.h
 };
 
 struct Manifest {
