@@ -65,7 +65,7 @@ TEST(ViewStore, LeavesAStoreOfAnotherSceneAlone) {
   d.run(12.0);
   EXPECT_NEAR(d.place().x, 19.7, 0.02);
   const std::string notes = d.notes();
-  EXPECT_TRUE(contains(notes, "scene.obj.roam is not used: scene.obj has changed since")) << notes;
+  EXPECT_TRUE(contains(notes, "scene.obj.roam is not used: scene.obj, or a file that it refers to, has changed since")) << notes;
   EXPECT_TRUE(contains(notes, "O or `roam build ")) << notes;
 }
 
@@ -103,7 +103,7 @@ TEST(ViewStore, TakesAStoreThatIsNamedThoughItIsStale) {
   d.run(6.0);
   EXPECT_TRUE(d.on_store());
   EXPECT_NEAR(d.place().x, 9.7, 0.02);
-  EXPECT_TRUE(contains(d.notes(), "is not of what is seen: scene.obj has changed since"));
+  EXPECT_TRUE(contains(d.notes(), "is not of what is seen: scene.obj, or a file that it refers to, has changed since"));
 }
 
 TEST(ViewStore, RefusesAStoreThatIsNone) {
