@@ -69,7 +69,7 @@ struct ObjectFilter {
 struct Query {
   Body body;                              ///< radius and half height in [0, Space::reach_limit]
   Vec3 from{0.0};                         ///< the centre at time 0
-  Vec3 motion{0.0};                       ///< the centre at time 1, less `from`
+  Vec3 motion{0.0};                       ///< the centre at time 1 minus `from`
   const ObjectFilter* ignored = nullptr;  ///< objects to ignore; unknown space is never ignored
 };
 

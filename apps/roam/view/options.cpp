@@ -176,7 +176,7 @@ void ViewOptions::add_to(CLI::App& verb) {
   verb.get_option("--memory")->description("Memory for a store's collision (default: 64M)");
   verb.option_defaults()->group(scene_group);
   verb.add_option("--store", store,
-                  "Use this store for collision (default: SCENE.roam beside the scene, if you built it from this scene)")
+                  "Use this store for collision (default: SCENE.roam beside the scene, if you built it from SCENE)")
       ->type_name("STORE");
   constexpr double metres = Space::reach_limit / 4.0;
   verb.option_defaults()->group("Start");
