@@ -24,9 +24,9 @@ struct Frame;
 
 /// Keeps the nearest contacts in the caller's memory. Lengths are metres.
 ///
-/// For a clearance it keeps one contact. G is the true gap. Each offered distance d is certified and at most `doubt` too
-/// low: G <= d + doubt. Each offer has a limit E = d + doubt - tolerance, raised to 15/16 d so that the sign is right. A
-/// triangle at distance E or more may be left out; the error of the result is then at most the tolerance.
+/// For a clearance it keeps one contact. G is the true gap. Each offered distance d is certified and at most `doubt`
+/// too low: G <= d + doubt. Each offer has a limit E = d + doubt - tolerance, raised to 15/16 d so that the sign is
+/// right. A triangle at distance E or more may be left out; the error of the result is then at most the tolerance.
 ///   - enough() is the smallest E or d of all offers.
 ///   - certified() is the smallest d of all offers and of the bounds passed to left_out(): at most G, and at least the
 ///     last enough().

@@ -56,13 +56,14 @@ class Patchwork final : public LiveSpace {
   ///
   /// Patches that refine the same one must cover it together. They replace it together, when each has come or is itself
   /// refined by patches that have; if one fails, the coarse patch stays. They may be delivered before that one. Call
-  /// expect() for all of them before you deliver the last. A patch that is announced after `refines` was replaced is not
-  /// part of the replacement: its box is unknown at first.
+  /// expect() for all of them before you deliver the last. A patch that is announced after `refines` was replaced is
+  /// not part of the replacement: its box is unknown at first.
   PatchId expect(const Box& where, PatchId refines = PatchId::none);
 
   /// Delivers an expected patch; an empty world means that nothing is there. Drops it if it has been replaced. Worlds
   /// that updates replaced are freed here, and in expect(), fail() and forget(). Throws roam::Error for a patch that is
-  /// not expected or delivered already, and for a world with a larger error than error_limit or of over 4 billion triangles.
+  /// not expected or delivered already, and for a world with a larger error than error_limit or of over 4 billion
+  /// triangles.
   void deliver(PatchId patch, World world);
 
   /// Marks a patch as failed, with a reason for display. Its box stays solid; if it refines another, that one stays. It

@@ -5,7 +5,7 @@
 ///     const double headroom = 100.0 * space.first_impact({.radius = 0.3}, position, {0.0, 0.0, 100.0}).time;
 ///
 /// sweep() returns the first impact of a motion, contacts() the triangles near it, clearance() its least gap and the
-/// nearest triangle. first_impact() and gap_bound() return less, for less time.
+/// nearest triangle. first_impact() and gap_bound() are faster and return fewer facts.
 ///
 /// Lengths are metres. Space is *hit*, *free* or *unknown*. Unknown space is not loaded yet and counts as solid: a
 /// query meets its border like a wall and sets `unknown` in the result. For a radius and triangles as the caller passed

@@ -129,7 +129,7 @@ enum class Nowhere : std::uint8_t {
 struct Contradiction {
   enum class Body : std::uint8_t {
     chosen,           ///< the resulting body on the whole path: should arrive
-    chosen_back,      ///< the same, back over a crack: should arrive
+    chosen_back,      ///< the same, back up over a crack: should arrive
     inside_opening,   ///< just narrower than the path's opening: should arrive
     outside_opening,  ///< just wider: should be stopped
     wide_foot,        ///< support disc just wide enough for the crack: should arrive
