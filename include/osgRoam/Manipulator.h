@@ -12,8 +12,8 @@
 ///     roamer->setHomePose(eye, yaw, pitch);  // else a standing position near the middle of the space
 ///     viewer.setCameraManipulator(roamer);
 ///
-/// Coordinates: roam::Vec3 has the scene's; matrices, osg::Vec3d and home positions have the graph's, which are the
-/// scene's minus origin(). Metres, z up. A CoordinateFrameCallback with another up is not used; home() warns once.
+/// Coordinates: those of roam::Vec3 are the scene's. Those of matrices, osg::Vec3d and home positions are the graph's:
+/// the scene's minus origin(). Metres, z up. A CoordinateFrameCallback with another up is not used; home() warns once.
 /// Angles are radians: yaw is 0 along +x and grows to the left, pitch is 0 at the horizon and grows upwards, in [-pi/2,
 /// pi/2]. There is no roll.
 ///

@@ -45,9 +45,9 @@ enum class DiscRoom : std::uint8_t {
 };
 
 /// Whether some level disc of that radius, seen from above, contains `axis` and is free of floor within the band about
-/// the plane; its centre must be in sight from the axis at the height of the knee. Returns `free`
-/// also where it cannot decide: a disc fits or fails by less than a millimetre, or the search takes too much work.
-/// Throws roam::Error as Space::floor_clearance() does.
+/// the plane; its centre must be in sight from the axis at the height of the knee. Returns `free` also where it
+/// cannot decide: a disc fits or fails by less than a millimetre, or the search takes too much work. Throws roam::Error
+/// as Space::floor_clearance() does.
 [[nodiscard]] DiscRoom free_disc(const Space& space, const FloorPlane& plane, const SupportDisc& disc,
                                  const Vec3& axis);
 
