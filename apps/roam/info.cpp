@@ -236,7 +236,8 @@ void add_info(CLI::App& program, Run& run) {
   };
   const auto options = std::make_shared<Options>();
   options->scene.add_to(*verb);
-  verb->add_flag("--stats", options->stats, "Print what the index costs, times and the hash, too");
+  verb->add_flag("--stats", options->stats,
+                 "Also print the index's memory, the times and the triangles' fingerprint (hash)");
   verb->add_flag("--json", options->json, "Print one JSON object");
   verb->callback([options, &run] { run = [options] { return info(options->scene, options->json, options->stats); }; });
 }

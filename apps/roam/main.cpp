@@ -17,7 +17,8 @@ constexpr const char* help = R"(`roam help VERB` explains a verb, with examples.
 
 Results go to standard output, progress and notes to standard error.
 Exit status: 0 yes or done; 1 failed, and the message says what, where and what to do; 2 wrong usage; 3 the answer is
-no. Ctrl-C ends every verb in good order, or after 0.8 s at once: 130 (SIGTERM: 143).
+no. After Ctrl-C a verb tidies up and ends within a second, a walk that draws its picture within three: exit status 130
+(SIGTERM: 143).
 
 Examples:
   roam view mine.dae
@@ -47,7 +48,9 @@ std::string version() {
 int main(int argc, char** argv) {
   CLI::App program{description, "roam"};
   program.footer(help);
-  program.set_version_flag("-v,--version", version, "Show the version, and the walls around readers of scenes")
+  program
+      .set_version_flag("-v,--version", version,
+                        "Show the version, and this system's protection from hostile scene files")
       ->group(roam::app::other_group);
   program.require_subcommand(1);
   roam::app::Run chosen;

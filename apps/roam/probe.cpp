@@ -278,7 +278,7 @@ void add_probe(CLI::App& program, Run& run) {
   verb->add_option("--mode", o.mode, "walk: on the ground; fly: through the air (default: walk)")
       ->check(one_of({"walk", "fly"}))
       ->type_name("MODE");
-  verb->add_option("--step", o.step, "Height of steps that the body climbs (default: 0.3)")
+  verb->add_option("--step", o.step, "Highest step (stair, kerb) that the body climbs (default: 0.3)")
       ->check(from_to(0.0, 1000.0))
       ->type_name("M");
   verb->add_option("--slope", o.slope, "Slope that the body climbs, in degrees (default: 45)")

@@ -131,9 +131,10 @@ ExitStatus train(TrainVerbOptions o) {
 
 constexpr const char* help =
     R"(Training plans paths between the scene's rooms. The narrowest opening on them gives the largest
-radius, the widest crack the smallest. Bodies of these sizes then walk the paths as proof. The result is saved beside
-the scene, in SCENE.roam.json, for `roam walk` and `roam view`. Exit status 0 when one body serves all paths, 3 when
-none does; the report then says why, where, and what to use. Ctrl-C ends training with the best result so far.
+radius; the widest crack gives the smallest radius. Bodies of these sizes then walk the paths as proof. The result is
+saved beside the scene, in SCENE.roam.json, for `roam walk` and `roam view`. Exit status 0 when one body serves all
+paths, 3 when none does; the report then says why, where, and what to use. Ctrl-C ends training with the best result so
+far.
 
 --method paper is that of Xie and Niu: bodies roam the paths in turn. The radius shrinks where a body cannot enter and
 grows where it falls. Without --height the body is their sphere.
@@ -173,14 +174,15 @@ void add_train(CLI::App& program, Run& run) {
   verb->add_option("--mode", o.mode, "walk: on the ground; fly: through the air (default: walk)")
       ->check(one_of({"walk", "fly"}))
       ->type_name("MODE");
-  verb->add_option("--step", o.train.step, "Height of steps that the body climbs (default: 0.3)")
+  verb->add_option("--step", o.train.step, "Highest step (stair, kerb) that the body climbs (default: 0.3)")
       ->check(from_to(0.0, 100.0))
       ->type_name("M");
   verb->add_option("--slope", o.slope, "Slope that the body climbs, in degrees (default: 45)")
       ->check(from_to(0.0, 89.0))
       ->type_name("DEG");
   verb->option_defaults()->group("Method");
-  verb->add_option("--method", o.method, "interval: from the scene; paper: by trials (default: interval)")
+  verb->add_option("--method", o.method,
+                   "interval: compute sizes from the scene; paper: try sizes, as Xie and Niu do (default: interval)")
       ->check(one_of({"interval", "paper"}))
       ->type_name("METHOD");
   verb->add_option("--paths", o.train.paths, "Number of paths (default: 5, or one for each dead end if these are more)")

@@ -113,8 +113,8 @@ ExitStatus view(const ViewOptions& options) {
 }
 
 constexpr const char* help =
-    R"(W A S D and the mouse move you, H shows all keys. Gravity and walls hold you, and the display
-says what does. The window opens at once; you are held until the walls are loaded.
+    R"(W A S D and the mouse move you, H shows all keys. Gravity pulls you down and walls stop you; the
+display says what stops you. The window opens at once; you are held until the walls are loaded.
 
 Positions are of the body's centre, in metres, as in the file. The body is a person of radius 0.3 m and height 1.8 m.
 With --radius or --path alone it is a sphere, as for `roam walk`. A path that was recorded here names its body.

@@ -342,9 +342,9 @@ or held; then the tightest place of the way and the headroom. Exit status 0 when
 Ctrl-C, report, trace and picture of the way so far are still written (130).
 
 A path file has one waypoint `x y z` in each line, or the lines `t x y z qx qy qz qw` that osgViewer records. Times and
-rotations are ignored: --speed and --dt set the pace. Positions are of the body's centre. A waypoint counts as reached
-within the body's radius; on foot, also within the step height above and below. A path that `roam view` recorded names
-its body and mode; --radius and --mode override them.
+rotations are ignored: --speed and --dt set the pace. Positions are of the body's centre. A waypoint is reached when
+it is in the body; on foot also when it is at most the step height above or below it. A path that `roam view` recorded
+names its body and mode; --radius and --mode override them.
 
 Without --radius, the body is the one that `roam train` saved beside the scene, in SCENE.roam.json. It is smaller in
 places where only a smaller one fits. --height, --step and --slope change it. A profile of another scene is refused.

@@ -43,7 +43,8 @@ void SceneOptions::add_to(CLI::App& verb) {
       ->type_name("");
   add_reading_to(verb);
   verb.option_defaults()->group(scene_group);
-  verb.add_flag("--lossless", lossless, "Report contacts within 0.01 mm instead of 2 mm; takes more memory");
+  verb.add_flag("--lossless", lossless,
+                "Store triangles more exactly: a hit is right to 0.01 mm instead of 2 mm; takes more memory");
   verb.option_defaults()->group(other_group);
 }
 

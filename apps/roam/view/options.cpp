@@ -175,7 +175,8 @@ void ViewOptions::add_to(CLI::App& verb) {
   verb.get_option("SCENE")->required(false);
   verb.get_option("--memory")->description("Memory for a store's collision (default: 64M)");
   verb.option_defaults()->group(scene_group);
-  verb.add_option("--store", store, "Collide with this store (default: SCENE.roam beside the scene, if it fits)")
+  verb.add_option("--store", store,
+                  "Use this store for collision (default: SCENE.roam beside the scene, if you built it from SCENE)")
       ->type_name("STORE");
   constexpr double metres = Space::reach_limit / 4.0;
   verb.option_defaults()->group("Start");
@@ -195,7 +196,7 @@ void ViewOptions::add_to(CLI::App& verb) {
                      ->excludes("--bookmark")
                      ->type_name("FILE");
   verb.add_option("--speed", speed, "Metres per second (default: 1.4)")->check(from_to(1e-3, 1e4))->type_name("V");
-  verb.add_option("--dt", dt, "Seconds of one step of the path, at least 1e-6 (default: 1/60)")
+  verb.add_option("--dt", dt, "Length of one time step of the path, in seconds, at least 1e-6 (default: 1/60)")
       ->needs(replay)
       ->check(from_to(Route::shortest_step, 10.0))
       ->type_name("S");
@@ -209,7 +210,7 @@ void ViewOptions::add_to(CLI::App& verb) {
   verb.add_option("--eye", eye, "Height of the camera above the body's lowest point (default: 1.6, at most H - R)")
       ->check(from_to(0.0, metres))
       ->type_name("E");
-  verb.add_option("--step", step, "Height of steps that the body climbs (default: 0.3, at most H / 2)")
+  verb.add_option("--step", step, "Highest step (stair, kerb) that the body climbs (default: 0.3, at most H / 2)")
       ->check(from_to(0.0, metres))
       ->type_name("M");
   verb.add_option("--slope", slope, "Slope that the body climbs, in degrees (default: 45)")

@@ -99,7 +99,7 @@ void WalkOptions::add_to(CLI::App& verb) {
       ->type_name("X,Y,Z")
       ->needs(wandering);
   verb.add_option("--speed", route.speed, "Metres per second (default: 1.4)")->check(positive())->type_name("V");
-  verb.add_option("--dt", route.dt, "Seconds of one step, at least 1e-6 (default: 1/60)")
+  verb.add_option("--dt", route.dt, "Length of one time step, in seconds, at least 1e-6 (default: 1/60)")
       ->check(positive())
       ->type_name("S");
   verb.option_defaults()->group("Body, in metres");
@@ -113,7 +113,8 @@ void WalkOptions::add_to(CLI::App& verb) {
       ->type_name("RS");
   verb.add_option("--eye", eye, "Height of the camera above the body's lowest point (default: 1.6, at most H)")
       ->type_name("E");
-  verb.add_option("--step", step, "Height of steps that the body climbs (default: 0.3, at most H / 2)")->type_name("M");
+  verb.add_option("--step", step, "Highest step (stair, kerb) that the body climbs (default: 0.3, at most H / 2)")
+      ->type_name("M");
   verb.add_option("--slope", slope, "Slope that the body climbs, in degrees (default: 45)")->type_name("DEG");
   verb.add_flag("--no-profile", no_profile, "Ignore the trained body in SCENE.roam.json");
   verb.option_defaults()->group("Results");
