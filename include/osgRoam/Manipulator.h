@@ -12,13 +12,13 @@
 ///     roamer->setHomePose(eye, yaw, pitch);  // else a standing position near the middle of the space
 ///     viewer.setCameraManipulator(roamer);
 ///
-/// Frames: roam::Vec3 is in the scene's frame; matrices, osg::Vec3d and home positions are in the graph's frame, which
-/// is the scene minus origin(). Metres, z up. A CoordinateFrameCallback with another up is not used; home() warns once.
+/// Coordinates: those of roam::Vec3 are the scene's. Those of matrices, osg::Vec3d and home positions are the graph's:
+/// the scene's minus origin(). Metres, z up. A CoordinateFrameCallback with another up is not used; home() warns once.
 /// Angles are radians: yaw is 0 along +x and grows to the left, pitch is 0 at the horizon and grows upwards, in [-pi/2,
 /// pi/2]. There is no roll.
 ///
 /// Time: the body moves on FRAME events by the time between them (GUIEventAdapter::getTime), in steps of at most
-/// longest_step. Frames are cut to longest_frame. Keys count for as long as they are down.
+/// longest_step. A longer time than longest_frame counts as longest_frame. Keys count for as long as they are down.
 ///
 /// Input: keys are those of controls(). The mouse looks while a button is dragged, or always with setMouseGrab(). The
 /// wheel changes the speed, a double click goes to the clicked point. Events that another handler has taken are
@@ -141,8 +141,9 @@ class Manipulator : public osgGA::CameraManipulator {
   [[nodiscard]] double pitch() const;
   /// The camera. It follows steps and stairs smoothly, at least a quarter of the radius inside the body.
   [[nodiscard]] roam::Vec3 eye() const;
-  /// Metres, > 0: no triangle is nearer to eye(), up to 1e-6 m and the space's own error, unless held or a ghost. A
-  /// near plane that cuts nothing is at most this divided by sqrt(1 + tan^2(half width) + tan^2(half height)).
+  /// Metres, > 0: every triangle is at least so far from eye(), up to 1e-6 m and the space's own error. Not while the
+  /// body is held or a ghost. A near plane that cuts nothing is at most this divided by
+  /// sqrt(1 + tan^2(half width) + tan^2(half height)).
   [[nodiscard]] double leastEyeDistance() const;
   /// On by default: keeps computed near planes (CullSettings::setComputeNearFarMode) from cutting walls open in large
   /// scenes. Sets a ClampProjectionMatrixCallback on the camera, unless it has another one.

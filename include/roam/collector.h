@@ -24,11 +24,13 @@ struct Frame;
 
 /// Keeps the nearest contacts in the caller's memory. Lengths are metres.
 ///
-/// For a clearance it keeps one. Let G be the true gap and d a certified distance that was offered, at most `doubt` too
-/// low, so that G <= d + doubt. Leaving out what is no nearer than E = d + doubt - tolerance costs at most the
-/// tolerance. enough() is the least such E, or d if less; certified() is the least of d and of the bounds passed to
-/// left_out(). It never exceeds G and is at least the last enough(). E is at least 15/16 d, so that the sign is right.
-/// For a gap, E is 7/8 (d + doubt): a bound d that is no less than E serves as well as an exact distance.
+/// For a clearance it keeps one contact. G is the true gap. Each offered distance d is certified and at most `doubt`
+/// too low: G <= d + doubt. Each offer has a limit E = d + doubt - tolerance, raised to 15/16 d so that the sign is
+/// right. A triangle at distance E or more may be left out; the error of the result is then at most the tolerance.
+///   - enough() is the smallest E or d of all offers.
+///   - certified() is the smallest d of all offers and of the bounds passed to left_out(): at most G, and at least the
+///     last enough().
+/// For a gap, E is 7/8 (d + doubt): a lower bound d of at least E serves as well as an exact distance.
 class Collector {
  public:
   enum class Kind : std::uint8_t { contacts, clearance, floor_clearance, gap, one_contact };  ///< the caller's query
@@ -70,7 +72,7 @@ class Collector {
   void enter(const query::Frame* frame) { frame_ = frame; }  ///< the frame of offers from now on; null: the scene's
   void sort();                                               ///< nearest first
   [[nodiscard]] double initial_reach() const { return initial_reach_; }  ///< the reach that it was made with
-  /// The least gap, of a clearance that found something.
+  /// The smallest gap, of a clearance that found something.
   [[nodiscard]] double certified() const { return out_[0].distance < left_out_ ? out_[0].distance : left_out_; }
   [[nodiscard]] std::span<Contact> kept() const { return out_.first(count_); }
   [[nodiscard]] std::size_t count() const { return count_; }

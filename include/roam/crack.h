@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Crack: a gap of a floor that bodies can fall into. train.h finds those of a scene.
+/// Crack: a hole or slit in a floor that bodies can fall into. train.h finds those of a scene.
 
 #include <cstdint>
 
@@ -8,7 +8,7 @@
 
 namespace roam {
 
-/// A gap of the floor that a small enough body falls into; docs/cracks.md defines it. Metres.
+/// A hole or slit in the floor that a small enough body falls into; docs/cracks.md defines it. Metres.
 struct Crack {
   enum class Kind : std::uint8_t {
     crack,      ///< a large enough body or support disc spans it

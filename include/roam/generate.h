@@ -28,7 +28,7 @@ namespace roam::generate {
 
 inline constexpr std::uint64_t least_triangles = 10'000;  ///< of a request, which a scene meets within 3 %
 inline constexpr std::uint64_t most_triangles = 1'000'000'000;
-inline constexpr std::uint64_t piece_triangles = 65'536;  ///< most triangles in one mesh of a scene
+inline constexpr std::uint64_t piece_triangles = 65'536;  ///< largest number in one mesh of a scene
 inline constexpr double origin_limit = 1e7;               ///< largest absolute coordinate of an origin
 
 /// Receives the meshes of a scene in a fixed order, each valid only during the call. Exceptions pass through.

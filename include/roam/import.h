@@ -82,7 +82,8 @@ struct LeftOutObject {
   std::uint64_t triangles = 0;  ///< with such a vertex, or of an ignored object
 };
 
-/// The scene's frame in the world: world = scene + origin. From metadata.xml of the first folder of tiles.
+/// Where the scene lies on the Earth: position in `srs` = position in the scene + origin. From metadata.xml of the
+/// first folder of tiles.
 struct Georeference {
   std::string srs;  ///< spatial reference system, e.g. "EPSG:32632" or "ENU:46.2,8.1"
   Vec3 origin{0.0};

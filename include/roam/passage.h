@@ -35,10 +35,10 @@ struct PassageOptions {
   double step = 0.3;         ///< see WalkerSettings::step. A sphere climbs at most its radius.
   double widest = 1.0;       ///< > 0: largest radius searched for
   double narrowest = 0.05;   ///< > 0, < widest: smallest radius searched for
-  double support_max = 1.0;  ///< > 0: a way does not cross gaps of the floor that a disc of this radius fits into
+  double support_max = 1.0;  ///< > 0: a way does not cross cracks of the floor that a disc of this radius fits into
   double spacing = 0.2;      ///< > 0: of the search grid. Openings narrower than 0.7 * spacing may be overlooked.
-  /// Limit of searched positions: 100 bytes each, flying 60. Beyond it the best way so far is returned, with
-  /// Passage::complete false.
+  /// Limit of the number of searched positions, which take 100 bytes each, or 60 when flying. Beyond it the best way so
+  /// far is returned, with Passage::complete false.
   std::uint64_t most_places = 20'000'000;
   /// Called now and then with the number of searched positions. Returning false ends the search, as most_places does.
   std::function<bool(std::uint64_t)> progress = {};
@@ -53,7 +53,7 @@ struct Passage {
   /// centres, which follow() takes.
   std::vector<Vec3> way;
   double length = 0.0;  ///< of the way
-  /// The limit, if limited. If no way was found: the gap of width 0 between the positions reached from both ends,
+  /// The limit, if limited. If no way was found: the opening of width 0 between the positions reached from both ends,
   /// unless they are far apart.
   std::optional<Opening> opening;
   /// Certified: no way exists for a larger radius than this. Infinite: unknown.

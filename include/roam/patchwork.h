@@ -55,14 +55,15 @@ class Patchwork final : public LiveSpace {
   /// box that is empty, not finite or beyond coordinate_limit, and for a `refines` that was never expected.
   ///
   /// Patches that refine the same one must cover it together. They replace it together, when each has come or is itself
-  /// refined by patches that have; if one fails, the coarse patch stays. They may be delivered before that one. Expect
-  /// all of them before the last is delivered: once `refines` is replaced, a new patch stands alone, its box unknown at
-  /// first.
+  /// refined by patches that have; if one fails, the coarse patch stays. They may be delivered before that one. Call
+  /// expect() for all of them before you deliver the last. A patch that is announced after `refines` was replaced is
+  /// not part of the replacement: its box is unknown at first.
   PatchId expect(const Box& where, PatchId refines = PatchId::none);
 
   /// Delivers an expected patch; an empty world means that nothing is there. Drops it if it has been replaced. Worlds
   /// that updates replaced are freed here, and in expect(), fail() and forget(). Throws roam::Error for a patch that is
-  /// not expected or delivered already, and for a world less exact than error_limit or of over 4 billion triangles.
+  /// not expected or delivered already, and for a world with a larger error than error_limit or of over 4 billion
+  /// triangles.
   void deliver(PatchId patch, World world);
 
   /// Marks a patch as failed, with a reason for display. Its box stays solid; if it refines another, that one stays. It

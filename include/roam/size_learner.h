@@ -6,7 +6,7 @@
 ///     for (;;) {
 ///       walker.step(input, dt);
 ///       if (const auto lesson = learner.watch(walker, input.velocity, dt)) {
-///         std::cout << "an opening or a gap " << lesson->width << " m wide\n";
+///         std::cout << "an opening or a crack " << lesson->width << " m wide\n";
 ///         learner.take(walker, *lesson);  // optional
 ///       }
 ///     }

@@ -5,7 +5,7 @@
 ///     const double headroom = 100.0 * space.first_impact({.radius = 0.3}, position, {0.0, 0.0, 100.0}).time;
 ///
 /// sweep() returns the first impact of a motion, contacts() the triangles near it, clearance() its least gap and the
-/// nearest triangle. first_impact() and gap_bound() return less, for less time.
+/// nearest triangle. first_impact() and gap_bound() are faster and return fewer facts.
 ///
 /// Lengths are metres. Space is *hit*, *free* or *unknown*. Unknown space is not loaded yet and counts as solid: a
 /// query meets its border like a wall and sets `unknown` in the result. For a radius and triangles as the caller passed
@@ -69,7 +69,7 @@ struct ObjectFilter {
 struct Query {
   Body body;                              ///< radius and half height in [0, Space::reach_limit]
   Vec3 from{0.0};                         ///< the centre at time 0
-  Vec3 motion{0.0};                       ///< the centre at time 1, less `from`
+  Vec3 motion{0.0};                       ///< the centre at time 1 minus `from`
   const ObjectFilter* ignored = nullptr;  ///< objects to ignore; unknown space is never ignored
 };
 

@@ -98,7 +98,7 @@ struct StepReport {
   double axis_clearance = 0.0;
   double least_axis_clearance = 0.0;    ///< the least of all segments and `to`
   double least_gap = 0.0;               ///< the least axis clearance - radius of the same, each with its own radius
-  double elapsed = 0.0;                 ///< simulated time: dt, or less if throttled
+  double elapsed = 0.0;                 ///< simulated time: dt, or a part of it if throttled
   double landing_speed = 0.0;           ///< m/s, downward: the fastest landing of this step; 0: none
   Vec3 ground_velocity{0.0};            ///< m/s: see Stance::ground_velocity
   bool grounded = false;                ///< stands on something (walk mode)

@@ -112,7 +112,7 @@ class Store {
   [[nodiscard]] std::vector<Vec3> sample(std::uint64_t count) const;
   /// Throws roam::Error if it cannot be read, or if `triangle` is not of this store.
   [[nodiscard]] SourceTriangle source(TriangleId triangle) const;
-  /// SourceTriangle::scene alone, for less work.
+  /// SourceTriangle::scene alone, which is faster.
   [[nodiscard]] TriangleId scene_triangle(TriangleId triangle) const;
 
   struct State;
@@ -141,8 +141,9 @@ struct StoreVerification {
 
 /// Reads every byte of a store and compares it with the manifest: SHA-256 of files, XXH3 of tiles and pages, counts,
 /// boxes, geometry hash. Decodes every tile. Takes at most Store::usual_memory and 20 MiB a core. `progress` gets bytes
-/// done and bytes in all; if it returns false, roam::Cancelled is thrown. A damaged CURRENT or manifest is the only
-/// damage that is reported. Throws roam::Error if it is no store, of a newer format, or not readable.
+/// done and bytes in all; if it returns false, roam::Cancelled is thrown. If CURRENT or the manifest is damaged, only
+/// that is reported and the rest is not checked. Throws roam::Error if it is no store, of a newer format, or not
+/// readable.
 [[nodiscard]] StoreVerification verify_store(const std::filesystem::path& folder,
                                              const std::function<bool(std::uint64_t, std::uint64_t)>& progress = {});
 

@@ -129,7 +129,7 @@ enum class Nowhere : std::uint8_t {
 struct Contradiction {
   enum class Body : std::uint8_t {
     chosen,           ///< the resulting body on the whole path: should arrive
-    chosen_back,      ///< the same, back up over a gap: should arrive
+    chosen_back,      ///< the same, back up over a crack: should arrive
     inside_opening,   ///< just narrower than the path's opening: should arrive
     outside_opening,  ///< just wider: should be stopped
     wide_foot,        ///< support disc just wide enough for the crack: should arrive
@@ -156,7 +156,7 @@ struct PaperResult {
     cancelled,
   };
   Ending ending = Ending::cancelled;
-  double radius = 0.0;           ///< smallest that passed most paths; 0: none
+  double radius = 0.0;           ///< that passed the largest number of paths, the smallest of several; 0: none
   std::optional<Trial> fallen;   ///< largest that fell
   std::optional<Trial> blocked;  ///< smallest that was blocked
 };

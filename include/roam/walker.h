@@ -92,7 +92,7 @@ class Walker {
   [[nodiscard]] Vec3 pace() const;
   [[nodiscard]] const StepReport& report() const;  ///< of the last call
   /// The gap kept from what the body slides along: 2 * largest_error() + 0.1 mm. The body also passes openings that
-  /// leave it less.
+  /// leave it a smaller gap.
   [[nodiscard]] double skin() const;
   [[nodiscard]] double fall_limit() const;  ///< radius + step: a larger drop below the ground last stood on is a fall
 

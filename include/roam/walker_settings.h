@@ -24,8 +24,8 @@ struct WalkerSettings {
   double radius = 0.3;  ///< > 0. Too large a body is kept out of rooms; too small a body falls into cracks
   /// >= 0: radius of the support disc, in walk mode; 0: none. The disc carries the body, at the height of the floor,
   /// over each crack that has no room for the disc. Its radius must exceed half the width of the widest crack by 2 mm.
-  /// Walls do not stop it. Above 0, less than `radius` counts as `radius`. Unknown space carries it as floor does; the
-  /// report says `met_unknown`. docs/walking.md tells cracks from pits.
+  /// Walls do not stop it. A value between 0 and `radius` counts as `radius`. Unknown space carries it as floor does;
+  /// the report says `met_unknown`. docs/walking.md tells cracks from pits.
   double support_radius = 0.0;
   /// >= 2 * radius (equal: a sphere), in every mode: {.radius = 0.3} also flies as a capsule of 1.8 m. A lower body
   /// needs a lower eye and perhaps a lower step: see person() and sphere().
