@@ -76,3 +76,46 @@ configure() {
   echo "remove it and start again." >&2
   return 1
 }
+
+# behind_line TITLE LOG COMMAND...: runs the command, appends its output to the file LOG, and shows one line that says how
+# far it is. If it fails, shows the end of LOG.
+behind_line() {
+  local - title=$1 log=$2
+  set -o pipefail
+  shift 2
+  if "$@" 2>&1 < /dev/null | tee -a "$log" | one_line "$title"; then
+    [[ ! -t 1 ]] || printf '\r\e[K%s: done\n' "$title"
+    return 0
+  fi
+  [[ ! -t 1 ]] || echo
+  echo "$title: failed. The end of $log:" >&2
+  tail -n 40 "$log" >&2
+  return 1
+}
+
+# one_line TITLE: reads the output of ninja or apt-get and shows the progress: on a terminal in one line that changes,
+# else in a line for each tenth.
+one_line() {
+  local title=$1 begin=$SECONDS line shown='' text tenth last=-1 done all
+  while IFS= read -r line; do
+    if [[ $line =~ ^\[([0-9]+)/([0-9]+)\] ]]; then
+      done=${BASH_REMATCH[1]} all=${BASH_REMATCH[2]}
+      text="$((100 * done / all)) %"
+      tenth=$((10 * done / all))
+      if ((SECONDS - begin >= 10)); then
+        text+=", $(((SECONDS - begin) * (all - done) / done / 60 + 1)) min left"
+      fi
+    elif [[ $line =~ ^(Unpacking|Setting\ up)\ ([^ ]+) ]]; then
+      text=${BASH_REMATCH[0]}
+      tenth=$last
+    else
+      continue
+    fi
+    if [[ -t 1 ]]; then
+      [[ $text == "$shown" ]] || printf '\r\e[K%s: %s' "$title" "$text"
+    elif ((tenth > last)); then
+      echo "$title: $text"
+    fi
+    shown=$text last=$tenth
+  done
+}

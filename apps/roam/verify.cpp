@@ -27,7 +27,7 @@ struct VerifyOptions {
   bool json = false;
 };
 
-/// Who built the store, as far as known.
+/// Whether the store was built with your key.
 struct Origin {
   bool yours = false;
   std::string why_not;  ///< a clause

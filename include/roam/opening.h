@@ -25,8 +25,8 @@ struct Opening {
 };
 [[nodiscard]] const char* to_string(Opening::Kind kind);  ///< "door", "lintel" or "gap"
 
-/// Of all contacts of the step, the ground included: the one whose normal points most directly against `way`. Null if
-/// there is no contact.
+/// The contact of the step, the ground included, whose normal points most directly against `way`. Null if there is no
+/// contact.
 [[nodiscard]] const Contact* most_against(const StepReport& report, const Vec3& way);
 
 /// The opening in front of a blocked body: the nearest pair of contacts on either side of its way (door) or above and

@@ -69,6 +69,7 @@ struct RouteResult : Tally {
 class Route {
  public:
   static constexpr double shortest_step = 1e-6;
+  static constexpr double highest_speed = 1e4;      ///< m/s, of a Walker too
   static constexpr double longest_descent = 600.0;  ///< s: a body that first falls for longer has found no ground
 
   /// Places the walker at waypoints[0], as Walker::place(); in walk mode it first comes down to the ground there.

@@ -212,7 +212,8 @@ class Space {
   /// Offers the collector (roam/collector.h) all that comes within its reach of the body on its motion.
   virtual void find_near(const Query& query, Collector& collector, Vicinity* vicinity) const = 0;
 
-  // For a space made of others. Pass the vicinity to at most one, for the same body and motion; pass null to the rest.
+  // For a space around one other, such as Filtered. Pass the vicinity on for the same body and motion, else null. A
+  // space of several spaces is Instances or Patchwork: their triangles have numbers of their own.
   [[nodiscard]] static FirstImpact find_first_of(const Space& other, const Query& query, Vicinity* vicinity) {
     return other.find_first(query, vicinity);
   }

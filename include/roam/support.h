@@ -59,7 +59,8 @@ enum class Carrying : std::uint8_t {
 };
 
 /// Whether a disc of that radius would carry the walker where it is, over the floor that it saw last: there is no floor
-/// under its axis and no room for the disc. A radius below the body's counts as the body's.
+/// under its axis and no room for the disc. A radius below the body's counts as the body's. `no` if it saw no floor: a
+/// walker without a support disc looks for none.
 [[nodiscard]] Carrying carrying(const Walker& walker, double support_radius);
 
 }  // namespace roam

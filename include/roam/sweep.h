@@ -50,7 +50,8 @@ struct SweepResult {
 
 /// First impact of `body`, moved from `from` by `motion`, with `triangle`.
 [[nodiscard]] SweepResult sweep(const Body& body, const Vec3& from, const Vec3& motion, const Triangle& triangle);
-/// The first impact up to time `until`, in [0, 1]. The `distance` of a miss is 0, which makes misses faster.
+/// The first impact up to time `until`, in [0, 1]. Of a miss, `time` is `until` and `distance` 0, which makes misses
+/// faster.
 [[nodiscard]] SweepResult sweep(const Body& body, const Vec3& from, const Vec3& motion, const Triangle& triangle,
                                 double until);
 

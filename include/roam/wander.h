@@ -70,7 +70,7 @@ class Wander {
   /// One step. Where no heading is left it moves nothing, and is done. Throws roam::Error when done().
   const StepReport& advance();
 
-  /// What has been so far; complete when done(). Its events are the first 10,000, the last of them the last of all.
+  /// The result so far; complete when done(). Its events are the first 10,000, the last of them the last of all.
   /// `reached` when the time is over; `held` when the body cannot move then, or not for 2 s before, or when every
   /// heading has failed; `left_scene` as for a route. `waypoints` is 0 and `blocked_at` none.
   [[nodiscard]] const RouteResult& result() const { return result_; }
@@ -104,6 +104,7 @@ class Wander {
   Vec3 leg_start_{0.0};
   std::vector<Leg> voids_;
   double held_seconds_ = 0.0;
+  bool was_inside_ = false;  ///< has been in the box of the scene
   EventFilter filter_;
   bool done_ = false;
 };

@@ -1,6 +1,5 @@
 #include "cracks/rim_edges.h"
 
-#include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
@@ -12,6 +11,7 @@
 
 #include "cracks/shared_edges.h"
 #include "cracks/voids.h"
+#include "math/parallel_floating_point.h"
 
 namespace roam::cracks {
 namespace {
@@ -85,7 +85,7 @@ RimEdges::~RimEdges() noexcept { state_->end(); }
 const CrackOptions& RimEdges::options() const { return state_->options; }
 
 void RimEdges::look_ahead() {
-  if (tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism) < 2) return;
+  if (available_threads() < 2) return;
   std::size_t pieces = 0;
   for (int phase = 0; phase <= last_phase; ++phase) pieces += state_->pieces(phase);
   tbb::task_arena arena(1, 0, tbb::task_arena::priority::low);

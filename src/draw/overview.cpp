@@ -95,8 +95,8 @@ void paint(Panel& panel, const Overview& o, const Turn& turn, const PlanCut& cut
   for (const Overview::Mark& mark : o.marks) {
     circles.push_back({"mark", mark.text, mark.place, 1.3 * o.radius, 2.0 * dot, {3.0, mark.good ? blue : red}});
   }
-  circles.push_back({"start", "start", o.start, o.radius, dot, {2.5, green, green.at(0.55)}});
-  circles.push_back({"target", "target", o.target, o.radius, dot, {2.5, orange, orange.at(0.55)}});
+  circles.push_back({"start", "A", o.start, o.radius, dot, {2.5, green, green.at(0.55)}});
+  circles.push_back({"target", "B", o.target, o.radius, dot, {2.5, orange, orange.at(0.55)}});
   for (Circle& c : circles) {
     c.radius = std::max(c.radius, c.least / panel.scale());
     const double size = 2.0 * c.radius * panel.scale();

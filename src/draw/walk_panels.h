@@ -39,7 +39,7 @@ struct GapScale {
   [[nodiscard]] std::size_t index(double gap) const;
 };
 
-/// Of a mark: success, attention or failure.
+/// The colour for success, attention or failure.
 [[nodiscard]] Colour colour_of(MarkKind kind);
 
 void paint_plan(Panel& panel, const WalkDrawing& walk, const PlanCut& cut);

@@ -4,33 +4,35 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 
 namespace roam::files {
 
-bool is_mostly_holes([[maybe_unused]] int descriptor) noexcept {
+DataRange next_data([[maybe_unused]] int descriptor, std::int64_t from, std::int64_t size) noexcept {
 #if defined(SEEK_HOLE) && defined(SEEK_DATA)
+  if (from >= size) return {size, size};
+  const off_t begin = ::lseek(descriptor, from, SEEK_DATA);
+  if (begin < 0 && errno == ENXIO) return {size, size};  // a hole up to the end
+  if (begin >= from) {
+    const off_t end = ::lseek(descriptor, begin, SEEK_HOLE);
+    return {std::min<std::int64_t>(begin, size), end > begin ? std::min<std::int64_t>(end, size) : size};
+  }
+#endif
+  return {from, size};
+}
+
+bool is_mostly_holes(int descriptor) noexcept {
   struct stat status {};
   if (::fstat(descriptor, &status) != 0) return false;
-  const auto size = static_cast<std::uint64_t>(std::max<off_t>(status.st_size, 0));
-  if (size <= most_holes) return false;
-  std::uint64_t data = 0;
-  for (off_t at = 0; at < status.st_size;) {
-    const off_t begin = ::lseek(descriptor, at, SEEK_DATA);
-    if (begin < at) break;  // a hole up to the end, or not supported
-    const off_t end = ::lseek(descriptor, begin, SEEK_HOLE);
-    if (end <= begin) {
-      data = size;  // not supported
-      break;
-    }
-    data += static_cast<std::uint64_t>(std::min(end, status.st_size) - begin);
-    at = end;
+  const std::int64_t size = status.st_size;
+  std::int64_t data = 0;
+  for (DataRange range = next_data(descriptor, 0, size); range.begin < range.end;
+       range = next_data(descriptor, range.end, size)) {
+    data += range.end - range.begin;
   }
-  const bool unsupported = data == 0 && ::lseek(descriptor, 0, SEEK_HOLE) < 0;
   ::lseek(descriptor, 0, SEEK_SET);
-  return !unsupported && size - data > most_holes && (size - data - most_holes) / holes_per_byte > data;
-#else
-  return false;
-#endif
+  const auto holes = static_cast<std::uint64_t>(std::max<std::int64_t>(size - data, 0));
+  return holes > most_holes && (holes - most_holes) / holes_per_byte > static_cast<std::uint64_t>(data);
 }
 
 }  // namespace roam::files

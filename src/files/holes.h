@@ -13,4 +13,13 @@ inline constexpr std::uint64_t most_holes = 16u << 20, holes_per_byte = 16;
 /// position to the beginning.
 [[nodiscard]] bool is_mostly_holes(int descriptor) noexcept;
 
+/// The data of a file, a range of bytes between two holes.
+struct DataRange {
+  std::int64_t begin = 0;
+  std::int64_t end = 0;  ///< equal to begin: none up to the end of the file
+};
+/// The first data at or after a position in an open file of `size` bytes. A file system that does not list holes
+/// reports everything as data. Moves the descriptor's position.
+[[nodiscard]] DataRange next_data(int descriptor, std::int64_t from, std::int64_t size) noexcept;
+
 }  // namespace roam::files

@@ -27,7 +27,7 @@ std::vector<T> joined(std::vector<std::vector<T>>& pieces) {
 }  // namespace
 
 void Assembler::begin(std::string name, bool continues) {
-  if (continues) throw StreamDamaged{"a piece where a mesh was asked for"};
+  if (continues) throw StreamDamaged{"a piece of a mesh instead of a whole one"};
   name_ = std::move(name);
 }
 

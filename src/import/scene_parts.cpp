@@ -1,15 +1,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <set>
-#include <string_view>
 #include <system_error>
 
 #include "import/find_reader.h"
 #include "import/read_all.h"
+#include "import/reader/file_names.h"
 #include "math/floating_point.h"
 #include "roam/import.h"
-#include "text/printable.h"
 
 namespace roam {
 namespace {
@@ -68,24 +68,12 @@ std::vector<fs::path> files_in(const fs::path& folder, const reader::SceneScope&
   return files;
 }
 
-/// A part's name from a file's. File names may have any bytes, but names of parts are text: invalid UTF-8 becomes %XX,
-/// as in addresses.
-std::string readable(std::string_view bytes) {
-  std::string text;
-  while (!bytes.empty()) {
-    const std::size_t count = first_character(bytes).bytes;
-    text +=
-        count > 0 ? std::string(bytes.substr(0, count)) : fmt::format("%{:02X}", static_cast<unsigned char>(bytes[0]));
-    bytes.remove_prefix(std::max<std::size_t>(count, 1));
-  }
-  return text;
-}
-
 /// Gives every part a unique name.
 class Names {
  public:
   std::string unique(const std::string& file_name) {
-    const std::string wished = readable(file_name);
+    // File names may have any bytes, but names of parts are text.
+    const std::string wished = reader::escaped(file_name, [](char32_t) { return true; });
     std::string name = wished;
     for (int i = 2; !taken_.insert(name).second; ++i) name = fmt::format("{} ({})", wished, i);
     return name;
@@ -110,13 +98,21 @@ void add_tiles(const fs::path& path, const std::vector<Tile>& tiles, const std::
   fs::path folder = scope.scene;
   if (folder.filename() == "Data") folder = folder.parent_path();
   const fs::path metadata = folder / "metadata.xml";
+  // By real path. Many links to one large folder would make a list that no memory holds.
+  std::map<fs::path, std::string> folders;
   for (const Tile& tile : tiles) {
     ScenePart part;
     part.path = path;
     part.tile = tile.root.stem().string();
     part.name = names.unique(folder.filename().string() + "/" + part.tile);
     part.frame = frame;
-    if (tile.present && scope.resolve(tile.root)) {
+    const auto real = tile.present ? scope.resolve(tile.root.parent_path()) : std::nullopt;
+    if (real && scope.resolve(tile.root)) {
+      const auto [same, is_new] = folders.emplace(*real, part.tile);
+      if (!is_new) {
+        throw Error(tile.root.parent_path().string(),
+                    fmt::format("it leads to the same folder as {}; remove one of them", same->second));
+      }
       part.files = files_in(tile.root.parent_path(), scope);
       // This file has the position of the tile.
       if (!scope.find(metadata).empty() &&

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <glm/geometric.hpp>
@@ -40,11 +41,13 @@ std::vector<Vec3> floor_samples(std::span<const Mesh> meshes, std::size_t count)
   const bool upright = up > 0;
   const std::uint64_t all = upright ? up : down;
   std::vector<Vec3> samples;
+  const std::uint64_t most = std::min<std::uint64_t>(count, all);
+  if (most == 0) return samples;
   std::uint64_t n = 0;
   each_triangle(meshes, [&](const Triangle& t) {
     if (facing(t) != (upright ? 1 : -1)) return;
-    // The first of each of `count` equal runs.
-    if (n == 0 || n * count / all != (n - 1) * count / all) samples.push_back((t[0] + t[1] + t[2]) / 3.0);
+    // The first of each of `most` equal runs.
+    if (n == 0 || n * most / all != (n - 1) * most / all) samples.push_back((t[0] + t[1] + t[2]) / 3.0);
     ++n;
   });
   return samples;

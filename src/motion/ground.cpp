@@ -6,14 +6,12 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
+#include "math/slope.h"
 #include "motion/planes.h"
 #include "motion/support.h"
 
 namespace roam::walking {
 namespace {
-
-/// Tolerance for the z of a unit normal, so that a ramp exactly at the slope limit is walked on.
-constexpr double cosine_rounding = 1e-9;
 
 /// Metres. A rim is judged by a ball of radius rim_ball, lowered rim_inset behind the rim. That is far enough not to
 /// lie on the rim itself. It is near enough to find the top of a thin wall and the nosing of a stair.

@@ -38,16 +38,8 @@ constexpr int merge_limit = 64;
 /// Segments that one stride or one flight may add: slides, a step up (three), snapping to the ground, crouching.
 constexpr std::size_t segments_at_once = 24;
 
-/// Frequent events noted in one step; the rest of the list is kept for a fall and for events that end a step.
+/// Events of motion noted in one step; the rest of the list is kept for a fall and for events that end a step.
 constexpr std::size_t events_of_motion = 16;
-
-/// Whether an event may happen many times in one long step.
-bool is_frequent(EventKind kind) {
-  using enum EventKind;
-  constexpr std::array frequent{slid,     blocked, stepped_up, stepped_down, jumped,
-                                airborne, landed,  crouched,   stood,        bridged};
-  return std::find(frequent.begin(), frequent.end(), kind) != frequent.end();
-}
 
 }  // namespace
 
@@ -225,7 +217,8 @@ void Move::block(const Vec3& point) {
 }
 
 void Move::note(EventKind kind, const Vec3& point) {
-  if (!is_frequent(kind) || report.events.size() < events_of_motion) report.events.push({kind, point});
+  const bool is_first_fall = kind == EventKind::fell && !report.has(kind);
+  if (is_first_fall || report.events.size() < events_of_motion) report.events.push({kind, point});
 }
 
 Move::Mark Move::mark() const {

@@ -57,6 +57,7 @@ bool face_each_other(const Contact& a, const Contact& b, const Vec3& place, cons
 }  // namespace
 
 const Contact* most_against(const StepReport& report, const Vec3& way) {
+  const DefaultFloatingPoint guard;
   const Contact* most = nullptr;
   for (const Contact& c : report.contacts) {
     if (most == nullptr || glm::dot(c.normal, way) < glm::dot(most->normal, way)) most = &c;

@@ -79,6 +79,9 @@ void check(const RouteOptions& options, std::span<const Vec3> waypoints, const W
     }
   };
   positive("speed", options.speed, "m/s");
+  if (options.speed > Route::highest_speed) {
+    throw Error("the route's speed is " + number_text(options.speed) + " m/s; it must be at most 1e4 m/s");
+  }
   positive("time step", options.dt, "s");
   if (options.dt < Route::shortest_step) {
     throw Error("the route's time step is shorter than a microsecond; it would take for ever");

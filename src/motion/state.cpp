@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "math/finite.h"
+#include "math/largest.h"
 #include "motion/crouch.h"
 #include "motion/ground.h"
 #include "motion/pace.h"
@@ -219,13 +220,18 @@ const StepReport& Walker::State::step(const WalkerInput& wish, double dt) {
     change = walking::change(pace(), input);
     if (dt > 0.0) input.velocity = change->mean(dt);
   }
+  const Vec3 ghost_way = input.velocity * dt;
+  if (mode_ == Mode::ghost &&
+      !(is_finite(at_.place + ghost_way) && largest(at_.place + ghost_way) <= coordinate_limit)) {
+    throw Error("the ghost would leave the space that a body may be in: 1e9 m from the origin in each axis");
+  }
   begin();
   rode_ = std::exchange(ridden_, Vec3(0.0));
+  bool is_whole = true;
   if (mode_ == Mode::ghost) {
-    const Vec3 motion = input.velocity * dt;
-    at_.place += motion;
+    at_.place += ghost_way;
     at_.known.forget();
-    if (motion != Vec3(0.0)) report_.segments.push({at_.place, at_.height, settings_.radius, dt, 0.0, false});
+    if (ghost_way != Vec3(0.0)) report_.segments.push({at_.place, at_.height, settings_.radius, dt, 0.0, false});
     if (space_->fits(body(), at_.place)) {
       remember_safe();
       if (walking::above_ground(*space_, body(), at_.place)) ground_ = safe_;
@@ -243,14 +249,14 @@ const StepReport& Walker::State::step(const WalkerInput& wish, double dt) {
     }
     if (!held()) {
       slow_down(input);
-      move(input, dt);
+      is_whole = move(input, dt);
     }
     if (at_.known.fit == walking::Fit::unproven) {
       if (embedded()) fit_in();
       at_.known.fit = walking::Fit::known;
     }
   }
-  if (!report_.has(EventKind::throttled)) report_.elapsed = dt;
+  if (is_whole) report_.elapsed = dt;
   gait_.moved_along = false;
   was_blocked_ = report_.blocked;
   wished_ = input.velocity;
@@ -259,7 +265,7 @@ const StepReport& Walker::State::step(const WalkerInput& wish, double dt) {
   return report_;
 }
 
-void Walker::State::move(const WalkerInput& input, double dt) {
+bool Walker::State::move(const WalkerInput& input, double dt) {
   walking::Ending end = move_for(input, dt);
   if (end == walking::Ending::embedded) {
     if (at_.known.fit == walking::Fit::came_upon) {
@@ -272,6 +278,7 @@ void Walker::State::move(const WalkerInput& input, double dt) {
   if (end == walking::Ending::throttled) report_.events.push({EventKind::throttled, at_.place});
   if (end == walking::Ending::bottomless) put_back();
   if (mode_ == Mode::fly && !held()) remember_safe();
+  return end != walking::Ending::throttled;
 }
 
 walking::Ending Walker::State::move_for(const WalkerInput& input, double dt) {

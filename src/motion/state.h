@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "motion/gait.h"
+#include "motion/instance_motion.h"
 #include "motion/known.h"
 #include "motion/move.h"
-#include "motion/instance_motion.h"
 #include "motion/sizes.h"
 #include "motion/walking.h"
 #include "roam/walker.h"
@@ -56,8 +56,10 @@ class Walker::State {
   /// `ground_velocity`: at the body's feet, for a body that stands.
   void end_shifts(const Vec3& ground_velocity, double dt);
 
-  /// The floor plane used for a body that its support disc carries.
-  [[nodiscard]] const FloorPlane& floor() const { return gait_.floor; }
+  /// The plane of the floor last seen by a body with a support disc.
+  [[nodiscard]] std::optional<FloorPlane> floor() const {
+    return gait_.floor_seen ? std::optional(gait_.floor) : std::nullopt;
+  }
 
  private:
   friend class Walker;
@@ -81,7 +83,7 @@ class Walker::State {
   walking::Ending fly(walking::Move& move, const Vec3& velocity, double dt);
   void slow_down(WalkerInput& input);
   void begin();
-  void move(const WalkerInput& input, double dt);
+  [[nodiscard]] bool move(const WalkerInput& input, double dt);  ///< whether the whole time passed
   walking::Ending move_for(const WalkerInput& input, double dt);
   void settle();
   void fit_in();

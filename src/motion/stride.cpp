@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <glm/geometric.hpp>
 #include <limits>
+#include <optional>
 
 #include "motion/crouch.h"
 #include "motion/ground.h"
@@ -47,7 +48,7 @@ bool stride(Move& move, Gait& gait, const Vec3& velocity, double seconds) {
   grounds.add(gait.ground);
   Vec3 v = velocity;
   double left = seconds;
-  Vec3 in_vain(0.0);  // the motion that led nowhere from the present position
+  std::optional<Vec3> in_vain;  // the motion that led nowhere from the present position
   for (int contact = 0; contact < slide_limit && left > 0.0 && wish > 0.0; ++contact) {
     const Vec3 before = move.place;
     const Vec3 motion = over_grounds(v, grounds) * left;
@@ -66,7 +67,7 @@ bool stride(Move& move, Gait& gait, const Vec3& velocity, double seconds) {
       walls.clear();
       grounds.clear();
     }
-    in_vain = looks && move.place == before ? motion : Vec3(0.0);
+    in_vain = looks && move.place == before ? std::optional(motion) : std::nullopt;
     const Vec3& normal = a.contact.normal;
     const double apart = normal.x * v.x + normal.y * v.y;
     // A motion along a slope leads into the ground where it bends down: there it continues level.

@@ -5,14 +5,12 @@
 #include <glm/geometric.hpp>
 
 #include "math/floating_point.h"
+#include "math/slope.h"
 #include "motion/ground.h"
 #include "motion/state.h"
 
 namespace roam::walking {
 namespace {
-
-/// Tolerance for the z of a unit normal, so that a ramp exactly at the slope limit is floor.
-constexpr double cosine_rounding = 1e-9;
 
 /// Metres. Floor this near to the axis, seen from above, counts as under it. A ray can slip through where triangles
 /// meet without a common edge, and storage moves both by up to half a millimetre.
@@ -189,10 +187,11 @@ namespace roam {
 
 Carrying carrying(const Walker& walker, double support_radius) {
   const DefaultFloatingPoint guard;
+  if (!walker.state().floor()) return Carrying::no;
   WalkerSettings settings = walker.settings();
   settings.support_radius = support_radius;
   walking::DiscFound none;
-  return walking::carrying(walker.space(), settings, walker.skin(), walker.body().height(), walker.state().floor(),
+  return walking::carrying(walker.space(), settings, walker.skin(), walker.body().height(), *walker.state().floor(),
                            walker.position(), none);
 }
 

@@ -70,12 +70,16 @@ bool Walker::grounded() const { return state_->gait_.grounded(); }
 const Stance& Walker::stance() const { return state_->gait_; }
 bool Walker::held() const { return state_->held(); }
 double Walker::rise_speed() const {
+  const DefaultFloatingPoint guard;
   const walking::Gait& gait = state_->gait_;
   return gait.grounded() ? gait.rise_speed : gait.rise_speed + gait.ground_velocity.z;
 }
 const StepReport& Walker::report() const { return state_->report_; }
 double Walker::skin() const { return state_->skin_; }
-double Walker::fall_limit() const { return state_->settings_.radius + state_->settings_.step; }
+double Walker::fall_limit() const {
+  const DefaultFloatingPoint guard;
+  return state_->settings_.radius + state_->settings_.step;
+}
 
 Body Walker::body() const {
   const DefaultFloatingPoint guard;

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "math/floating_point.h"
+#include "math/slope.h"
 #include "roam/error.h"
 #include "text/number.h"
 
@@ -98,7 +99,7 @@ WanderStart start_at(const Space& space, const WalkerSettings& settings, Mode mo
   if (mode == Mode::walk) {
     const Vec3 down{0, 0, -2.0 * lift - settings.radius};
     const Impact ground = space.sweep(body, start.place, down);
-    if (!ground.hit || ground.normal.z < std::cos(settings.slope_degrees * std::numbers::pi / 180.0)) return start;
+    if (!ground.hit || ground.normal.z < least_upright(settings.slope_degrees)) return start;
   }
   start.room = 0.0;
   constexpr int directions = 8;
@@ -174,6 +175,8 @@ std::optional<WanderStart> wander_start(const Space& space, const WalkerSettings
 Wander::Wander(Walker& walker, const WanderOptions& options) : walker_(&walker), options_(options) {
   const DefaultFloatingPoint guard;
   demand_positive("speed", options.speed, "m/s");
+  if (options.speed > Route::highest_speed)
+    throw Error("the wandering's speed is " + number_text(options.speed) + " m/s; it must be at most 1e4 m/s");
   demand_positive("time", options.seconds, "s");
   if (!(options.dt >= Route::shortest_step && std::isfinite(options.dt)))
     throw Error("the wandering's time step is " + number_text(options.dt) + " s; it must be at least 1e-6 s");
@@ -185,7 +188,8 @@ Wander::Wander(Walker& walker, const WanderOptions& options) : walker_(&walker),
 std::uint64_t Wander::cell(const Vec3& place) const {
   constexpr std::uint64_t bits = 21;
   constexpr std::uint64_t mask = (1ull << bits) - 1;
-  const Vec3 local = place - walker_->space().bounds().lower;
+  const Box& scene = walker_->space().bounds();
+  const Vec3 local = scene.empty() ? place : place - scene.lower;
   std::uint64_t key = 0;
   for (int k = 0; k < 3; ++k) {
     key =
@@ -292,17 +296,21 @@ void Wander::note(const StepReport& report) {
   }
   const bool flies = walker_->mode() == Mode::fly;
   const Box scene = flies ? airspace(walker_->space(), walker_->settings()) : walker_->space().bounds();
+  bool inside = true;
   const Vec3 reach(walker_->settings().radius, walker_->settings().radius, 0.5 * report.height);
   const Vec3 low = report.to - reach;
   const Vec3 high = report.to + reach;
   for (int k = 0; k < 3; ++k) {
     // Above everything one may be flying or about to land.
-    const bool above = k == 2 && walker_->mode() == Mode::walk;
-    if (high[k] < scene.lower[k] || (low[k] > scene.upper[k] && !above)) {
-      result_.outcome = Outcome::left_scene;
-      done_ = true;
-    }
+    const bool above = k == 2 && !flies;
+    inside = inside && high[k] >= scene.lower[k] && (low[k] <= scene.upper[k] || above);
   }
+  // A body may fly in from outside.
+  if (!inside && (!flies || was_inside_)) {
+    result_.outcome = Outcome::left_scene;
+    done_ = true;
+  }
+  was_inside_ = was_inside_ || inside;
 }
 
 }  // namespace roam

@@ -250,7 +250,7 @@ void check(const Profile& p) {
     demand_foot(path + "support_radius", p.regions[i].support_radius);
   }
   if (std::find(methods.begin(), methods.end(), p.method) == methods.end()) {
-    refuse("method", fmt::format("must be \"paper\", \"interval\" or \"roaming\", not \"{}\"", p.method));
+    refuse("method", fmt::format("must be \"paper\", \"interval\" or \"roaming\", not \"{}\"", printable(p.method)));
   }
 }
 

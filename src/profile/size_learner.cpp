@@ -6,10 +6,10 @@
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <numbers>
 #include <utility>
 
 #include "math/floating_point.h"
+#include "math/slope.h"
 #include "roam/opening.h"
 #include "roam/support.h"
 
@@ -25,8 +25,6 @@ constexpr double disc_precision = 1e-3;
 /// Metres below the last firm floor at which a stuck body counts as sunk into something.
 constexpr double sunk = 0.02;
 
-/// Tolerance for the z of a unit normal, so that a ramp exactly at the slope limit is floor.
-constexpr double cosine_rounding = 1e-9;
 /// Part of the radius: a body that moved less has not moved.
 constexpr double moved_part = 0.1;
 /// Trials of a support disc walk at this speed (m/s), in steps of trial_step seconds, for at most trial_limit steps: a
@@ -73,11 +71,10 @@ std::optional<Vec3> way_through(const Walker& walker, const Placed& small, const
 /// Whether there is floor under the axis itself. A rim alone may still carry the body, but shows no plane of the floor.
 bool floor_below(const Walker& walker) {
   const double radius = walker.body().radius;
-  const double slope = walker.settings().slope_degrees * std::numbers::pi / 180.0;
-  const double lifted = (radius + walker.skin()) * (1.0 / std::cos(slope) - 1.0);
+  const double lifted = (radius + walker.skin()) * (1.0 / least_upright(walker.settings().slope_degrees) - 1.0);
   const Vec3 down(0.0, 0.0, -(radius + lifted + 3.0 * walker.skin()));
   const Impact floor = walker.space().ray(walker.feet() + Vec3(0.0, 0.0, radius), down);
-  return floor.hit && floor.normal.z >= std::cos(slope) - cosine_rounding;
+  return floor.hit && floor.normal.z >= least_upright(walker.settings().slope_degrees);
 }
 
 /// A walker with this support disc, moved straight from `from` until its axis is at `to`. Nothing if it does not

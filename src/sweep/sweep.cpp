@@ -61,11 +61,10 @@ SweepResult sweep(const Body& body, const Vec3& from, const Vec3& motion, const 
   const DefaultFloatingPoint guard;
   check(body, from, motion, triangle);
   if (!(until >= 0.0 && until <= 1.0)) throw Error("the end of a sweep must be a time in [0, 1]");
-  SweepResult result;
   const certified::LocalTriangle local = certified::seen_from(from, triangle);
-  if (certified::plane_separates(body, motion, local)) return result;
-  result = certified::sweep(body, motion, local, 0.0, until, 0.0);
-  if (!result.hit) return {};
+  if (certified::plane_separates(body, motion, local)) return {.time = until};
+  SweepResult result = certified::sweep(body, motion, local, 0.0, until, 0.0);
+  if (!result.hit) return {.time = until};
   result.point += from;
   return result;
 }

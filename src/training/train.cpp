@@ -1,7 +1,6 @@
 #include "roam/train.h"
 
 #include <fmt/format.h>
-#include <tbb/global_control.h>
 
 #include <algorithm>
 #include <chrono>
@@ -180,9 +179,6 @@ void follow_paper(const Survey& survey, const TrainOptions& options, const ways:
 Training trained(const Survey& survey, const TrainOptions& options) {
   check(options);
   const auto start = std::chrono::steady_clock::now();
-  std::optional<tbb::global_control> limit;
-  if (options.threads > 0)
-    limit.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(options.threads));
   Stages stages(options.progress);
   Training training;
   training.mode = options.mode;
@@ -248,7 +244,7 @@ Profile profile_of(const Training& training, const Survey& survey) {
 }
 
 Training train(const Survey& survey, const TrainOptions& options) {
-  return in_default_floating_point([&] { return trained(survey, options); });
+  return in_default_floating_point([&] { return trained(survey, options); }, options.threads);
 }
 
 }  // namespace roam

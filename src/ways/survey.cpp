@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <glm/trigonometric.hpp>
 #include <utility>
 
 #include "math/floating_point.h"
+#include "math/slope.h"
 
 namespace roam {
 
@@ -58,7 +58,7 @@ Survey Survey::build(std::vector<Mesh> meshes, const SurveyOptions& options) {
   };
   Survey survey;
   survey.slope_degrees_ = options.slope_degrees;
-  survey.least_upright_ = std::cos(glm::radians(options.slope_degrees));
+  survey.least_upright_ = least_upright(options.slope_degrees);
   survey.meshes_ = std::move(meshes);
   survey.world_ = World::build(survey.meshes_, part(0.0, whole_share));  // which also checks the indices
   std::vector<Mesh> floors;

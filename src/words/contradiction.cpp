@@ -17,15 +17,15 @@ const char* body_kind(Contradiction::Body body) {
     case Body::chosen:
       return "the chosen body";
     case Body::chosen_back:
-      return "the chosen body, back up over a gap";
+      return "the chosen body, on its way back up over a crack";
     case Body::inside_opening:
       return "just inside the opening";
     case Body::outside_opening:
       return "just outside the opening";
     case Body::wide_foot:
-      return "a foot just wide enough";
+      return "a support disc just wide enough";
     case Body::small_foot:
-      return "a foot just too small";
+      return "a support disc just too small";
   }
   return "";
 }
@@ -50,9 +50,10 @@ const char* what_it_did(Outcome outcome) {
 
 std::string contradiction(const Contradiction& contradiction) {
   const Trial& trial = contradiction.trial;
-  const std::string size = trial.support_radius > trial.radius ? fmt::format("radius {:.3f} m on a foot of {:.3f} m",
-                                                                             trial.radius, trial.support_radius)
-                                                               : fmt::format("radius {:.3f} m", trial.radius);
+  const std::string size =
+      trial.support_radius > trial.radius
+          ? fmt::format("radius {:.3f} m on a support disc of {:.3f} m", trial.radius, trial.support_radius)
+          : fmt::format("radius {:.3f} m", trial.radius);
   return fmt::format("On path {} a body with {} ({}) should {}, but {} at {}.", trial.path + 1, size,
                      body_kind(contradiction.body), expected_words(contradiction.body), what_it_did(trial.outcome),
                      at(trial.at));

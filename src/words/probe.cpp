@@ -137,7 +137,8 @@ std::string obstacle(const ProbeLimit& limit, const ProbeDetails& details) {
 std::string stop_line(const ProbeQuestion& question, const ProbeAnswer& answer, const ProbeDetails& details) {
   if (answer.walk && falls(*answer.walk, question.mode)) {
     return fmt::format(
-        "a fall at {}: the floor ends there, or has a gap. A wider foot (--support-radius) may carry the body",
+        "a fall at {}: the floor ends there, or has a crack. A wider support disc (--support-radius) may carry the "
+        "body",
         walked_to(question, answer));
   }
   if (answer.walk) {

@@ -26,7 +26,7 @@ constexpr std::size_t most_parts = 3;
 /// "a radius of 0.300 m", with the support disc if there is one.
 std::string body_words(double radius, double support_radius) {
   if (support_radius > radius)
-    return fmt::format("a radius of {:.3f} m on a foot (support radius) of {:.3f} m", radius, support_radius);
+    return fmt::format("a radius of {:.3f} m on a support disc of {:.3f} m", radius, support_radius);
   return fmt::format("a radius of {:.3f} m", radius);
 }
 
@@ -77,7 +77,7 @@ std::string interval_words(const Training& training) {
   const char* const no_crack = training.all_cracks ? "no crack lies on the way" : "not all cracks were looked for";
   const bool cracked = training.smallest > 0.0;
   const LowerEnd lower = lower_end(training);
-  if (!std::isfinite(lower.radius)) return fmt::format("Of the bodies without a foot {}.", carries_none(lower));
+  if (!std::isfinite(lower.radius)) return fmt::format("Without a support disc {}.", carries_none(lower));
   if (!training.largest) {
     return cracked ? fmt::format("Any radius from {:.3f} m up does; {} decides, and no opening limits it.",
                                  lower.radius, lower.why)
@@ -96,8 +96,8 @@ std::string feasible_words(const Training& training) {
                                  all_paths(training), interval_words(training));
   if (training.support_radius > 0.0 && training.smallest < training.radius) {
     const bool is_carried = training.radius >= training.carried;
-    text += is_carried ? " The foot is for cracks beside the paths."
-                       : " The foot is for that crack: a body so little wider than it sags between its rims.";
+    text += is_carried ? " The support disc is for cracks beside the paths."
+                       : " The support disc is for that crack: a body hardly wider than the crack sags into it.";
   }
   return text;
 }
@@ -126,7 +126,7 @@ std::string for_most_words(const Training& training) {
     text += fmt::format(", and {} more let less than that through", stops.size() - most_stops);
   text += ".";
   if (training.support_radius > training.radius && training.smallest > 0.0)
-    text += fmt::format(" The foot is for {}.", split_words(training));
+    text += fmt::format(" The support disc is for {}.", split_words(training));
   return text;
 }
 
@@ -236,8 +236,8 @@ std::string ends_words(const Training& training, bool ended) {
 
 std::string trench_words(const Trench& trench) {
   return fmt::format(
-      " No foot helps over the trench {:.3f} m wide at {}, for its bottom is only {:.3f} m down: a radius from {:.3f} "
-      "m up rolls over it, and a step of {:.2f} m leads through it.",
+      " No support disc helps over the trench {:.3f} m wide at {}: its bottom is only {:.3f} m down. A radius from "
+      "{:.3f} m up rolls over it, and a step of {:.2f} m leads through it.",
       2.0 * trench.crack.radius, at(trench.crack.point), trench.depth, trench.crack.radius,
       std::ceil(100.0 * trench.depth) / 100.0);
 }
@@ -245,8 +245,9 @@ std::string trench_words(const Trench& trench) {
 std::string interval_answer(const Training& training, const TrainOptions& options) {
   std::string text = ends_words(training, !training.complete);
   if (training.least_foot > options.support_max && training.support_radius > 0.0)
-    text += fmt::format(" A gap beside a wall needs a foot of {:.2f} m, more than was allowed: it is not carried.",
-                        training.least_foot);
+    text += fmt::format(
+        " A crack beside a wall needs a support disc of {:.2f} m, more than --support-max allows: it is not bridged.",
+        training.least_foot);
   return training.trench ? text + trench_words(*training.trench) : text;
 }
 

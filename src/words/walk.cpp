@@ -179,7 +179,7 @@ std::string explain(const EndedWalk& walk) {
       const Vec3 from = first(result, EventKind::fell).value_or(result.end);
       const WalkerSettings& s = walk.settings;
       const bool foot = s.support_radius > s.radius;
-      return fmt::format("at {} the ground ends, or has a gap that a {} of {:g} m does not bridge; a larger one may",
+      return fmt::format("at {} the ground ends, or has a crack that a {} of {:g} m does not bridge; a larger one may",
                          exactly_at(from), foot ? "support radius" : "radius", foot ? s.support_radius : s.radius);
     }
     case Outcome::held:

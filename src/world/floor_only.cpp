@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <numbers>
 #include <string>
 
 #include "math/finite.h"
 #include "math/largest.h"
+#include "math/slope.h"
 #include "roam/error.h"
 #include "sweep/error_bound.h"
 #include "text/number.h"
@@ -17,9 +17,6 @@ namespace roam::query {
 namespace {
 
 constexpr double slope_limit = 89.0;
-
-/// Tolerance for the z of a unit normal, so that a ramp exactly at the limit is floor.
-constexpr double cosine_rounding = 1e-9;
 
 /// Roundings of a corner made by a cut: of its two ends, of the share between them, and of the sum.
 constexpr double cut_roundings = 8.0;
@@ -54,7 +51,7 @@ FloorOnly::FloorOnly(const Floor& floor, const Vec3& start) : start_(start), ban
   if (!(floor.slope_degrees >= 0.0 && floor.slope_degrees <= slope_limit)) {
     refuse("the slope limit is " + number_text(floor.slope_degrees) + " degrees; it must be between 0 and 89");
   }
-  const double cosine = std::cos(floor.slope_degrees * (std::numbers::pi / 180.0)) - cosine_rounding;
+  const double cosine = least_upright(floor.slope_degrees);
   squared_cosine_ = cosine * cosine;
   if (!(floor.band >= 0.0)) refuse("the band is " + number_text(floor.band) + " m; it must be 0 or more");
   if (std::isinf(floor.band)) return;

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "math/finite.h"
+#include "math/floating_point.h"
 #include "math/mix.h"
 #include "roam/filtered.h"
 #include "text/number.h"
@@ -63,17 +64,20 @@ Box turned(const Box& box, const query::Frame& frame) {
 }  // namespace
 
 Vec3 Pose::to_scene(const Vec3& p) const {
+  const DefaultFloatingPoint guard;
   const double c = std::cos(heading), s = std::sin(heading);
   return position + Vec3(c * p.x - s * p.y, s * p.x + c * p.y, p.z);
 }
 
 Vec3 Pose::to_instance(const Vec3& p) const {
+  const DefaultFloatingPoint guard;
   const double c = std::cos(heading), s = std::sin(heading);
   const Vec3 v = p - position;
   return {c * v.x + s * v.y, c * v.y - s * v.x, v.z};
 }
 
 Vec3 Velocity::at(const Pose& pose, const Vec3& point) const {
+  const DefaultFloatingPoint guard;
   const Vec3 arm = point - pose.position;
   return linear + turning * Vec3(-arm.y, arm.x, 0.0);
 }
@@ -162,6 +166,7 @@ Instances::Instances(LiveSpace& space) : Instances(static_cast<const Space&>(spa
 Instances::~Instances() = default;
 
 ObjectId Instances::add(std::shared_ptr<const World> world, const Pose& pose, InstanceLabel label) {
+  const DefaultFloatingPoint guard;
   State& s = *state_;
   check(pose);
   if (!world) throw Error("an instance needs a world");
@@ -190,6 +195,7 @@ void Instances::remove(ObjectId instance) {
 }
 
 void Instances::set_pose(ObjectId instance, const Pose& pose) {
+  const DefaultFloatingPoint guard;
   check(pose);
   const std::uint32_t i = state_->index(instance);
   Pose& old = state_->instances[i].pose;

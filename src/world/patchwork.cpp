@@ -274,6 +274,7 @@ FirstImpact Patchwork::find_first(const Query& query, Vicinity* /*vicinity*/) co
     FirstImpact met = patch.world ? query::first_impact(*patch.world->data_, query, query::part_of(query, when))
                                   : met_unknown(patch.where, query);
     met.triangle += first_id(index) + (patch.world ? 0 : first_side);
+    if (met.contact) met.contact->triangle = met.triangle;
     if (!met.hit || (first.hit && !query::is_earlier(met, first))) return;
     first = met;
     until = first.time;

@@ -141,7 +141,7 @@ Impact Space::completed(const Query& query, const FirstImpact& first) const {
   const DefaultFloatingPoint guard;
   query::check(query);
   if (first.hit && first.revision != facts().revision.value_or(0)) {
-    throw Error("cannot complete a first impact: the space has changed since; ask for it again");
+    throw Error("cannot complete a first impact: the space has changed since then; call first_impact() again");
   }
   return touched(query, first);
 }

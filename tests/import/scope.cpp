@@ -60,6 +60,23 @@ TEST(ImportScope, SaysWhatLeadsOutWhereNothingIsLeft) {
   EXPECT_TRUE(contains(error, "--allow")) << error;
 }
 
+TEST(ImportScope, ListsNoFolderForEachLinkToIt) {
+  const TemporaryFolder folder;
+  fs::create_directories(folder.path() / "city/Data/Tile_0");
+  folder.write("city/Data/Tile_0/Tile_0.osgb", "x");
+  folder.write("city/Data/Tile_0/Tile_1.osgb", "x");
+  const std::vector<fs::path> city{folder.path() / "city"};
+  EXPECT_EQ(scene_parts(city).size(), 1u);
+  fs::create_directory_symlink("Tile_0", folder.path() / "city/Data/Tile_1");
+  try {
+    static_cast<void>(scene_parts(city));
+    FAIL() << "expected an error";
+  } catch (const Error& error) {
+    EXPECT_TRUE(std::string(error.where()).ends_with("city/Data/Tile_1")) << error.what();
+    EXPECT_TRUE(contains(error.what(), "same folder as Tile_0")) << error.what();
+  }
+}
+
 TEST(ImportScope, RefusesALinkInThePlaceOfASceneThatNobodyNamed) {
   const TemporaryFolder folder;
   const fs::path file = folder.write("vault/secret.obj", one), link = folder.path() / "scene.obj";

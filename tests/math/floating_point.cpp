@@ -5,11 +5,13 @@
 
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "clutter.h"
+#include "roam/instances.h"
 #include "roam/patchwork.h"
 #include "roam/route.h"
 #include "roam/standing.h"
@@ -199,6 +201,8 @@ TEST(FloatingPoint, StepsOfWalkers) {
             bits(walker.feet());
             bits(walker.eye());
             bits(walker.body().half_height);
+            bits(walker.rise_speed());
+            bits(walker.fall_limit());
           }
           static_cast<void>(walker.resize(0.25, 0.4));
           bits(walker.report());
@@ -209,6 +213,26 @@ TEST(FloatingPoint, StepsOfWalkers) {
       bits(roam::wish_velocity({}, starts[0], true));
     });
   }
+}
+
+TEST(FloatingPoint, PosesOfInstances) {
+  const roam::Mesh mesh = clutter_at(Vec3(0.0), 40);
+  const roam::World world = roam::World::build({&mesh, 1});
+  const auto door = std::make_shared<const roam::World>(world);
+  clutter::Random random(4);
+  std::vector<roam::Pose> poses;
+  for (int i = 0; i < 20; ++i) poses.push_back({7.0 * random.direction(), 0.3 * i});
+  expect_same([&](Bits& bits) {
+    roam::Instances space(world);
+    const roam::ObjectId id = space.add(door, poses[0]);
+    for (const roam::Pose& pose : poses) {
+      space.set_pose(id, pose);
+      bits(pose.to_scene({0.1, 0.2, 0.3}));
+      bits(pose.to_instance({0.1, 0.2, 0.3}));
+      bits(roam::Velocity{{0.1, 0.2, 0.3}, 0.7}.at(pose, {1.1, 1.2, 1.3}));
+      bits(space.sweep({.radius = 0.2}, {-6.0, -6.0, 1.0}, {12.0, 11.0, 0.3}).time);
+    }
+  });
 }
 
 TEST(FloatingPoint, Routes) {

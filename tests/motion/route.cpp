@@ -321,6 +321,7 @@ TEST(Route, RefusesWhatCanNotBeFollowed) {
   EXPECT_THROW(follow(m, {}, Mode::walk, {Vec3(0.0), Vec3(nan)}), roam::Error);
   EXPECT_THROW(follow(m, {}, Mode::ghost, {Vec3(0.0)}), roam::Error);
   EXPECT_THROW(follow(m, {}, Mode::walk, {Vec3(0.0)}, {.speed = 0.0}), roam::Error);
+  EXPECT_THROW(follow(m, {}, Mode::walk, {Vec3(0.0)}, {.speed = 1e160}), roam::Error);
   EXPECT_THROW(follow(m, {}, Mode::walk, {Vec3(0.0)}, {.dt = nan}), roam::Error);
   EXPECT_THROW(follow(m, {}, Mode::walk, {Vec3(0.0)}, {.patience = -1.0}), roam::Error);
 }

@@ -321,6 +321,14 @@ TEST(Support, StepsOverARoughFloorWithACrack) {
   }
 }
 
+TEST(Support, IsNotLookedForBelowABodyWithoutADisc) {
+  Mesh m = split(0.58);
+  for (Vec3& vertex : m.vertices) vertex.z += 10.0;
+  const World world = build(m);
+  const roam::Walker walker(world, {}, Mode::fly, {0.0, 0.0, 11.0});
+  EXPECT_EQ(roam::carrying(walker, 0.6), roam::Carrying::no);
+}
+
 TEST(Support, IsRefusedOutOfRange) {
   for (const double foot : {-0.1, 250.1, std::numeric_limits<double>::quiet_NaN()}) {
     EXPECT_THROW(roam::check(person(foot)), roam::Error) << foot;

@@ -132,6 +132,35 @@ TEST(Walker, AStepOfNoTimeDoesNothing) {
   EXPECT_EQ(w.walker.position(), before);
 }
 
+TEST(Walker, AStepOfTheShortestTimeIsNotBlocked) {
+  const Mesh m = floor_mesh();
+  Walk w(m, {}, Mode::walk, {0.0, 0.0, 0.95});
+  EXPECT_FALSE(w.step({0.3, 0.0, 0.0}, std::numeric_limits<double>::denorm_min()).blocked);
+}
+
+TEST(Walker, AGhostThatWouldLeaveAllSpaceStaysWhereItIs) {
+  const Mesh m = floor_mesh();
+  Walk w(m, {}, Mode::ghost, {0.0, 0.0, 0.95});
+  EXPECT_THROW(w.walker.step({.velocity = {1e308, 0.0, 0.0}}, 100.0), roam::Error);
+  EXPECT_THROW(w.walker.step({.velocity = {1e300, 0.0, 0.0}}, 1.0), roam::Error);
+  EXPECT_EQ(w.walker.position(), Vec3(0.0, 0.0, 0.95));
+  EXPECT_EQ(w.walker.step({.velocity = {1.0, 0.0, 0.0}}, 1.0).to, Vec3(1.0, 0.0, 0.95));
+}
+
+TEST(Walker, AStepOfManyEventsKeepsWhatEndsIt) {
+  const Mesh m = floor_mesh();
+  Walk w(m, {}, Mode::walk, {-20.0, 0.0, 0.95});
+  std::vector<roam::SizeRegion> regions;
+  for (int i = 0; i < 30; ++i) {
+    const double x = -19.0 + i;
+    regions.push_back({{Vec3(x, -1.0, -1.0), Vec3(x + 0.3, 1.0, 3.0)}, 0.2, 0.0, ""});
+  }
+  w.walker.set_regions(regions);
+  const StepReport& r = w.step({1.4, 0.0, 0.0}, 1e6);
+  EXPECT_EQ(r.events.total(), r.events.size()) << "nothing is lost beyond what motion may note";
+  EXPECT_EQ(r.has(EventKind::throttled), r.elapsed < 1e6);
+}
+
 TEST(Walker, GivesTheSameBitsOnEveryRunAndWithAnyNumberOfThreads) {
   Mesh m = rough_tiling(90, 5);
   Random clutter(9);

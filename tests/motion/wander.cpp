@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <set>
 #include <string>
 
@@ -76,11 +77,34 @@ TEST(Wander, RefusesWhatCannotBe) {
   const auto refused = [&](const WanderOptions& options) { return error_of([&] { Wander wander(walker, options); }); };
   EXPECT_TRUE(contains(refused({.speed = 0.0}), "speed"));
   EXPECT_TRUE(contains(refused({.speed = std::numeric_limits<double>::infinity()}), "speed"));
+  EXPECT_TRUE(contains(refused({.speed = 1e160}), "speed"));
   EXPECT_TRUE(contains(refused({.dt = 1e-7}), "time step"));
   EXPECT_TRUE(contains(refused({.seconds = -1.0}), "time"));
   EXPECT_EQ(refused({}), "");
   walker.set_mode(Mode::ghost);
   EXPECT_TRUE(contains(refused({}), "ghost"));
+}
+
+TEST(Wander, MayFlyInFromOutside) {
+  const World world = two_rooms();
+  Walker walker(world, person, Mode::fly, {3, 3, 60});
+  EXPECT_FALSE(Wander(walker, {.seconds = 1.0}).done());
+}
+
+TEST(Wander, EndsInAnEmptyScene) {
+  const World nothing;
+  Walker walker(nothing, person, Mode::fly, {3, 3, 60});
+  Wander wander(walker, {.seconds = 1.0});
+  while (!wander.done()) wander.advance();
+}
+
+TEST(FloorSamples, AreAtMostTheWishedNumber) {
+  Mesh mesh;
+  for (int i = 0; i < 10; ++i) scenes::add_floor(mesh, 2 * i, 0, 2 * i + 1, 1, 0);
+  const auto count = [&](std::size_t most) { return floor_samples({&mesh, 1}, most).size(); };
+  EXPECT_EQ(count(0), 0U);
+  EXPECT_EQ(count(3), 3U);
+  EXPECT_EQ(count(std::numeric_limits<std::size_t>::max()), mesh.triangles.size());
 }
 
 TEST(WanderStart, IsOnAFloorWithinWalls) {

@@ -1,5 +1,6 @@
 // The profile beside a scene: written whole, read strictly, and only for the scene that it was trained on.
 #include "roam/profile.h"
+
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
@@ -9,7 +10,6 @@
 #include <nlohmann/json.hpp>
 
 #include "program.h"
-#include "roam/store.h"
 #include "roam/store.h"
 
 namespace {
@@ -293,7 +293,7 @@ TEST(Profile, NamesTheMemberThatIsWrong) {
       {"\"regions[0].radius\"", [](Json& j) { j["regions"][0]["radius"] = 1; }},
       {"\"regions[1].support_radius\"", [](Json& j) { j["regions"][1]["support_radius"] = 1e9; }},
       {"\"regions[0].why\"", [](Json& j) { j["regions"][0]["why"] = 5; }},
-      {"\"method\"", [](Json& j) { j["method"] = "guessed"; }},
+      {"\"method\"", [](Json& j) { j["method"] = "guessed\x1b[2J"; }},
       {"\"complete\"", [](Json& j) { j["complete"] = 1; }},
   };
   for (const auto& [name, value] : good.items()) {
@@ -312,6 +312,7 @@ TEST(Profile, NamesTheMemberThatIsWrong) {
     EXPECT_TRUE(contains(said, file)) << bad.dump();
     EXPECT_TRUE(contains(said, fault.member)) << said << "\n" << bad.dump();
     EXPECT_TRUE(contains(said, "train again")) << said;
+    EXPECT_FALSE(contains(said, "\x1b")) << "text of the file is made printable";
   }
 }
 

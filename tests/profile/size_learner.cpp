@@ -235,6 +235,14 @@ TEST(SizeLearner, SaysEachThingOnceWhileItLasts) {
 TEST(SizeLearner, RefusesLimitsThatAreNone) {
   EXPECT_THROW(SizeLearner(Profile(), {}), roam::Error) << "a profile without a radius";
   Profile profile = known(person(0.3));
+  for (const double wrong : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+    Profile bad = profile;
+    bad.support_radius = wrong;
+    EXPECT_THROW(SizeLearner(bad, {}), roam::Error);
+    bad = profile;
+    bad.radius = wrong;
+    EXPECT_THROW(SizeLearner(bad, {}), roam::Error);
+  }
   EXPECT_THROW(SizeLearner(profile, {.radius_min = 0.0}), roam::Error);
   EXPECT_THROW(SizeLearner(profile, {.support_max = -1.0}), roam::Error);
   EXPECT_THROW(SizeLearner(profile, {.patience = -1.0}), roam::Error);

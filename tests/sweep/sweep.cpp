@@ -66,7 +66,7 @@ TEST(Sweep, EndsAtATimeAndIsTheSameBefore) {
       // A hit right at the end may be seen by one of both alone.
       if (whole.hit && std::abs(whole.time - end) < 1e-9) continue;
       ASSERT_EQ(s.hit, whole.hit && whole.time < end) << i;
-      EXPECT_NEAR(s.time, s.hit ? whole.time : 1.0, 1e-12);
+      EXPECT_NEAR(s.time, s.hit ? whole.time : end, 1e-12);
       EXPECT_TRUE(s.hit || s.distance == 0.0);
       hits += s.hit ? 1 : 0;
       cut += whole.hit && !s.hit ? 1 : 0;

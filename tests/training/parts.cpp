@@ -301,7 +301,7 @@ TEST(TrainedFoot, IsSaidToBeForTheCrackOnThePathThatItCarriesOver) {
   const Training t = roam::train(corridor({.door = 0.9, .split = 0.86}), {.height = 1.8});
   EXPECT_GT(t.support_radius, t.radius) << answer(t);
   EXPECT_TRUE(t.feasible) << answer(t);
-  EXPECT_TRUE(says(t, "The foot is for that crack")) << answer(t);
+  EXPECT_TRUE(says(t, "The support disc is for that crack")) << answer(t);
   EXPECT_FALSE(says(t, "beside the paths")) << answer(t);
 }
 

@@ -43,6 +43,15 @@ TEST(Survey, FloorIsWhatIsNoSteeperThanTheLimitWhicheverSideIsUp) {
   EXPECT_EQ(survey.world().stats().triangles, 5U);
 }
 
+TEST(Survey, ARampAtTheLimitIsFloorWhateverItsSize) {
+  Mesh mesh;
+  add_ramp(mesh, {0.0, 0.0, 0.0}, 0.0);
+  const Survey survey = Survey::build({mesh}, {.slope_degrees = 45.0});
+  for (const auto& [run, width] : {std::pair{1.0, 1.0}, {4.0, 2.0}, {0.5, 1.0}, {2.0, 3.0}, {10.0, 3.0}}) {
+    EXPECT_TRUE(survey.is_floor({Vec3(0.0), Vec3(run, 0.0, run), Vec3(0.0, width, 0.0)})) << run << " x " << width;
+  }
+}
+
 TEST(Survey, NumbersLeadBackToTheTrianglesAcrossMeshes) {
   std::vector<Mesh> meshes(4);
   for (int i = 0; i < 5; ++i) add_ramp(meshes[0], {double(i) * 10.0, 0.0, 0.0}, i % 2 == 0 ? 10.0 : 80.0);

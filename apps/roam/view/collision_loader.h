@@ -18,6 +18,7 @@
 
 namespace roam::app {
 
+/// The loaded collision data.
 struct Collision {
   std::shared_ptr<const World> world;  ///< of a scene that is read whole; else null
   std::shared_ptr<Pager> pager;        ///< of a store; else null
@@ -28,7 +29,7 @@ struct Collision {
   std::optional<StartPlace> start;  ///< set if the wish has no position
 };
 
-/// What the loader produces besides the world.
+/// The options of a load.
 struct CollisionWish {
   bool keep_meshes = false;
   std::optional<Vec3> place;  ///< the body's position; none: search for a start

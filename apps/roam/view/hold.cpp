@@ -67,7 +67,7 @@ void Hold::note_events(const Walker& walker) {
   for (const Event& event : walker.report().events) {
     switch (event.kind) {
       case EventKind::fell:
-        tell("fell: the ground ends, or has a gap that is wider than the body bridges", true);
+        tell("fell: the ground ends, or has a crack wider than the body bridges", true);
         break;
       case EventKind::landed:
         if (const double drop = level_ - walker.feet().z; drop > walker.fall_limit()) {

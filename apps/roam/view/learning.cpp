@@ -17,7 +17,7 @@ constexpr double offer_lasts = 3.0;
 std::string text_of(const Lesson& lesson) {
   if (lesson.kind == Lesson::Kind::narrower)
     return fmt::format("{}: a body of {:.2f} m here", lesson.region.why, lesson.region.radius);
-  return fmt::format("gap of the floor {:.2f} m wide: a foot of {:.2f} m", lesson.width, lesson.support_radius);
+  return fmt::format("crack {:.2f} m wide: a support disc of {:.2f} m", lesson.width, lesson.support_radius);
 }
 
 Profile known_of(const ViewPlan& plan, const SceneIdentity& scene, const WalkerSettings& body) {

@@ -207,7 +207,8 @@ void ViewOptions::add_to(CLI::App& verb) {
   verb.add_option("--height", height, "Whole height (default: a person's 1.8; with --radius or --path: 2 R)")
       ->check(from_to(1e-6, metres))
       ->type_name("H");
-  verb.add_option("--eye", eye, "Height of the camera above the body's lowest point (default: 1.6, at most H - R)")
+  verb.add_option("--eye", eye,
+                  "Height of the camera above the body's lowest point (without it: 1.6, but at most H - R)")
       ->check(from_to(0.0, metres))
       ->type_name("E");
   verb.add_option("--step", step, "Highest step (stair, kerb) that the body climbs (default: 0.3, at most H / 2)")

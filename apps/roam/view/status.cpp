@@ -39,7 +39,7 @@ std::string body_text(const Status& status) {
   std::string text = body.height > 2.0 * body.radius
                          ? fmt::format("radius {:.2f} m, height {:.2f} m", body.radius, body.height)
                          : fmt::format("sphere, radius {:.2f} m", body.radius);
-  if (body.support_radius > body.radius) text += fmt::format(", foot {:.2f} m", body.support_radius);
+  if (body.support_radius > body.radius) text += fmt::format(", support disc {:.2f} m", body.support_radius);
   if (status.crouched) text += ", crouched";
   if (!status.size_reason.empty()) text += fmt::format(" ({})", status.size_reason);
   return text;

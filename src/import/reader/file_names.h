@@ -1,12 +1,18 @@
 #pragma once
 /// \file
-/// Formats from file names, and unescaped names.
+/// Formats from file names; names with escaped bytes.
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <cctype>
+#include <concepts>
 #include <filesystem>
 #include <string>
+#include <string_view>
 
 #include "files/extension.h"
+#include "text/printable.h"
 
 namespace roam::reader {
 
@@ -27,6 +33,23 @@ namespace roam::reader {
     } else {
       text += name[i];
     }
+  }
+  return text;
+}
+
+/// A name as valid UTF-8: bytes that are none, and characters that `keep` rejects, become % and two hexadecimal digits.
+/// If `keep` rejects %, unescaped() is the reverse.
+[[nodiscard]] std::string escaped(std::string_view name, std::predicate<char32_t> auto keep) {
+  std::string text;
+  while (!name.empty()) {
+    const Character first = first_character(name);
+    const std::string_view bytes = name.substr(0, std::max<std::size_t>(first.bytes, 1));
+    if (first.bytes > 0 && keep(first.code)) {
+      text += bytes;
+    } else {
+      for (const char c : bytes) text += fmt::format("%{:02X}", static_cast<unsigned char>(c));
+    }
+    name.remove_prefix(bytes.size());
   }
   return text;
 }

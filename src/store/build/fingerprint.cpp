@@ -70,7 +70,14 @@ class FileHash {
       : file_(real),
         tick_(tick),
         descriptor_(open_without_links(real, O_RDONLY)),
-        status_(state_of(descriptor_, real)) {}
+        status_(state_of(descriptor_, real)) {
+    if (!files::is_mostly_holes(descriptor_.number())) return;
+    throw Error::at(
+        file_.string(),
+        fmt::format("{} has {} bytes, but only {} of them are on the disk: the rest is a hole, which no scene has. "
+                    "Remove it; if it is meant, copy it without holes (cp --sparse=never)",
+                    file_.string(), status_.st_size, 512 * static_cast<std::uint64_t>(status_.st_blocks)));
+  }
 
   /// Device and inode.
   [[nodiscard]] std::pair<std::uint64_t, std::uint64_t> number() const { return {status_.st_dev, status_.st_ino}; }
@@ -79,11 +86,10 @@ class FileHash {
     off_t at = 0;
     // Also reads beyond the former size: a file that has grown is being changed.
     for (const off_t size = status_.st_size; at < size;) {
-      const off_t data = std::min(size, next(at, SEEK_DATA, size));
-      add_hole(static_cast<std::uint64_t>(data - at));
-      const off_t end = std::min(size, next(data, SEEK_HOLE, size));
-      add_data(data, end);
-      at = end;
+      const files::DataRange data = files::next_data(descriptor_.number(), at, size);
+      add_hole(static_cast<std::uint64_t>(data.begin - at));
+      add_data(data.begin, data.end);
+      at = data.end;
     }
     add_data(at, std::numeric_limits<off_t>::max());
     return hash_.digits();
@@ -94,25 +100,8 @@ class FileHash {
     throw Error::at(file_.string(), fmt::format("cannot read {}: {}", file_.string(), std::strerror(errno)));
   }
 
-  /// The start of the next data or hole. A file system without support reports data everywhere.
-  off_t next(off_t from, int what, off_t size) const {
-    if (from >= size) return size;
-    const off_t found = ::lseek(descriptor_.number(), from, what);
-    if (found >= from) return found;
-    return what == SEEK_DATA && errno != ENXIO ? from : size;
-  }
-
   void add_hole(std::uint64_t bytes) {
     if (bytes == 0) return;
-    holes_ += bytes;
-    const std::uint64_t on_disk = 512 * static_cast<std::uint64_t>(status_.st_blocks);
-    if (holes_ > files::most_holes && (holes_ - files::most_holes) / files::holes_per_byte > on_disk) {
-      throw Error::at(
-          file_.string(),
-          fmt::format("{} has {} bytes, but only {} of them are on the disk: the rest is a hole, which no scene has. "
-                      "Remove it; if it is meant, copy it without holes (cp --sparse=never)",
-                      file_.string(), status_.st_size, on_disk));
-    }
     std::fill_n(piece_.begin(), std::min<std::uint64_t>(piece_.size(), bytes), std::byte{0});
     for (std::uint64_t done = 0; done < bytes;) {
       const std::uint64_t some = std::min<std::uint64_t>(piece_.size(), bytes - done);
@@ -138,7 +127,6 @@ class FileHash {
   const std::function<void()>& tick_;
   Descriptor descriptor_;
   struct stat status_;
-  std::uint64_t holes_ = 0;  ///< bytes
   std::vector<std::byte> piece_ = std::vector<std::byte>(1 << 20);
   Sha256 hash_;
 };

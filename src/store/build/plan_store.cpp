@@ -68,7 +68,7 @@ class Planner {
   }
 
  private:
-  /// What a part was when it was read, and the files that decide whether it still is.
+  /// A part as it was read, and the files that decide whether it has changed since.
   struct Earlier {
     std::size_t part;
     PartRecord record;

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <string_view>
+#include <ranges>
 
 #include "import/reader/file_names.h"
 #include "text/printable.h"
@@ -18,19 +18,8 @@ constexpr std::uint64_t name_cost = 16;
 /// The same for a file in LookUps.
 constexpr std::uint64_t look_up_cost = 256;
 
-std::string escaped(std::string_view bytes) {
-  std::string text;
-  while (!bytes.empty()) {
-    const Character first = first_character(bytes);
-    const std::size_t count = std::max<std::size_t>(first.bytes, 1);
-    if (first.bytes > 0 && !is_control(first.code) && first.code != '%') {
-      text += bytes.substr(0, count);
-    } else {
-      for (const char c : bytes.substr(0, count)) text += fmt::format("%{:02X}", static_cast<unsigned char>(c));
-    }
-    bytes.remove_prefix(count);
-  }
-  return text;
+std::string escaped(const std::string& path) {
+  return reader::escaped(path, [](char32_t code) { return !is_control(code) && code != U'%'; });
 }
 
 /// The path below a folder; empty if it lies elsewhere.
@@ -41,8 +30,8 @@ fs::path below(const fs::path& file, const fs::path& folder) {
 
 bool is_allowed(const fs::path& file, const reader::SceneScope& scope) {
   // The first folder is that of the scene.
-  return std::any_of(scope.folders.begin() + 1, scope.folders.end(),
-                     [&](const fs::path& folder) { return !below(file, folder).empty(); });
+  return std::ranges::any_of(scope.folders | std::views::drop(1),
+                             [&](const fs::path& folder) { return !below(file, folder).empty(); });
 }
 
 }  // namespace
@@ -89,7 +78,7 @@ void LookUps::add(const FileLookUp& file) {
   if (!files_.try_emplace(*name, file).second) return;
   const std::uint64_t bytes = look_up_cost + 2 * name->size();
   if (bytes > bytes_left_) {
-    throw Error(fmt::format("{}: it refers to more files than there is memory for; give --memory more", part_));
+    throw Error(part_, "it refers to more files than there is memory for; give --memory more");
   }
   bytes_left_ -= bytes;
 }

@@ -16,12 +16,12 @@ namespace roam::paging {
 
 class Names {
  public:
-  enum class Kind { object, reason };  ///< of a triangle of the store; why a place is unknown
+  enum class Kind { object, reason };  ///< the object of a triangle; the reason why a place is unknown
 
   /// The name, or "" if it is not known yet; then another thread finds it. Never waits.
   [[nodiscard]] std::string ask(TriangleId triangle);
-  /// Finds the wanted name that was asked for last, by `find`; returns false if none is wanted. If `find` returns
-  /// nothing, a later ask() tries again, but not at once.
+  /// Calls `find` for the newest wanted name; returns false if none is wanted. If `find` returns nothing, a later ask()
+  /// tries again, but not at once.
   bool serve(Kind kind, const std::function<std::optional<std::string>(TriangleId)>& find);
 
  private:

@@ -1,9 +1,8 @@
-#include <tbb/global_control.h>
-
 #include <algorithm>
 #include <limits>
 #include <queue>
 
+#include "math/parallel_floating_point.h"
 #include "ways/lattice/graph.h"
 
 namespace roam::ways {
@@ -25,7 +24,7 @@ struct Narrower {
   }
 };
 
-bool has_other_cores() { return tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism) > 1; }
+bool has_other_cores() { return available_threads() > 1; }
 
 }  // namespace
 
