@@ -116,8 +116,8 @@ void fly(const Options& options, const roam::Space& space, roam::Pager* pager, c
       "%.0f m in %.0f s, %ld steps slowed, %ld met the unknown; %llu loads, %llu evictions, %.1f MB read, worst "
       "read %.2f ms, worst decoding %.2f ms; memory %.2f MiB, used %.2f MiB\n",
       length, options.seconds, slowed, unknown, static_cast<unsigned long long>(s.loads),
-      static_cast<unsigned long long>(s.evictions), 1e-6 * static_cast<double>(s.bytes_read), 1e3 * s.worst_read_s,
-      1e3 * s.worst_decode_s, static_cast<double>(s.memory) / (1 << 20), static_cast<double>(s.used) / (1 << 20));
+      static_cast<unsigned long long>(s.evictions), 1e-6 * static_cast<double>(s.bytes_read), 1e3 * s.longest_read,
+      1e3 * s.longest_decode, static_cast<double>(s.memory) / (1 << 20), static_cast<double>(s.used) / (1 << 20));
 }
 
 int run(const Options& options) {

@@ -70,7 +70,7 @@ Json json_report(const SceneOptions& options, const LoadedScene& scene) {
           {"tiles", stats.tiles},
           {"bytes", stats.bytes},
           {"bytes_per_triangle", static_cast<double>(stats.bytes) / static_cast<double>(stats.triangles)},
-          {"largest_error_m", stats.largest_error_m},
+          {"largest_error_m", stats.largest_error},
           {"hash", identity_of(scene.meshes).hash},
           {"read_s", scene.read_seconds},
           {"build_s", scene.build_seconds},
@@ -139,7 +139,7 @@ std::string stats_report(const LoadedScene& scene) {
   line("index",
        fmt::format("{} tiles, {}B, {:.1f} bytes a triangle", stats.tiles, short_count(static_cast<double>(stats.bytes)),
                    static_cast<double>(stats.bytes) / static_cast<double>(stats.triangles)));
-  line("largest error", fmt::format("{:.3g} m between a vertex and its place in the index", stats.largest_error_m));
+  line("largest error", fmt::format("{:.3g} m between a vertex and its place in the index", stats.largest_error));
   line("time",
        fmt::format("read in {}, indexed in {}", short_time(scene.read_seconds), short_time(scene.build_seconds)));
   line("hash", identity_of(scene.meshes).hash);
@@ -162,7 +162,7 @@ Json json_report(const Store& store) {
           {"geometry_bytes_per_triangle", static_cast<double>(i.geometry_bytes) / triangles},
           {"number_bytes_per_triangle", static_cast<double>(i.number_bytes) / triangles},
           {"resident_bytes_per_triangle", static_cast<double>(i.resident_bytes) / triangles},
-          {"largest_error_m", i.largest_error_m},
+          {"largest_error_m", i.largest_error},
           {"lossless", i.lossless},
           {"hash", i.hash},
           {"geometry_hash", i.geometry_hash}};
@@ -191,7 +191,7 @@ std::string stats_report(const Store& store) {
                    static_cast<double>(i.number_bytes) / triangles));
   line("in memory", fmt::format("{:.1f} bytes a triangle, of those that are resident",
                                 static_cast<double>(i.resident_bytes) / triangles));
-  line("largest error", fmt::format("{:.3g} m between a vertex and its place in the store", i.largest_error_m));
+  line("largest error", fmt::format("{:.3g} m between a vertex and its place in the store", i.largest_error));
   line("hash", i.hash);
   return text;
 }

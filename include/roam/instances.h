@@ -58,7 +58,8 @@ class Instances final : public LiveSpace {
   static constexpr double usual_error = 1e-4;
 
   /// `space` is what does not move, as a World or a Pager. It must outlive this and stay where it is. Its objects and
-  /// triangles keep their numbers. Throws roam::Error for a space of instances.
+  /// triangles keep their numbers: those of triangles must be below 2^62, those of objects below 2^31. Throws
+  /// roam::Error for a space of instances.
   explicit Instances(const Space& space);
   explicit Instances(LiveSpace& space);
   explicit Instances(Space&& space) = delete;

@@ -53,9 +53,9 @@ struct PagerStats {
   std::uint64_t failures = 0;    ///< failed reads and decodings so far
   std::uint64_t failed = 0;      ///< tiles and pages that are solid now because of a failure
   std::uint64_t bytes_read = 0;  ///< from the store
-  double worst_read_s = 0.0;     ///< longest read of a tile
-  double worst_decode_s = 0.0;   ///< longest decoding of a tile
-  double ready_m = 0.0;          ///< radius around the body within which all is known, as of the last update()
+  double longest_read = 0.0;     ///< s: longest read of a tile
+  double longest_decode = 0.0;   ///< s: longest decoding of a tile
+  double ready_radius = 0.0;     ///< m around the body within which all is known, as of the last update()
   std::string last_failure;      ///< sentence with tile, position and reason; empty: none
 };
 
@@ -75,8 +75,8 @@ class Pager final : public LiveSpace {
   /// Returns whether it is. Blocks: not for use in a frame.
   bool wait(const Body& body, const Vec3& place, const Vec3& velocity, double seconds, double ahead = 0.5);
 
-  /// The speed limit is (ready_m - radius) / (latency + 1/60 s), with the latency of a read that starts now: a body
-  /// slows down before unknown space instead of hitting it.
+  /// The speed limit is (ready_radius - radius) / (latency + 1/60 s), with the latency of a read that starts now: a
+  /// body slows down before unknown space instead of hitting it.
   [[nodiscard]] SpaceFacts facts() const override;
   /// The name alone. A loading thread reads it: "" until it is there, so call again later. For unknown space it is the
   /// reason.

@@ -48,7 +48,7 @@ struct StoreInfo {
   std::uint64_t number_bytes = 0;    ///< of the map from stored to source triangles
   std::uint64_t resident_bytes = 0;  ///< of all tiles in memory
   Box bounds;                        ///< of the source triangles
-  double largest_error_m = 0.0;      ///< largest distance of a stored vertex from its source position
+  double largest_error = 0.0;        ///< m: farthest that a stored vertex lies from its source position
   bool lossless = false;
   std::string hash;           ///< SHA-256 of the manifest, 64 hexadecimal digits; covers the whole store
   std::string geometry_hash;  ///< of the quantized triangles in any order, 16 hexadecimal digits

@@ -35,8 +35,8 @@ struct WorldStats {
   std::uint64_t triangles = 0;
   std::uint64_t objects = 0;
   std::uint64_t tiles = 0;
-  std::uint64_t bytes = 0;       ///< resident: geometry, hierarchy and triangle numbers, without names
-  double largest_error_m = 0.0;  ///< farthest that a stored vertex lies from where the caller put it
+  std::uint64_t bytes = 0;     ///< resident: geometry, hierarchy and triangle numbers, without names
+  double largest_error = 0.0;  ///< m: farthest that a stored vertex lies from where the caller put it
 };
 
 struct WorldData;

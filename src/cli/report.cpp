@@ -70,9 +70,9 @@ Json to_json(const PagerStats& paging) {
           {"failures", paging.failures},
           {"failed", paging.failed},
           {"bytes_read", paging.bytes_read},
-          {"worst_read_s", paging.worst_read_s},
-          {"worst_decode_s", paging.worst_decode_s},
-          {"ready_m", paging.ready_m},
+          {"worst_read_s", paging.longest_read},
+          {"worst_decode_s", paging.longest_decode},
+          {"ready_m", paging.ready_radius},
           {"last_failure", paging.last_failure}};
 }
 

@@ -76,7 +76,7 @@ std::shared_ptr<const Store> Store::open(std::shared_ptr<StoreBytes> bytes, cons
     s.info.geometry_bytes += shard.geometry_bytes;
     s.info.number_bytes += shard.number_bytes;
     s.info.resident_bytes += shard.resident_bytes;
-    s.info.largest_error_m = std::max(s.info.largest_error_m, shard.largest_error);
+    s.info.largest_error = std::max(s.info.largest_error, shard.largest_error);
   }
   s.info.pages = s.pages.size();
   s.recent = std::make_unique<State::Recent>(s);

@@ -137,7 +137,7 @@ World World::build(std::span<const Mesh> meshes, const BuildOptions& options) {
     });
     float error = 0.0F;
     for (std::size_t i = 0; i < data->tiles.size; ++i) error = std::max(error, data->tiles.items[i].fine_error);
-    data->stats.largest_error_m = error;
+    data->stats.largest_error = error;
   }
   data->stats.tiles = data->tiles.size;
   data->stats.bytes = data->blocks.bytes() + data->tiles.bytes() + data->fine.bytes() + data->ids.bytes() +

@@ -247,7 +247,7 @@ namespace {
 /// The roots where a search in a world begins; null: at the root of the whole index.
 const index::Roots* roots_of(const WorldData& world, Vicinity* vicinity, const Query& query, double reach) {
   if (vicinity == nullptr) return nullptr;
-  const QueryRegion region{query.body, query.from, query.motion, reach, world.stats.largest_error_m, world.revision};
+  const QueryRegion region{query.body, query.from, query.motion, reach, world.stats.largest_error, world.revision};
   return roots_in(*vicinity, region, [&](const Box& box, index::Roots& out) {
     return world.reach.empty() || index::gather(world.index, 0, box, out);
   });

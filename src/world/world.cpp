@@ -21,7 +21,7 @@ World::World(World&&) noexcept = default;
 World& World::operator=(World&&) noexcept = default;
 
 SpaceFacts World::facts() const {
-  return {.bounds = data_->bounds, .largest_error = data_->stats.largest_error_m, .revision = data_->revision};
+  return {.bounds = data_->bounds, .largest_error = data_->stats.largest_error, .revision = data_->revision};
 }
 
 const WorldStats& World::stats() const { return data_->stats; }

@@ -114,7 +114,7 @@ TEST(FloatingPoint, Stores) {
     const auto store = roam::Store::open(output);
     bits(store->info().bounds.lower);
     bits(store->info().bounds.upper);
-    bits(store->info().largest_error_m);
+    bits(store->info().largest_error);
     for (const Vec3& sample : store->sample(5)) bits(sample);
     roam::Pager pager(store, {.memory = 64U << 20});
     bits(static_cast<std::uint64_t>(pager.wait(body, place, motion, 20.0, 3.0)));

@@ -46,7 +46,7 @@ Mesh on_planes(clutter::Random& random, int count) {
 
 void graze_all(clutter::Random& random, const Mesh& mesh) {
   const World world = World::build({&mesh, 1});
-  ASSERT_LT(world.stats().largest_error_m, 1e-12) << "quantization would hide what is tested";
+  ASSERT_LT(world.stats().largest_error, 1e-12) << "quantization would hide what is tested";
   int tested = 0;
   for (int q = 0; q < grazes; ++q) {
     const Triangle t = mesh.triangle(random.engine() % mesh.triangles.size());
@@ -75,7 +75,7 @@ void pierce_all(clutter::Random& random, const Mesh& mesh, const Vec3& place) {
   Mesh there = mesh;
   for (Vec3& v : there.vertices) v += place;
   const World world = World::build({&there, 1});
-  ASSERT_LT(world.stats().largest_error_m, 1e-11) << "quantization would hide what is tested";
+  ASSERT_LT(world.stats().largest_error, 1e-11) << "quantization would hide what is tested";
   for (int q = 0; q < 4 * grazes; ++q) {
     const Triangle t = there.triangle(random.engine() % there.triangles.size());
     const double u = q % 3 == 0 ? 0.0 : random.unit(), v = q % 3 == 2 ? random.unit() * (1.0 - u) : 0.0;

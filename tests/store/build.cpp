@@ -39,7 +39,7 @@ double apart_in_any_turn(const Triangle& stored, const Triangle& source) {
 void expect_conserved(const std::string& folder, const std::vector<Triangle>& source, double error) {
   const auto store = roam::Store::open(folder);
   ASSERT_EQ(store->info().triangles, source.size());
-  EXPECT_LE(store->info().largest_error_m, error);
+  EXPECT_LE(store->info().largest_error, error);
   std::vector<bool> seen(source.size());
   std::size_t count = 0;
   store->for_each_triangle(everything, [&](std::span<const Triangle> triangles, std::span<const roam::TriangleId> ids) {

@@ -101,7 +101,7 @@ void compare(const char* name, const std::vector<fs::path>& files) {
   (void)roam::build_store(options);
   const auto store = roam::Store::open(built);
   ASSERT_EQ(store->info().triangles, source.triangles);
-  EXPECT_LE(store->info().largest_error_m, 1e-3);
+  EXPECT_LE(store->info().largest_error, 1e-3);
   roam::Pager pager(store, {.memory = 256 << 20});
   ASSERT_NO_FATAL_FAILURE(made::load_all(pager));
 

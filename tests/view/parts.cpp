@@ -366,7 +366,7 @@ TEST(Status, SaysHowTheStoreIs) {
   status.paging.emplace();
   status.paging->memory = 64u << 20;
   status.paging->tiles = 512;
-  status.paging->ready_m = 35.2;
+  status.paging->ready_radius = 35.2;
   status.paging->failed = 3;
   std::string text;
   for (const StatusText& line : status_lines(status)) text += line.label + ": " + line.value + "\n";

@@ -75,7 +75,7 @@ double true_gap(const Mesh& mesh, const Body& body, const Vec3& from, const Vec3
 /// Bodies that stand beside the wall and move along it.
 void ask_beside(Random& random, const Wall& wall, bool lossless, int queries) {
   const World world = World::build({&wall.mesh, 1}, {.threads = 0, .lossless = lossless, .progress = {}});
-  const double error = world.stats().largest_error_m, below = lossless ? below_lossless : below_all;
+  const double error = world.stats().largest_error, below = lossless ? below_lossless : below_all;
   int found = 0, near = 0;
   for (int q = 0; q < queries; ++q) {
     const Body body{random.between(0.0, 0.4), q % 3 == 2 ? random.between(0.05, 0.9) : 0.0};

@@ -50,7 +50,8 @@ std::string paging_text(const PagerStats& paging) {
   // MiB, the unit of --memory.
   constexpr double mebi = 1 << 20;
   std::string text = fmt::format("{:.0f} MiB, {} tiles", static_cast<double>(paging.memory) / mebi, paging.tiles);
-  text += std::isfinite(paging.ready_m) ? fmt::format(", ready {:.0f} m", paging.ready_m) : std::string(", all ready");
+  text += std::isfinite(paging.ready_radius) ? fmt::format(", ready {:.0f} m", paging.ready_radius)
+                                             : std::string(", all ready");
   if (paging.failed > 0) text += fmt::format(", {} failed", paging.failed);
   return text;
 }

@@ -199,7 +199,7 @@ bool Pager::State::exchange(const TrackedBody& tracked, double& latency) {
   s.used = used;
   s.loads = loads;
   s.evictions = evictions;
-  s.ready_m = speed_limiter.ready();
+  s.ready_radius = speed_limiter.ready();
   return changed;
 }
 
@@ -252,7 +252,7 @@ bool Pager::wait(const Body& body, const Vec3& place, const Vec3& velocity, doub
 
 PagedScene Pager::State::scene(const Query& query, double reach, Vicinity* vicinity) const {
   if (vicinity == nullptr) return PagedScene(residents);
-  const QueryRegion region{query.body, query.from, query.motion, reach, store->info().largest_error_m, revision};
+  const QueryRegion region{query.body, query.from, query.motion, reach, store->info().largest_error, revision};
   return {residents, roots_in(*vicinity, region,
                               [this](const Box& box, index::Roots& out) { return gather(residents, box, out); })};
 }
@@ -273,7 +273,7 @@ void Pager::find_near(const Query& query, Collector& collector, Vicinity* vicini
 SpaceFacts Pager::facts() const {
   const auto& info = state_->store->info();
   return {.bounds = info.bounds,
-          .largest_error = info.largest_error_m,
+          .largest_error = info.largest_error,
           .revision = state_->revision,
           .speed_limit = state_->speed_limiter.limit()};
 }

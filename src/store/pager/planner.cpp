@@ -358,8 +358,8 @@ void Planner::done(const Work& work, const Outcome& outcome) {
   handover_.messages.push(message);
   PagerStats& stats = handover_.stats;
   stats.bytes_read += outcome.bytes;
-  stats.worst_read_s = std::max(stats.worst_read_s, outcome.read_s);
-  stats.worst_decode_s = std::max(stats.worst_decode_s, outcome.decode_s);
+  stats.longest_read = std::max(stats.longest_read, outcome.read_s);
+  stats.longest_decode = std::max(stats.longest_decode, outcome.decode_s);
   stats.failures += outcome.why ? 1 : 0;
   stats.failed = failed_;
   if (outcome.why) handover_.last_failure = {work.item, box(work.item), outcome.why};
