@@ -218,7 +218,7 @@ TEST(FloatingPoint, StepsOfWalkers) {
 TEST(FloatingPoint, PosesOfInstances) {
   const roam::Mesh mesh = clutter_at(Vec3(0.0), 40);
   const roam::World world = roam::World::build({&mesh, 1});
-  const auto door = std::make_shared<const roam::World>(world);
+  const auto door = std::make_shared<const roam::World>(roam::World::build({&mesh, 1}));
   clutter::Random random(4);
   std::vector<roam::Pose> poses;
   for (int i = 0; i < 20; ++i) poses.push_back({7.0 * random.direction(), 0.3 * i});
