@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "roam/error.h"
+#include "roam/support.h"
 #include "support_scenes.h"
 
 namespace {

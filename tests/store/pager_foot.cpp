@@ -81,7 +81,7 @@ TEST(PagerFoot, IsCarriedByTheSceneOrSaysThatItMetTheUnknown) {
           continue;
         }
         roam::walking::DiscFound none;
-        EXPECT_EQ(roam::walking::carrying(whole, w.settings(), w.skin(), w.body().height(), w.state().floor(),
+        EXPECT_EQ(roam::walking::carrying(whole, w.settings(), w.skin(), w.body().height(), w.state().floor().value(),
                                           w.position(), none),
                   Carrying::yes)
             << "seed " << seed << " at " << w.position().x << " " << w.position().y;

@@ -3,6 +3,7 @@
 
 #include <random>
 
+#include "packed_part.h"
 #include "roam/error.h"
 #include "store/part.h"
 
