@@ -24,6 +24,7 @@
 #include "probe/picture.h"
 #include "probe/text.h"
 #include "roam/path_file.h"
+#include "scenes/body_options.h"
 #include "scenes/surveyed.h"
 #include "verbs.h"
 #include "words/probe.h"
@@ -40,6 +41,7 @@ struct ProbeOptions {
   std::optional<std::string> matrix;  ///< sizes, or a file of sizes
   std::optional<std::filesystem::path> picture, path;
   std::optional<double> narrower;  ///< m
+  bool sphere = false;
   bool json = false;
 
   [[nodiscard]] double slope_degrees() const { return slope.value_or(45.0); }
@@ -49,28 +51,29 @@ struct ProbeOptions {
 constexpr std::uint64_t longest_matrix = 1 << 20;
 
 /// Sizes in lines, with comments behind #.
-std::vector<ProbedSize> read_sizes(const std::filesystem::path& file) {
+std::vector<ProbedSize> read_sizes(const std::filesystem::path& file, bool spheres) {
   std::istringstream in(read_input(file, longest_matrix));
   std::vector<ProbedSize> sizes;
   std::string line;
   for (int number = 1; std::getline(in, line); ++number) {
-    const auto more = parse_sizes(line.substr(0, line.find('#')), fmt::format("{}:{}", file.string(), number));
+    const auto more = parse_sizes(line.substr(0, line.find('#')), fmt::format("{}:{}", file.string(), number),
+                                  spheres);
     sizes.insert(sizes.end(), more.begin(), more.end());
   }
   return sizes;
 }
 
 /// The value of --matrix: a file if one of that name exists, else sizes.
-std::vector<ProbedSize> matrix_sizes(const std::string& text) {
+std::vector<ProbedSize> matrix_sizes(const std::string& text, bool spheres) {
   std::error_code none;
   if (std::filesystem::is_directory(text, none))
     throw UsageError(fmt::format("--matrix {}", text), "that is a folder; name a file of sizes, or sizes");
   std::vector<ProbedSize> sizes;
   if (is_standard(text) || std::filesystem::exists(text, none)) {
-    sizes = read_sizes(text);
+    sizes = read_sizes(text, spheres);
   } else {
     try {
-      sizes = parse_sizes(text, "--matrix");
+      sizes = parse_sizes(text, "--matrix", spheres);
     } catch (const UsageError& error) {
       throw UsageError(Error::at(error.where(), fmt::format("{}; and there is no file \"{}\"", error.what(), text)));
     }
@@ -82,13 +85,13 @@ std::vector<ProbedSize> matrix_sizes(const std::string& text) {
 std::vector<ProbedSize> sizes_of(const ProbeOptions& o) {
   std::vector<ProbedSize> sizes;
   if (!o.matrix) {
-    if (!o.radius) throw UsageError("probe", "how large is the body? Give it a --radius, or sizes by --matrix");
-    sizes.push_back({*o.radius, o.height.value_or(2.0 * *o.radius)});
+    const double radius = o.radius.value_or(WalkerSettings{}.radius);
+    sizes.push_back({radius, o.height.value_or(default_height(radius, o.sphere))});
   } else {
     if (o.radius || o.height) throw UsageError("--matrix", "it says all sizes; leave out --radius and --height");
     if (o.picture || o.path || o.narrower)
       throw UsageError("--matrix", "it has no one way; leave out --picture, --path and --narrower");
-    sizes = matrix_sizes(*o.matrix);
+    sizes = matrix_sizes(*o.matrix, o.sphere);
   }
   for (const ProbedSize& size : sizes) {
     try {
@@ -97,8 +100,6 @@ std::vector<ProbedSize> sizes_of(const ProbeOptions& o) {
       if (!o.matrix) throw UsageError(error);
       throw UsageError(fmt::format("--matrix, size {:g}x{:g}", size.radius, size.height), error.what());
     }
-    if (o.question.mode == Mode::fly && size.height > 2.0 * size.radius)
-      throw UsageError("--mode fly", "what flies is a sphere; leave its height out");
   }
   return sizes;
 }
@@ -118,6 +119,7 @@ ProbeQuestion question_of(const ProbeOptions& o) {
   };
   q.from = place("--from", o.from);
   q.to = place("--to", o.to);
+  if (q.mode == Mode::fly && !o.sphere) throw UsageError("--mode fly", flight_is_for_spheres);
   if (q.mode == Mode::fly && (o.step || o.slope || o.support_radius))
     throw UsageError("--mode fly", "--step, --slope and --support-radius are for walking; leave them out");
   q.step = o.step.value_or(q.step);
@@ -244,12 +246,13 @@ status 0 for yes; 3 for no, and if the walker does not get through; with --matri
 
 Places are of a person's feet or eyes, and are moved down to the floor; in flight, of the centre. The body steps over
 anything lower than --step; a sphere climbs at most its radius. --path writes the way of the body's centre, with the
-body, for `roam walk --path FILE --verify`. --matrix takes sizes R or RxH with commas between, or a file of them.
+body, for `roam walk --path FILE --verify`. --matrix takes sizes R or RxH with commas between, or a file of them. R is
+a person of this radius, as with --radius; with --sphere a sphere. Ways through the air are found for spheres.
 
 Examples:
   roam probe house.glb --from 1,2,1 --to 8,3,1 --radius 0.3 --height 1.9
   roam probe mine.dae --from 5,5,1 --to 90,40,1 --radius 0.4 --height 1.9 --picture door.png
-  roam probe pipe.ply --from 0,0,5 --to 9,0,5 --radius 0.5 --mode fly --json
+  roam probe pipe.ply --from 0,0,5 --to 9,0,5 --radius 0.5 --sphere --mode fly --json
   roam probe house.glb --from 1,2,1 --to 8,3,1 --matrix 0.25x1.9,0.4x1.9,0.4x1.2
 )";
 
@@ -272,8 +275,11 @@ void add_probe(CLI::App& program, Run& run) {
       ->check(from_to(0.001, 100.0))
       ->type_name("M");
   verb->option_defaults()->group("Body, in metres");
-  verb->add_option("--radius", o.radius, "Radius")->check(positive())->type_name("R");
-  verb->add_option("--height", o.height, "Whole height (default: 2 R, a sphere)")->check(positive())->type_name("H");
+  verb->add_option("--radius", o.radius, "Radius (default: 0.3)")->check(positive())->type_name("R");
+  verb->add_option("--height", o.height, "Whole height (default: a person's 1.8, but at least 2 R)")
+      ->check(positive())
+      ->type_name("H");
+  add_sphere_to(*verb, o.sphere);
   verb->add_option("--matrix", o.matrix, "Several sizes in one run: 0.3,0.4x1.9 or a file of them")->type_name("SIZES");
   verb->add_option("--mode", o.mode, "walk: on the ground; fly: through the air (default: walk)")
       ->check(one_of({"walk", "fly"}))

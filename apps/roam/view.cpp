@@ -43,9 +43,9 @@ std::string keys_of(const ViewSettings& settings) {
   return key_table(roamer->controls());
 }
 
-/// The scene's profile, if no radius is given.
+/// The scene's profile, unless the options describe a body.
 std::optional<SceneProfile> profile_for(const ViewOptions& options, const std::optional<RecordedBody>& recorded) {
-  if (options.no_profile || options.radius) return std::nullopt;
+  if (options.body.no_profile || options.body.describe_a_body()) return std::nullopt;
   const std::string mode = options.mode.value_or(to_string(recorded ? recorded->mode : Mode::walk));
   return find_scene_profile(options.scene,
                             mode == "ghost" ? Mode::ghost
@@ -116,8 +116,8 @@ constexpr const char* help =
     R"(W A S D and the mouse move you, H shows all keys. Gravity pulls you down and walls stop you; the
 display says what stops you. The window opens at once; you are held until the walls are loaded.
 
-Positions are of the body's centre, in metres, as in the file. The body is a person of radius 0.3 m and height 1.8 m.
-With --radius or --path alone it is a sphere, as for `roam walk`. A path that was recorded here names its body.
+Positions are of the body's centre, in metres, as in the file. The body is a person of radius 0.3 m and height 1.8 m,
+or the one that `roam train` saved. A path that was recorded here names its body.
 
 A collision store (`roam build`) beside the scene is used if you built it: then the walls are there at once, in little
 memory, for scenes of any size.

@@ -344,17 +344,18 @@ Ctrl-C, report, trace and picture of the way so far are still written (130).
 A path file has one waypoint `x y z` in each line, or the lines `t x y z qx qy qz qw` that osgViewer records. Times and
 rotations are ignored: --speed and --dt set the pace. Positions are of the body's centre. A waypoint is reached when
 it is in the body; on foot also when it is at most the step height above or below it. A path that `roam view` recorded
-names its body and mode; --radius and --mode override them.
+names its body and mode; --radius, --sphere and --mode override them.
 
-Without --radius, the body is the one that `roam train` saved beside the scene, in SCENE.roam.json. It is smaller in
-places where only a smaller one fits. --height, --step and --slope change it. A profile of another scene is refused.
+The body is a person of radius 0.3 m and height 1.8 m, or the one that `roam train` saved beside the scene, in
+SCENE.roam.json. That is smaller in places where only a smaller one fits; --height, --step and --slope change it. A
+profile of another scene is refused.
 
 Examples:
-  roam walk mine.dae --path tour.path --height 1.8
+  roam walk mine.dae --path tour.path
   roam walk gallery.ply --path gallery-straight.path --mode fly --speed 50 --verify
   roam walk house.glb --path in.path --radius 0.25 --height 1.8 --json --trace in.csv
-  roam walk house.glb --path in.path --height 1.8 --picture in.svg
-  roam walk Terrain/ --wander 60 --height 1.8 --verify
+  roam walk house.glb --path in.path --picture in.svg
+  roam walk Terrain/ --wander 60 --verify
 )";
 
 }  // namespace

@@ -125,12 +125,25 @@ TEST(ViewPlan, OfNobodyDescribedIsAPerson) {
   EXPECT_EQ(plan.mode, Mode::walk);
 }
 
-TEST(ViewPlan, OfARadiusAloneIsASphereWithTheEyeInItsCentre) {
+TEST(ViewPlan, OfARadiusAloneIsAPersonAndOfASphereHasTheEyeInItsCentre) {
   ViewOptions options;
-  options.radius = 0.5;
+  options.body.radius = 0.5;
+  EXPECT_EQ(make_plan(options, {}).walker.height, 1.8);
+  options.body.sphere = true;
   const ViewPlan plan = make_plan(options, {});
   EXPECT_EQ(plan.walker.height, 1.0);
   EXPECT_EQ(plan.walker.eye, 0.5);
+  options.body.radius.reset();
+  ViewSettings settings;
+  settings.radius = 0.2;
+  settings.height = 1.7;
+  EXPECT_EQ(make_plan(options, settings).walker.height, 0.6);
+}
+
+TEST(ViewPlan, OfARadiusInTheSettingsIsAPerson) {
+  ViewSettings settings;
+  settings.radius = 0.25;
+  EXPECT_EQ(make_plan({}, settings).walker.height, 1.8);
 }
 
 TEST(ViewPlan, OfAPathIsTheBodyOfRoamWalkWhateverTheSettingsSay) {
@@ -142,7 +155,7 @@ TEST(ViewPlan, OfAPathIsTheBodyOfRoamWalkWhateverTheSettingsSay) {
   settings.speed = 9.0;
   const ViewPlan plan = make_plan(options, settings);
   EXPECT_EQ(plan.walker.radius, 0.3);
-  EXPECT_EQ(plan.walker.height, 0.6);
+  EXPECT_EQ(plan.walker.height, 1.8);
   EXPECT_EQ(plan.walker.speed, 1.4);
 }
 
@@ -166,8 +179,8 @@ TEST(ViewPlan, RefusesWhatCannotBeMeant) {
   size.size = "1280*720";
   EXPECT_THROW(static_cast<void>(make_plan(size, {})), UsageError);
   ViewOptions low;
-  low.radius = 0.5;
-  low.height = 0.4;
+  low.body.radius = 0.5;
+  low.body.height = 0.4;
   EXPECT_THROW(static_cast<void>(make_plan(low, {})), UsageError);
   ViewOptions idle;
   idle.headless = true;

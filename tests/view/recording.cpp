@@ -157,16 +157,16 @@ TEST(RecordedBody, IsTheBodyOfThePlanUnlessOptionsSayOtherwise) {
   EXPECT_EQ(same.walker.slope_degrees, 30.0);
   EXPECT_EQ(same.mode, Mode::fly);
   EXPECT_EQ(same.note, "");
-  options.radius = 0.4;
+  options.body.radius = 0.4;
   options.mode = "walk";
   const ViewPlan other = make_plan(options, settings, body);
-  EXPECT_EQ(other.walker.height, 0.8);
+  EXPECT_EQ(other.walker.height, 1.8);
   EXPECT_EQ(other.walker.slope_degrees, 45.0);
   EXPECT_EQ(other.mode, Mode::walk);
   EXPECT_EQ(other.note,
-            "the path was recorded by another body: radius 0.25 m, height 1.7 m; this is a sphere of radius 0.4 m");
-  options.radius.reset();
-  options.height = 1.0;
+            "the path was recorded by another body: radius 0.25 m, height 1.7 m; this is radius 0.4 m, height 1.8 m");
+  options.body.radius.reset();
+  options.body.height = 1.0;
   EXPECT_EQ(make_plan(options, settings, body).walker.eye, 1.0);
 }
 

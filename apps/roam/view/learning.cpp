@@ -37,7 +37,7 @@ std::filesystem::path file_for(const ViewOptions& options, const ViewPlan& plan)
   if (plan.profile) return plan.profile->file;
   std::filesystem::path file = profile_path(options.scene.scenes);
   // An existing profile belongs to another body and is not overwritten.
-  if (options.no_profile || std::filesystem::exists(std::filesystem::symlink_status(file))) file.clear();
+  if (options.body.no_profile || std::filesystem::exists(std::filesystem::symlink_status(file))) file.clear();
   return file;
 }
 
