@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <system_error>
@@ -11,10 +10,10 @@
 #include "cli/report.h"
 #include "cli/standard_streams.h"
 #include "cli/tell.h"
-#include "files/extension.h"
 #include "measure/edges.h"
 #include "roam/profile.h"
 #include "roam/store.h"
+#include "scenes/frame.h"
 #include "scenes/scene_options.h"
 #include "verbs.h"
 #include "words/lines.h"
@@ -63,6 +62,7 @@ Json json_report(const SceneOptions& options, const LoadedScene& scene) {
   const WorldStats& stats = scene.world.stats();
   const measure::Edges edges = measure::count_edges(scene.meshes);
   return {{"scene", options.names()},
+          {"frame", to_json(frame_of(options))},
           {"format", "scene"},
           {"triangles", stats.triangles},
           {"objects", stats.objects},
@@ -86,13 +86,11 @@ std::string size_words(const Box& bounds, std::uint64_t triangles, std::uint64_t
 }
 
 std::string up_words(const SceneOptions& options) {
-  if (!options.up.empty()) return fmt::format("{} of the file, as --up says", options.up);
-  const auto is_gltf = [](const std::filesystem::path& file) {
-    const std::string extension = files::lower_extension(file);
-    return extension == ".gltf" || extension == ".glb";
-  };
-  if (std::all_of(options.scenes.begin(), options.scenes.end(), is_gltf)) return "y of the file, as in all glTF";
-  return "z of the file (--up says another)";
+  const std::optional<SceneFrame> frame = frame_of(options);
+  if (!frame) return "y of glTF files, z of the others (--up says another)";
+  const std::string axis = fmt::format("{} of the file", to_string(frame->up));
+  if (!options.up.empty()) return axis + ", as --up says";
+  return axis + (frame->up == UpAxis::y ? ", as in all glTF" : " (--up says another)");
 }
 
 std::string closed_words(const measure::Edges& edges) {
@@ -119,7 +117,7 @@ std::string text_report(const SceneOptions& options, const LoadedScene& scene) {
   lines.add("from", words::exactly_at(scene.bounds.lower));
   lines.add("to", words::exactly_at(scene.bounds.upper));
   lines.add("up", up_words(options));
-  lines.add("unit", options.unit == "m" ? "metre (--unit says another)" : options.unit + ", as --unit says");
+  lines.add("unit", options.unit.empty() ? "metre (--unit says another)" : options.unit + ", as --unit says");
   lines.add("closed", closed_words(measure::count_edges(scene.meshes)));
   lines.add("left out", left_out_words(scene.report));
   std::error_code none;
@@ -150,6 +148,7 @@ Json json_report(const Store& store) {
   const StoreInfo& i = store.info();
   const auto triangles = static_cast<double>(i.triangles);
   return {{"scene", store.name()},
+          {"frame", to_json(frame_of(store))},
           {"format", fmt::format("store {}", i.format)},
           {"triangles", i.triangles},
           {"objects", i.objects},

@@ -19,12 +19,15 @@
 #include "cli/tell.h"
 #include "cli/values.h"
 #include "draw/picture_file.h"
+#include "files/whole_file.h"
 #include "measure/along.h"
 #include "measure/slope.h"
 #include "probe/picture.h"
 #include "probe/text.h"
 #include "roam/path_file.h"
 #include "scenes/body_options.h"
+#include "scenes/frame.h"
+#include "scenes/recorded_body.h"
 #include "scenes/surveyed.h"
 #include "verbs.h"
 #include "words/probe.h"
@@ -133,10 +136,12 @@ void write_path(const ProbeOptions& o, const Survey& survey, const ProbeAnswer& 
   std::vector<Vec3> path = probed_path(survey, o.question, answer);
   if (path.size() == 1) path.push_back(path.front());  // the path needs a start and a goal, even if they are equal
   const WalkerSettings body = probed_body(o.question, answer.size, o.slope_degrees());
-  if (!is_standard(*o.path)) return save_path(*o.path, path, &body, o.question.mode);
-  std::string text = body_line(body, o.question.mode) + "\n";
+  std::string text;
+  if (const auto frame = frame_of(o.scene)) text += frame_line(*frame) + "\n";
+  text += body_line(body, o.question.mode) + "\n";
   for (const Vec3& p : path) text += fmt::format("{} {} {}\n", p.x, p.y, p.z);
-  write_output(text);
+  if (is_standard(*o.path)) return write_output(text);
+  files::write_whole(*o.path, text);
 }
 
 /// Measures the way with the body, or with the widest body that passes.
@@ -180,7 +185,8 @@ words::ProbeDetails details_of(const ProbeOptions& o, const Surveyed& scene, con
 Json report_of(const ProbeOptions& o, const Surveyed& scene, std::span<const ProbeAnswer> answers,
                const words::ProbeDetails& details) {
   const bool one = !o.matrix;
-  Json json = {{"scene", o.scene.names()},           {"triangles", scene.survey.triangles()},
+  Json json = {{"scene", o.scene.names()},           {"frame", to_json(frame_of(o.scene))},
+               {"triangles", scene.survey.triangles()},
                {"mode", to_string(o.question.mode)}, {"from", to_json(o.question.from)},
                {"to", to_json(o.question.to)},       {"step", o.question.step},
                {"slope", o.slope_degrees()},         {"support_radius", o.question.support_radius},

@@ -20,6 +20,7 @@
 #include "draw/picture_file.h"
 #include "roam/error.h"
 #include "scenes/body_options.h"
+#include "scenes/frame.h"
 #include "scenes/surveyed.h"
 #include "train/report.h"
 #include "verbs.h"
@@ -126,6 +127,7 @@ ExitStatus train(TrainVerbOptions o) {
   constexpr double narrow_door = 0.6;  // m: width of a person without clearance
   check_spacing(scene, o.train.spacing, narrow_door);
   TrainReport report{o.scene.names(), scene.survey.triangles(), o.train, {}, {}, {}};
+  report.frame = frame_of(o.scene);
   {
     StagedProgress progress;
     o.train.progress = [&](TrainStage stage, double done) { return progress.at(stage, done); };

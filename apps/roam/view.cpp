@@ -15,6 +15,7 @@
 #include "cli/tell.h"
 #include "roam/error.h"
 #include "scenes/beside_scene.h"
+#include "scenes/frame.h"
 #include "verbs.h"
 #include "verify/verify_stored.h"
 #include "view/notices.h"
@@ -74,6 +75,7 @@ ExitStatus view(const ViewOptions& options) {
   }
   if (options.scene.scenes.empty()) throw UsageError("view", "which scene? Give it a file or a folder");
   const RecordedPath path = load_recorded_path(options.path);
+  demand_frame(path, frame_of(options.scene), options.scene);
   ViewPlan plan = make_plan(options, settings, path.body, profile_for(options, path.body));
   plan.path = path.waypoints();
   std::optional<tbb::global_control> limit;
@@ -116,7 +118,7 @@ constexpr const char* help =
     R"(W A S D and the mouse move you, H shows all keys. Gravity pulls you down and walls stop you; the
 display says what stops you. The window opens at once; you are held until the walls are loaded.
 
-Positions are of the body's centre, in metres, as in the file. The body is a person of radius 0.3 m and height 1.8 m,
+Positions are of the body's centre, in metres, with z up. The body is a person of radius 0.3 m and height 1.8 m,
 or the one that `roam train` saved. A path that was recorded here names its body.
 
 A collision store (`roam build`) beside the scene is used if you built it: then the walls are there at once, in little

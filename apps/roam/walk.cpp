@@ -25,6 +25,7 @@
 #include "roam/route.h"
 #include "roam/wander.h"
 #include "scenes/arrivals.h"
+#include "scenes/frame.h"
 #include "scenes/open_scene.h"
 #include "store/meshes.h"
 #include "verbs.h"
@@ -240,7 +241,7 @@ ExitStatus walk(WalkOptions options) {
     // For a store, these options can only apply to the scene of --against.
     SceneOptions& scene = options.scene;
     options.against.up = std::exchange(scene.up, {});
-    options.against.unit = std::exchange(scene.unit, "m");
+    options.against.unit = std::exchange(scene.unit, {});
     options.against.ignore = std::exchange(scene.ignore, {});
     check_against(options.against);
   }
@@ -257,7 +258,9 @@ ExitStatus walk(WalkOptions options) {
   if (options.wander && mode == Mode::ghost) {
     throw UsageError("--wander with --mode ghost", "a ghost meets nothing that could turn it; give it a --path");
   }
+  const std::optional<SceneFrame> frame = frame_of(options.scene);
   const std::vector<Vec3> path = positions(recorded.waypoints());
+  demand_frame(recorded, frame, options.scene);
   if (options.recorded) {
     const std::string other = compare(*options.recorded, options.settings, mode);
     if (!other.empty()) tell("note: " + other);
@@ -297,6 +300,7 @@ ExitStatus walk(WalkOptions options) {
   recorder.finish();
 
   report.scene = options.scene.names();
+  report.frame = frame;
   report.triangles = scene.triangles();
   report.mode = mode;
   report.settings = options.settings;

@@ -79,7 +79,8 @@ void SceneOptions::add_reading_to(CLI::App& verb) {
 
 std::vector<std::string> SceneOptions::arguments() const {
   // With "=", a value may begin with "-".
-  std::vector<std::string> words{"--unit=" + unit};
+  std::vector<std::string> words;
+  if (!unit.empty()) words.push_back("--unit=" + unit);
   if (!up.empty()) words.push_back("--up=" + up);
   for (const std::string& pattern : ignore) words.push_back("--ignore=" + pattern);
   for (const auto& folder : allow) words.push_back("--allow=" + folder.string());
@@ -95,7 +96,7 @@ std::vector<std::string> SceneOptions::arguments() const {
 ImportOptions SceneOptions::import_options() const {
   ImportOptions how;
   if (!up.empty()) how.up = parse_up_axis(up);
-  how.unit = parse_length_unit(unit);
+  if (!unit.empty()) how.unit = parse_length_unit(unit);
   how.ignore = ignore;
   how.allow = allow;
   how.through_link = through_link;
@@ -104,7 +105,7 @@ ImportOptions SceneOptions::import_options() const {
 }
 
 bool SceneOptions::says_how_to_read() const {
-  return !up.empty() || unit != "m" || !ignore.empty() || !allow.empty() || lossless;
+  return !up.empty() || !unit.empty() || !ignore.empty() || !allow.empty() || lossless;
 }
 
 bool SceneOptions::name_a_store() const {

@@ -20,8 +20,7 @@ namespace roam::app {
 
 struct SceneOptions {
   std::vector<std::filesystem::path> scenes;
-  std::string up;
-  std::string unit = "m";
+  std::string up, unit;  ///< as in --up and --unit; empty: not given
   std::vector<std::string> ignore;
   std::vector<std::filesystem::path> allow;
   bool lossless = false;

@@ -257,19 +257,19 @@ TEST(Settings, SayThatAFolderIsNoFile) {
   const std::string settings = error_of([&] { static_cast<void>(read_settings(folder.file("roam.json"))); });
   EXPECT_TRUE(contains(settings, folder.file("roam.json") + ": Is a directory; name a file")) << settings;
   const std::string bookmarks =
-      error_of([&] { static_cast<void>(Bookmarks(folder.file("roam.json"), {"mine.obj"}, "", "m")); });
+      error_of([&] { static_cast<void>(Bookmarks(folder.file("roam.json"), {"mine.obj"}, {})); });
   EXPECT_TRUE(contains(bookmarks, folder.file("roam.json") + ": Is a directory; name a file")) << bookmarks;
 }
 
 TEST(Bookmarks, AreKeptForTheirSceneAlone) {
   const TestFolder folder;
   const std::filesystem::path file = folder.file("config/roam/bookmarks.json");
-  Bookmarks mine(file, {"mine.obj"}, "", "m");
+  Bookmarks mine(file, {"mine.obj"}, {});
   EXPECT_EQ(mine.add({{1, 2, 3}, 90, -5}).name, "1");
   EXPECT_EQ(mine.add({{4, 5, 6}, 0, 0}).name, "2");
-  EXPECT_TRUE(Bookmarks(file, {"yours.obj"}, "", "m").all().empty());
-  EXPECT_TRUE(Bookmarks(file, {"mine.obj"}, "y", "m").all().empty());
-  Bookmarks again(file, {std::filesystem::absolute("mine.obj")}, "", "m");
+  EXPECT_TRUE(Bookmarks(file, {"yours.obj"}, {}).all().empty());
+  EXPECT_TRUE(Bookmarks(file, {"mine.obj"}, {.up = UpAxis::y}).all().empty());
+  Bookmarks again(file, {std::filesystem::absolute("mine.obj")}, {});
   ASSERT_EQ(again.all().size(), 2u);
   EXPECT_EQ(again.find("1")->pose.position, Vec3(1, 2, 3));
   EXPECT_EQ(again.find("1")->pose.yaw, 90.0);
@@ -279,10 +279,32 @@ TEST(Bookmarks, AreKeptForTheirSceneAlone) {
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(file.parent_path()), {}), 1);
 }
 
+TEST(Bookmarks, OfAnotherFrameAreNotTakenButKnown) {
+  const TestFolder folder;
+  const std::filesystem::path file = folder.file("b.json");
+  const SceneFrame turned{UpAxis::minus_y, LengthUnit::cm};
+  Bookmarks(file, {"mine.obj"}, turned).add({{1, 2, 3}, 90, -5});
+  Bookmarks plain(file, {"mine.obj"}, {});
+  EXPECT_FALSE(plain.find("1"));
+  EXPECT_EQ(plain.frame_elsewhere("1"), turned);
+  EXPECT_FALSE(plain.frame_elsewhere("2"));
+  EXPECT_TRUE(Bookmarks(file, {"mine.obj"}, turned).find("1"));
+}
+
+TEST(Bookmarks, OfAnOldFileAreOfTheFrameWithoutOptions) {
+  const TestFolder folder;
+  const std::string file = folder.write(
+      "b.json", "[{\"scene\": [\"/house.glb\"], \"up\": \"\", \"unit\": \"m\", \"bookmarks\": [{\"name\": "
+                "\"1\", \"position\": [1, 2, 3]}]}]");
+  const SceneFrame gltf{.up = UpAxis::y};
+  EXPECT_TRUE(Bookmarks(file, {"/house.glb"}, gltf, gltf).find("1"));
+  EXPECT_EQ(Bookmarks(file, {"/house.glb"}, {}, gltf).frame_elsewhere("1"), gltf);
+}
+
 TEST(Bookmarks, KeepWhatAnotherSessionHasWrittenMeanwhile) {
   const TestFolder folder;
-  Bookmarks one(folder.file("b.json"), {"mine.obj"}, "", "m");
-  Bookmarks two(folder.file("b.json"), {"mine.obj"}, "", "m");
+  Bookmarks one(folder.file("b.json"), {"mine.obj"}, {});
+  Bookmarks two(folder.file("b.json"), {"mine.obj"}, {});
   one.add({{1, 0, 0}, 0, 0});
   EXPECT_EQ(two.add({{2, 0, 0}, 0, 0}).name, "2");
   EXPECT_EQ(two.all().size(), 2u);
@@ -291,7 +313,7 @@ TEST(Bookmarks, KeepWhatAnotherSessionHasWrittenMeanwhile) {
 TEST(Bookmarks, NeverWriteOverAFileThatTheyDoNotUnderstand) {
   const TestFolder folder;
   const std::string file = folder.write("b.json", "{\"mine\": 1}");
-  const std::string what = error_of([&] { Bookmarks(file, {"mine.obj"}, "", "m"); });
+  const std::string what = error_of([&] { Bookmarks(file, {"mine.obj"}, {}); });
   EXPECT_TRUE(contains(what, file) && contains(what, "list of scenes")) << what;
   EXPECT_EQ(folder.read("b.json"), "{\"mine\": 1}");
 }

@@ -189,6 +189,7 @@ ViewReport Session::finish() {
   arrival_.fill(report);
   display_.fill(report);
   records_.finish();
+  records_.fill(report);
   report.written = news_.files();
   log_.fill(report);
   stage_.fill(report);
