@@ -248,6 +248,7 @@ void check_usage(const BuildVerb& verb) {
 
 ExitStatus build(BuildVerb verb) {
   check_usage(verb);
+  take_kept_frame(verb.scene);
   if (verb.output.empty()) {
     if (verb.scene.scenes.empty()) throw UsageError("build", "without SCENE, -o says which store is meant");
     verb.output = store_beside(verb.scene.scenes.front());

@@ -61,8 +61,10 @@ Json import_report(const ImportReport& report) {
 Json json_report(const SceneOptions& options, const LoadedScene& scene) {
   const WorldStats& stats = scene.world.stats();
   const measure::Edges edges = measure::count_edges(scene.meshes);
+  const std::optional<UpAxis> up = doubted_up(options, scene.meshes);
   return {{"scene", options.names()},
           {"frame", to_json(frame_of(options))},
+          {"likely_up", up ? Json(to_string(*up)) : Json(nullptr)},
           {"format", "scene"},
           {"triangles", stats.triangles},
           {"objects", stats.objects},
@@ -89,8 +91,14 @@ std::string up_words(const SceneOptions& options) {
   const std::optional<SceneFrame> frame = frame_of(options);
   if (!frame) return "y of glTF files, z of the others (--up says another)";
   const std::string axis = fmt::format("{} of the file", to_string(frame->up));
+  if (!options.frame_file.empty()) return axis + ", as " + printable_part(options.frame_file.string()) + " says";
   if (!options.up.empty()) return axis + ", as --up says";
   return axis + (frame->up == UpAxis::y ? ", as in all glTF" : " (--up says another)");
+}
+
+std::string unit_words(const SceneOptions& options) {
+  if (options.unit.empty()) return "metre (--unit says another)";
+  return options.unit + (options.frame_file.empty() ? ", as --unit says" : ", as the same file says");
 }
 
 std::string closed_words(const measure::Edges& edges) {
@@ -117,7 +125,7 @@ std::string text_report(const SceneOptions& options, const LoadedScene& scene) {
   lines.add("from", words::exactly_at(scene.bounds.lower));
   lines.add("to", words::exactly_at(scene.bounds.upper));
   lines.add("up", up_words(options));
-  lines.add("unit", options.unit.empty() ? "metre (--unit says another)" : options.unit + ", as --unit says");
+  lines.add("unit", unit_words(options));
   lines.add("closed", closed_words(measure::count_edges(scene.meshes)));
   lines.add("left out", left_out_words(scene.report));
   std::error_code none;
@@ -204,10 +212,11 @@ ExitStatus store_info(const SceneOptions& options, bool json, bool stats) {
   return done;
 }
 
-ExitStatus info(const SceneOptions& options, bool json, bool stats) {
+ExitStatus info(SceneOptions options, bool json, bool stats) {
   for (const auto& scene : options.scenes) {
     if (Store::is_store(scene)) return store_info(options, json, stats);
   }
+  take_kept_frame(options);
   const LoadedScene scene = load(options, Source::keep);
   print_report(json, json_report(options, scene), text_report(options, scene) + (stats ? stats_report(scene) : ""));
   return done;

@@ -59,8 +59,7 @@ std::vector<ProbedSize> read_sizes(const std::filesystem::path& file, bool spher
   std::vector<ProbedSize> sizes;
   std::string line;
   for (int number = 1; std::getline(in, line); ++number) {
-    const auto more = parse_sizes(line.substr(0, line.find('#')), fmt::format("{}:{}", file.string(), number),
-                                  spheres);
+    const auto more = parse_sizes(line.substr(0, line.find('#')), fmt::format("{}:{}", file.string(), number), spheres);
     sizes.insert(sizes.end(), more.begin(), more.end());
   }
   return sizes;
@@ -185,11 +184,15 @@ words::ProbeDetails details_of(const ProbeOptions& o, const Surveyed& scene, con
 Json report_of(const ProbeOptions& o, const Surveyed& scene, std::span<const ProbeAnswer> answers,
                const words::ProbeDetails& details) {
   const bool one = !o.matrix;
-  Json json = {{"scene", o.scene.names()},           {"frame", to_json(frame_of(o.scene))},
+  Json json = {{"scene", o.scene.names()},
+               {"frame", to_json(frame_of(o.scene))},
                {"triangles", scene.survey.triangles()},
-               {"mode", to_string(o.question.mode)}, {"from", to_json(o.question.from)},
-               {"to", to_json(o.question.to)},       {"step", o.question.step},
-               {"slope", o.slope_degrees()},         {"support_radius", o.question.support_radius},
+               {"mode", to_string(o.question.mode)},
+               {"from", to_json(o.question.from)},
+               {"to", to_json(o.question.to)},
+               {"step", o.question.step},
+               {"slope", o.slope_degrees()},
+               {"support_radius", o.question.support_radius},
                {"spacing", o.question.spacing}};
   if (one) {
     json.update(json_report(answers.front(), true));
@@ -204,6 +207,7 @@ Json report_of(const ProbeOptions& o, const Surveyed& scene, std::span<const Pro
 }
 
 ExitStatus probe(ProbeOptions o) {
+  take_kept_frame(o.scene);
   o.question = question_of(o);
   const std::vector<ProbedSize> sizes = sizes_of(o);
   if (o.path) demand_one_output("--path", *o.path, o.json);
@@ -239,7 +243,9 @@ ExitStatus probe(ProbeOptions o) {
   }
   const words::ProbeDetails details = o.matrix ? words::ProbeDetails{} : details_of(o, scene, first);
   print_report(o.json, report_of(o, scene, answers, details),
-               o.matrix ? table(o.question, answers) : words::report(o.question, first, details).text(), o.path.value_or(""));
+               (o.matrix ? table(o.question, answers) : words::report(o.question, first, details).text()) +
+                   kept_frame_line(o.scene),
+               o.path.value_or(""));
   unwritten.raise();
   const bool all = std::all_of(answers.begin(), answers.end(), [](const ProbeAnswer& a) { return a.passable; });
   return all ? done : answer_no;

@@ -37,7 +37,6 @@ struct TrainVerbOptions {
   std::optional<std::filesystem::path> picture, profile;
   std::optional<double> height, radius_max;
   bool sphere = false;
-  bool no_profile = false;
   bool json = false;
   bool stats = false;
 };
@@ -62,7 +61,7 @@ class StagedProgress {
 
 /// The file of the profile; empty: none.
 std::filesystem::path profile_file(const TrainVerbOptions& o) {
-  if (o.no_profile) return {};
+  if (o.scene.no_profile) return {};
   if (o.profile) {
     check_output(o.scene.scenes, "-o", *o.profile);
     return *o.profile;
@@ -86,7 +85,9 @@ void write_profile(const TrainVerbOptions& o, const std::filesystem::path& file,
   } else if (!t.complete && !o.profile && std::filesystem::exists(std::filesystem::symlink_status(file))) {
     tell(fmt::format("{} is left as it is: this training ended early", file.string()));
   } else {
-    save_profile(profile_of(t, identity), file);
+    Profile learnt = profile_of(t, identity);
+    learnt.frame = frame_to_keep(o.scene);
+    save_profile(learnt, file);
     report.profile = file;
   }
 }
@@ -118,7 +119,8 @@ ExitStatus train(TrainVerbOptions o) {
   o.train.threads = o.scene.threads;
   describe_body(o);
   o.scene.check_there();
-  if (o.no_profile && o.profile) throw UsageError("-o and --no-profile", "one of them");
+  take_kept_frame(o.scene);
+  if (o.scene.no_profile && o.profile) throw UsageError("-o and --no-profile", "one of them");
   const std::filesystem::path profile = profile_file(o);
   if (o.picture) check_output(o.scene.scenes, "--picture", *o.picture);
   std::optional<draw::PictureFile> drawing;
@@ -137,7 +139,8 @@ ExitStatus train(TrainVerbOptions o) {
     report.names.push_back(scene.names_at(d.point, d.direction, d.width));
   Unwritten unwritten;
   unwritten.attempt([&] { write_profile(o, profile, scene.identity, report); });
-  print_report(o.json, json_report(report), text_report(report) + (o.stats ? stats_report(report) : ""));
+  print_report(o.json, json_report(report),
+               text_report(report) + kept_frame_line(o.scene) + (o.stats ? stats_report(report) : ""));
   if (drawing && interrupted()) {
     tell(fmt::format("{} was not drawn: this training ended early", o.picture->string()));
   } else if (drawing) {
@@ -222,7 +225,7 @@ void add_train(CLI::App& program, Run& run) {
   verb->add_option("--picture", o.picture, "Draw the openings that decide (.svg or .png)")->type_name("FILE");
   verb->add_option("-o,--output", o.profile, "Write the profile to this file (default: SCENE.roam.json)")
       ->type_name("FILE");
-  verb->add_flag("--no-profile", o.no_profile, "Write no profile");
+  verb->get_option("--no-profile")->description("Neither read nor write SCENE.roam.json");
   verb->add_flag("--stats", o.stats, "Print the interval, all regions, parts and counts, too");
   verb->add_flag("--json", o.json, "Print one JSON object");
   verb->callback([options, &run] { run = [options] { return train(*options); }; });

@@ -237,6 +237,7 @@ void check_moves(const WalkOptions& options, const OpenScene& scene, const verif
 
 ExitStatus walk(WalkOptions options) {
   check_way(options);
+  take_kept_frame(options.scene);
   if (!options.against.scenes.empty()) {
     // For a store, these options can only apply to the scene of --against.
     SceneOptions& scene = options.scene;
@@ -258,7 +259,8 @@ ExitStatus walk(WalkOptions options) {
   if (options.wander && mode == Mode::ghost) {
     throw UsageError("--wander with --mode ghost", "a ghost meets nothing that could turn it; give it a --path");
   }
-  const std::optional<SceneFrame> frame = frame_of(options.scene);
+  const bool stored = options.scene.name_a_store();
+  std::optional<SceneFrame> frame = stored ? std::nullopt : frame_of(options.scene);
   const std::vector<Vec3> path = positions(recorded.waypoints());
   demand_frame(recorded, frame, options.scene);
   if (options.recorded) {
@@ -273,6 +275,10 @@ ExitStatus walk(WalkOptions options) {
   if (!options.picture.empty()) drawing.emplace(options.picture);
   const bool needs_triangles = options.verify || drawing;
   OpenScene scene(options.scene, needs_triangles ? Source::keep : Source::release);
+  if (stored) {
+    frame = frame_of(*scene.store());
+    demand_frame(recorded, frame, options.scene);
+  }
   if (!options.against.scenes.empty() && scene.store()) read_as(options.against, *scene.store());
   if (options.profile) {
     demand_belongs(*options.profile, scene.store() ? identity_of(scene.store()->info()) : scene.loaded().identity,
@@ -330,7 +336,8 @@ ExitStatus walk(WalkOptions options) {
   const auto draw_way = [&] { drawing->write(sheet(options, scene, report, recorder.record(), *seen)); };
   // After Ctrl-C the picture may take more time than there is.
   if (drawing && !report.interrupted) draw_way();
-  const std::string text = text_report(report) + (options.stats ? stats_report(report) : "");
+  const std::string text =
+      text_report(report) + kept_frame_line(options.scene) + (options.stats ? stats_report(report) : "");
   print_report(options.json, json_report(report), text, options.trace);
   if (drawing && report.interrupted) draw_way();
   if (report.interrupted) return failed;

@@ -37,7 +37,6 @@ void BodyOptions::add_to(CLI::App& verb) {
   verb.add_option("--step", step, "Highest step (stair, kerb) that the body climbs (default: 0.3, at most H / 2)")
       ->type_name("M");
   verb.add_option("--slope", slope, "Slope that the body climbs, in degrees (default: 45)")->type_name("DEG");
-  verb.add_flag("--no-profile", no_profile, "Ignore the trained body in SCENE.roam.json");
 }
 
 WalkerSettings body_of(const BodyOptions& options, const BodySizes& known) {

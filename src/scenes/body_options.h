@@ -34,9 +34,8 @@ void add_sphere_to(CLI::App& verb, bool& sphere);
 /// The options that describe a body that moves.
 struct BodyOptions : BodySizes {
   bool sphere = false;
-  bool no_profile = false;
 
-  /// Adds --radius, --height, --sphere, --support-radius, --eye, --step, --slope and --no-profile.
+  /// Adds --radius, --height, --sphere, --support-radius, --eye, --step and --slope.
   void add_to(CLI::App& verb);
   /// Whether they describe a body of their own, in place of a recorded or trained one.
   [[nodiscard]] bool describe_a_body() const { return radius || sphere; }

@@ -85,4 +85,41 @@ TEST_F(Frame, OfAPathIsKeptAndDemanded) {
   EXPECT_TRUE(contains(stored.err, "this store was built with --up=z")) << stored.err;
 }
 
+TEST_F(Frame, OfATrainedBodyHoldsForEveryVerb) {
+  ASSERT_EQ(run({"train", scene, "--up=-y", "--spacing", "0.4"}).status, 0);
+  const std::string file = scene + ".roam.json";
+  EXPECT_EQ(Json::parse(folder.read("room.obj.roam.json"))["frame"]["up"], "-y");
+  const ProgramResult walked = run({"walk", scene, "--path", path});
+  EXPECT_EQ(walked.status, 0) << walked.err;
+  EXPECT_TRUE(contains(walked.err, "note: " + scene + " is read with --up=-y, as " + file + " says")) << walked.err;
+  EXPECT_TRUE(contains(walked.out, "  frame       --up=-y, from " + file)) << walked.out;
+  const auto up = [&](const Words& words) { return report(words, {"--json"})["frame"]["up"]; };
+  const std::string store = folder.file("room.roam");
+  EXPECT_EQ(up({"walk", scene, "--path", path}), "-y");
+  EXPECT_EQ(up({"view", scene, "--headless", "--size", "160x120", "--time", "0.1"}), "-y");
+  EXPECT_EQ(up({"probe", scene, "--from", "2,0,1", "--to", "8,0,1"}), "-y");
+  EXPECT_EQ(up({"train", scene, "--spacing", "0.4", "-o", folder.file("p.json")}), "-y");
+  EXPECT_EQ(up({"info", scene}), "-y");
+  EXPECT_EQ(up({"build", scene, "-o", store}), "-y");
+  EXPECT_EQ(up({"info", store}), "-y");
+  const ProgramResult swept = run_program(ROAM_PROGRAM, {"sweep", scene}, {.input = "5,0,1,0,0,-5,0.3\n"});
+  EXPECT_TRUE(contains(swept.out, "\n1,")) << "the floor is below: " << swept.out;
+  // Options say otherwise.
+  EXPECT_EQ(up({"info", scene, "--no-profile"}), "z");
+  EXPECT_EQ(up({"info", scene, "--up=y"}), "y");
+  EXPECT_EQ(up({"info", scene, "--unit=cm"}), "z");
+}
+
+TEST_F(Frame, MayBeKeptWithoutABody) {
+  (void)folder.write("room.obj.roam.json", R"({"roam_profile": 1, "frame": {"up": "-y", "unit": "m"}})");
+  const Json walked = report({"walk", scene, "--path", path, "--json"});
+  EXPECT_EQ(walked["frame"]["up"], "-y");
+  EXPECT_EQ(walked["height"], 1.8);
+  EXPECT_TRUE(walked["profile"].is_null());
+  (void)folder.write("room.obj.roam.json", R"({"roam_profile": 1, "frame": {"up": "w", "unit": "m"}})");
+  const ProgramResult wrong = run({"info", scene});
+  EXPECT_EQ(wrong.status, 1);
+  EXPECT_TRUE(contains(wrong.err, "\"frame.up\" 'w' is no axis") && contains(wrong.err, "--no-profile")) << wrong.err;
+}
+
 }  // namespace

@@ -23,8 +23,9 @@ TEST(ProbePath, FliesOverAWallUnderTheSkyAndIsFlownAgain) {
   const TestFolder folder;
   const std::string scene = folder.write("yard.obj", yard_obj()), path = folder.file("way.path");
   for (const char* radius : {"0.1", "0.3", "0.6"}) {
-    const ProgramResult found = run_program(ROAM_PROGRAM, {"probe", scene, "--from", "8,0,1", "--to", "12,0,1",
-                                                           "--radius", radius, "--sphere", "--mode", "fly", "--path", path});
+    const ProgramResult found =
+        run_program(ROAM_PROGRAM, {"probe", scene, "--from", "8,0,1", "--to", "12,0,1", "--radius", radius, "--sphere",
+                                   "--mode", "fly", "--path", path});
     EXPECT_EQ(found.status, 0) << found.out << found.err;
     EXPECT_TRUE(found.out.starts_with("YES: ")) << found.out;
     const ProgramResult flown = run_program(ROAM_PROGRAM, {"walk", scene, "--path", path, "--verify", "--json"});

@@ -293,9 +293,10 @@ TEST(Bookmarks, OfAnotherFrameAreNotTakenButKnown) {
 
 TEST(Bookmarks, OfAnOldFileAreOfTheFrameWithoutOptions) {
   const TestFolder folder;
-  const std::string file = folder.write(
-      "b.json", "[{\"scene\": [\"/house.glb\"], \"up\": \"\", \"unit\": \"m\", \"bookmarks\": [{\"name\": "
-                "\"1\", \"position\": [1, 2, 3]}]}]");
+  const std::string file =
+      folder.write("b.json",
+                   "[{\"scene\": [\"/house.glb\"], \"up\": \"\", \"unit\": \"m\", \"bookmarks\": [{\"name\": "
+                   "\"1\", \"position\": [1, 2, 3]}]}]");
   const SceneFrame gltf{.up = UpAxis::y};
   EXPECT_TRUE(Bookmarks(file, {"/house.glb"}, gltf, gltf).find("1"));
   EXPECT_EQ(Bookmarks(file, {"/house.glb"}, {}, gltf).frame_elsewhere("1"), gltf);

@@ -129,8 +129,7 @@ TEST(PathRecorder, SaysTheFrame) {
 
 TEST(RecordedPath, OfAnotherFrameIsRefusedWithTheOptionsThatOpenIt) {
   const TestFolder folder;
-  const RecordedPath path =
-      load_recorded_path(folder.write("p.path", "# roam: frame up -y unit cm\n1 2 3\n4 5 6\n"));
+  const RecordedPath path = load_recorded_path(folder.write("p.path", "# roam: frame up -y unit cm\n1 2 3\n4 5 6\n"));
   const auto error = [&](const std::optional<SceneFrame>& frame) {
     return error_of([&] { demand_frame(path, frame, {}); });
   };
@@ -146,7 +145,8 @@ TEST(RecordedPath, OfAnotherFrameIsRefusedWithTheOptionsThatOpenIt) {
 
 TEST(RecordedPath, NamesTheLineOfAFrameThatIsNone) {
   const TestFolder folder;
-  for (const char* frame : {"up w unit m", "up y unit parsec", "up y", "y m", "up y unit m m", "up z unit m\n# roam: frame up y unit m"}) {
+  for (const char* frame :
+       {"up w unit m", "up y unit parsec", "up y", "y m", "up y unit m m", "up z unit m\n# roam: frame up y unit m"}) {
     const std::string bad = folder.write("bad.path", "# roam: frame " + std::string(frame) + "\n1 2 3\n4 5 6\n");
     EXPECT_TRUE(contains(error_of([&] { static_cast<void>(load_recorded_path(bad).waypoints()); }), "bad.path:"))
         << frame;

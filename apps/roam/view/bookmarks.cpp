@@ -94,12 +94,12 @@ Bookmarks::Bookmarks(std::filesystem::path file, const std::vector<std::filesyst
   for (const Json& scene : document) {
     if (!scene.is_object()) fail(file_, "each scene must be an object, { ... }");
     if (scene.value("scene", Json::array()) != Json(scenes_)) continue;
-    const SceneFrame frame = frame_of(scene, usual_, file_);
+    const SceneFrame theirs = frame_of(scene, usual_, file_);
     std::vector<Bookmark> bookmarks = bookmarks_of(scene, file_);
-    if (frame == frame_) {
+    if (theirs == frame_) {
       bookmarks_.insert(bookmarks_.end(), bookmarks.begin(), bookmarks.end());
     } else {
-      for (Bookmark& bookmark : bookmarks) elsewhere_.emplace_back(frame, std::move(bookmark.name));
+      for (Bookmark& bookmark : bookmarks) elsewhere_.emplace_back(theirs, std::move(bookmark.name));
     }
   }
 }
@@ -113,7 +113,8 @@ const Bookmark* Bookmarks::find(const std::string& name) {
 }
 
 std::optional<SceneFrame> Bookmarks::frame_elsewhere(const std::string& name) const {
-  const auto found = std::find_if(elsewhere_.begin(), elsewhere_.end(), [&](const auto& b) { return b.second == name; });
+  const auto found =
+      std::find_if(elsewhere_.begin(), elsewhere_.end(), [&](const auto& b) { return b.second == name; });
   if (found == elsewhere_.end()) return std::nullopt;
   return found->first;
 }

@@ -27,8 +27,8 @@ struct Bookmark {
 /// is up without --up. Only add() writes the file, as a whole: a reader sees the old or the new one.
 class Bookmarks {
  public:
-  /// Reads the file; a missing file has no bookmarks. `usual`: the frame without options. Throws roam::Error if the file cannot be read, with its name and
-  /// the mistake. Such a file is never written.
+  /// Reads the file; a missing file has no bookmarks. `usual`: the frame without options. Throws roam::Error if the
+  /// file cannot be read, with its name and the mistake. Such a file is never written.
   Bookmarks(std::filesystem::path file, const std::vector<std::filesystem::path>& scenes, const SceneFrame& frame,
             const SceneFrame& usual = {});
 

@@ -18,21 +18,14 @@ std::string remedy(const osgRoam::Manipulator& roamer) {
   return key.empty() ? key : fmt::format("; {} keeps one", key);
 }
 
-/// The same scene without --up and --unit.
-SceneOptions as_it_is(SceneOptions scene) {
-  scene.up.clear();
-  scene.unit.clear();
-  return scene;
-}
-
 }  // namespace
 
 Records::Records(const SceneOptions& scene, osgRoam::Manipulator& roamer, News& news)
     : roamer_(roamer), news_(news), frame_(frame_of(scene)) {
   const std::filesystem::path folder = settings_folder();
   try {
-    bookmarks_.emplace(folder.empty() ? folder : folder / "bookmarks.json", scene.scenes,
-                       frame_.value_or(SceneFrame{}), frame_of(as_it_is(scene)).value_or(SceneFrame{}));
+    bookmarks_.emplace(folder.empty() ? folder : folder / "bookmarks.json", scene.scenes, frame_.value_or(SceneFrame{}),
+                       (scene.name_a_store() ? frame_ : usual_frame_of(scene)).value_or(SceneFrame{}));
   } catch (const Error& error) {
     problem_ = error;
     news_.note(error.what());

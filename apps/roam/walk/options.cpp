@@ -29,7 +29,7 @@ void check_output(const WalkOptions& options, const char* option, const std::fil
 }  // namespace
 
 void take_profile(WalkOptions& options) {
-  if (options.body.no_profile || options.body.describe_a_body()) return;
+  if (options.scene.no_profile || options.body.describe_a_body()) return;
   options.profile = find_scene_profile(options.scene, options.walker_mode(), options.recorded);
   options.scene.identify = options.profile.has_value();
 }

@@ -28,7 +28,7 @@ struct WalkOptions {
   BodyOptions body;
   WalkerSettings settings;               ///< see walker_settings()
   std::optional<RecordedBody> recorded;  ///< the body that recorded the path
-  std::optional<SceneProfile> profile;  ///< the profile that gives the body its size
+  std::optional<SceneProfile> profile;   ///< the profile that gives the body its size
   RouteOptions route;
   std::filesystem::path trace;
   std::filesystem::path picture;

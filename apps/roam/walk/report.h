@@ -26,7 +26,7 @@ struct WalkReport : words::EndedWalk {
   std::uint64_t triangles = 0;
   std::string profile;  ///< file of the body's profile; empty: none
   std::optional<SceneFrame> frame;
-  Vec3 eye{0.0};        ///< the camera's position at the end
+  Vec3 eye{0.0};  ///< the camera's position at the end
   StepTimes times;
   std::optional<verification::Verification> verified;
   double verify_seconds = 0.0;
