@@ -135,9 +135,8 @@ void write_path(const ProbeOptions& o, const Survey& survey, const ProbeAnswer& 
   std::vector<Vec3> path = probed_path(survey, o.question, answer);
   if (path.size() == 1) path.push_back(path.front());  // the path needs a start and a goal, even if they are equal
   const WalkerSettings body = probed_body(o.question, answer.size, o.slope_degrees());
-  std::string text;
+  std::string text = body_line(body, o.question.mode) + "\n";
   if (const auto frame = frame_of(o.scene)) text += frame_line(*frame) + "\n";
-  text += body_line(body, o.question.mode) + "\n";
   for (const Vec3& p : path) text += fmt::format("{} {} {}\n", p.x, p.y, p.z);
   if (is_standard(*o.path)) return write_output(text);
   files::write_whole(*o.path, text);

@@ -119,9 +119,9 @@ ExitStatus train(TrainVerbOptions o) {
   o.train.threads = o.scene.threads;
   describe_body(o);
   o.scene.check_there();
-  take_kept_frame(o.scene);
   if (o.scene.no_profile && o.profile) throw UsageError("-o and --no-profile", "one of them");
   const std::filesystem::path profile = profile_file(o);
+  take_kept_frame(o.scene);
   if (o.picture) check_output(o.scene.scenes, "--picture", *o.picture);
   std::optional<draw::PictureFile> drawing;
   if (o.picture) drawing.emplace(*o.picture);
