@@ -17,6 +17,7 @@
 #include "roam/store.h"
 #include "roam/store_build.h"
 #include "scenes/beside_scene.h"
+#include "scenes/frame.h"
 #include "scenes/scene_options.h"
 #include "scenes/user_key.h"
 #include "verbs.h"
@@ -119,6 +120,7 @@ StoreKey build_key(const BuildVerb& verb) {
 
 Json json_report(const BuildVerb& verb, const StoreBuildReport& report, double seconds) {
   Json json = {{"store", verb.output.string()},
+               {"frame", verb.scene.scenes.empty() ? Json(nullptr) : to_json(frame_of(verb.scene))},
                {"unchanged", report.unchanged},
                {"triangles", report.triangles},
                {"parts", report.parts},
@@ -246,6 +248,7 @@ void check_usage(const BuildVerb& verb) {
 
 ExitStatus build(BuildVerb verb) {
   check_usage(verb);
+  take_kept_frame(verb.scene);
   if (verb.output.empty()) {
     if (verb.scene.scenes.empty()) throw UsageError("build", "without SCENE, -o says which store is meant");
     verb.output = store_beside(verb.scene.scenes.front());

@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <system_error>
@@ -11,10 +10,10 @@
 #include "cli/report.h"
 #include "cli/standard_streams.h"
 #include "cli/tell.h"
-#include "files/extension.h"
 #include "measure/edges.h"
 #include "roam/profile.h"
 #include "roam/store.h"
+#include "scenes/frame.h"
 #include "scenes/scene_options.h"
 #include "verbs.h"
 #include "words/lines.h"
@@ -62,7 +61,10 @@ Json import_report(const ImportReport& report) {
 Json json_report(const SceneOptions& options, const LoadedScene& scene) {
   const WorldStats& stats = scene.world.stats();
   const measure::Edges edges = measure::count_edges(scene.meshes);
+  const std::optional<UpAxis> up = doubted_up(options, scene.meshes);
   return {{"scene", options.names()},
+          {"frame", to_json(frame_of(options))},
+          {"likely_up", up ? Json(to_string(*up)) : Json(nullptr)},
           {"format", "scene"},
           {"triangles", stats.triangles},
           {"objects", stats.objects},
@@ -86,13 +88,17 @@ std::string size_words(const Box& bounds, std::uint64_t triangles, std::uint64_t
 }
 
 std::string up_words(const SceneOptions& options) {
-  if (!options.up.empty()) return fmt::format("{} of the file, as --up says", options.up);
-  const auto is_gltf = [](const std::filesystem::path& file) {
-    const std::string extension = files::lower_extension(file);
-    return extension == ".gltf" || extension == ".glb";
-  };
-  if (std::all_of(options.scenes.begin(), options.scenes.end(), is_gltf)) return "y of the file, as in all glTF";
-  return "z of the file (--up says another)";
+  const std::optional<SceneFrame> frame = frame_of(options);
+  if (!frame) return "y of glTF files, z of the others (--up says another)";
+  const std::string axis = fmt::format("{} of the file", to_string(frame->up));
+  if (!options.frame_file.empty()) return axis + ", as " + printable_part(options.frame_file.string()) + " says";
+  if (!options.up.empty()) return axis + ", as --up says";
+  return axis + (frame->up == UpAxis::y ? ", as in all glTF" : " (--up says another)");
+}
+
+std::string unit_words(const SceneOptions& options) {
+  if (options.unit.empty()) return "metre (--unit says another)";
+  return options.unit + (options.frame_file.empty() ? ", as --unit says" : ", as the same file says");
 }
 
 std::string closed_words(const measure::Edges& edges) {
@@ -119,7 +125,7 @@ std::string text_report(const SceneOptions& options, const LoadedScene& scene) {
   lines.add("from", words::exactly_at(scene.bounds.lower));
   lines.add("to", words::exactly_at(scene.bounds.upper));
   lines.add("up", up_words(options));
-  lines.add("unit", options.unit == "m" ? "metre (--unit says another)" : options.unit + ", as --unit says");
+  lines.add("unit", unit_words(options));
   lines.add("closed", closed_words(measure::count_edges(scene.meshes)));
   lines.add("left out", left_out_words(scene.report));
   std::error_code none;
@@ -150,6 +156,7 @@ Json json_report(const Store& store) {
   const StoreInfo& i = store.info();
   const auto triangles = static_cast<double>(i.triangles);
   return {{"scene", store.name()},
+          {"frame", to_json(frame_of(store))},
           {"format", fmt::format("store {}", i.format)},
           {"triangles", i.triangles},
           {"objects", i.objects},
@@ -205,10 +212,11 @@ ExitStatus store_info(const SceneOptions& options, bool json, bool stats) {
   return done;
 }
 
-ExitStatus info(const SceneOptions& options, bool json, bool stats) {
+ExitStatus info(SceneOptions options, bool json, bool stats) {
   for (const auto& scene : options.scenes) {
     if (Store::is_store(scene)) return store_info(options, json, stats);
   }
+  take_kept_frame(options);
   const LoadedScene scene = load(options, Source::keep);
   print_report(json, json_report(options, scene), text_report(options, scene) + (stats ? stats_report(scene) : ""));
   return done;

@@ -19,11 +19,15 @@
 #include "cli/tell.h"
 #include "cli/values.h"
 #include "draw/picture_file.h"
+#include "files/whole_file.h"
 #include "measure/along.h"
 #include "measure/slope.h"
 #include "probe/picture.h"
 #include "probe/text.h"
 #include "roam/path_file.h"
+#include "scenes/body_options.h"
+#include "scenes/frame.h"
+#include "scenes/recorded_body.h"
 #include "scenes/surveyed.h"
 #include "verbs.h"
 #include "words/probe.h"
@@ -40,6 +44,7 @@ struct ProbeOptions {
   std::optional<std::string> matrix;  ///< sizes, or a file of sizes
   std::optional<std::filesystem::path> picture, path;
   std::optional<double> narrower;  ///< m
+  bool sphere = false;
   bool json = false;
 
   [[nodiscard]] double slope_degrees() const { return slope.value_or(45.0); }
@@ -49,28 +54,28 @@ struct ProbeOptions {
 constexpr std::uint64_t longest_matrix = 1 << 20;
 
 /// Sizes in lines, with comments behind #.
-std::vector<ProbedSize> read_sizes(const std::filesystem::path& file) {
+std::vector<ProbedSize> read_sizes(const std::filesystem::path& file, bool spheres) {
   std::istringstream in(read_input(file, longest_matrix));
   std::vector<ProbedSize> sizes;
   std::string line;
   for (int number = 1; std::getline(in, line); ++number) {
-    const auto more = parse_sizes(line.substr(0, line.find('#')), fmt::format("{}:{}", file.string(), number));
+    const auto more = parse_sizes(line.substr(0, line.find('#')), fmt::format("{}:{}", file.string(), number), spheres);
     sizes.insert(sizes.end(), more.begin(), more.end());
   }
   return sizes;
 }
 
 /// The value of --matrix: a file if one of that name exists, else sizes.
-std::vector<ProbedSize> matrix_sizes(const std::string& text) {
+std::vector<ProbedSize> matrix_sizes(const std::string& text, bool spheres) {
   std::error_code none;
   if (std::filesystem::is_directory(text, none))
     throw UsageError(fmt::format("--matrix {}", text), "that is a folder; name a file of sizes, or sizes");
   std::vector<ProbedSize> sizes;
   if (is_standard(text) || std::filesystem::exists(text, none)) {
-    sizes = read_sizes(text);
+    sizes = read_sizes(text, spheres);
   } else {
     try {
-      sizes = parse_sizes(text, "--matrix");
+      sizes = parse_sizes(text, "--matrix", spheres);
     } catch (const UsageError& error) {
       throw UsageError(Error::at(error.where(), fmt::format("{}; and there is no file \"{}\"", error.what(), text)));
     }
@@ -82,13 +87,13 @@ std::vector<ProbedSize> matrix_sizes(const std::string& text) {
 std::vector<ProbedSize> sizes_of(const ProbeOptions& o) {
   std::vector<ProbedSize> sizes;
   if (!o.matrix) {
-    if (!o.radius) throw UsageError("probe", "how large is the body? Give it a --radius, or sizes by --matrix");
-    sizes.push_back({*o.radius, o.height.value_or(2.0 * *o.radius)});
+    const double radius = o.radius.value_or(WalkerSettings{}.radius);
+    sizes.push_back({radius, o.height.value_or(default_height(radius, o.sphere))});
   } else {
     if (o.radius || o.height) throw UsageError("--matrix", "it says all sizes; leave out --radius and --height");
     if (o.picture || o.path || o.narrower)
       throw UsageError("--matrix", "it has no one way; leave out --picture, --path and --narrower");
-    sizes = matrix_sizes(*o.matrix);
+    sizes = matrix_sizes(*o.matrix, o.sphere);
   }
   for (const ProbedSize& size : sizes) {
     try {
@@ -97,8 +102,6 @@ std::vector<ProbedSize> sizes_of(const ProbeOptions& o) {
       if (!o.matrix) throw UsageError(error);
       throw UsageError(fmt::format("--matrix, size {:g}x{:g}", size.radius, size.height), error.what());
     }
-    if (o.question.mode == Mode::fly && size.height > 2.0 * size.radius)
-      throw UsageError("--mode fly", "what flies is a sphere; leave its height out");
   }
   return sizes;
 }
@@ -118,6 +121,7 @@ ProbeQuestion question_of(const ProbeOptions& o) {
   };
   q.from = place("--from", o.from);
   q.to = place("--to", o.to);
+  if (q.mode == Mode::fly && !o.sphere) throw UsageError("--mode fly", flight_is_for_spheres);
   if (q.mode == Mode::fly && (o.step || o.slope || o.support_radius))
     throw UsageError("--mode fly", "--step, --slope and --support-radius are for walking; leave them out");
   q.step = o.step.value_or(q.step);
@@ -131,10 +135,11 @@ void write_path(const ProbeOptions& o, const Survey& survey, const ProbeAnswer& 
   std::vector<Vec3> path = probed_path(survey, o.question, answer);
   if (path.size() == 1) path.push_back(path.front());  // the path needs a start and a goal, even if they are equal
   const WalkerSettings body = probed_body(o.question, answer.size, o.slope_degrees());
-  if (!is_standard(*o.path)) return save_path(*o.path, path, &body, o.question.mode);
   std::string text = body_line(body, o.question.mode) + "\n";
+  if (const auto frame = frame_of(o.scene)) text += frame_line(*frame) + "\n";
   for (const Vec3& p : path) text += fmt::format("{} {} {}\n", p.x, p.y, p.z);
-  write_output(text);
+  if (is_standard(*o.path)) return write_output(text);
+  files::write_whole(*o.path, text);
 }
 
 /// Measures the way with the body, or with the widest body that passes.
@@ -178,10 +183,15 @@ words::ProbeDetails details_of(const ProbeOptions& o, const Surveyed& scene, con
 Json report_of(const ProbeOptions& o, const Surveyed& scene, std::span<const ProbeAnswer> answers,
                const words::ProbeDetails& details) {
   const bool one = !o.matrix;
-  Json json = {{"scene", o.scene.names()},           {"triangles", scene.survey.triangles()},
-               {"mode", to_string(o.question.mode)}, {"from", to_json(o.question.from)},
-               {"to", to_json(o.question.to)},       {"step", o.question.step},
-               {"slope", o.slope_degrees()},         {"support_radius", o.question.support_radius},
+  Json json = {{"scene", o.scene.names()},
+               {"frame", to_json(frame_of(o.scene))},
+               {"triangles", scene.survey.triangles()},
+               {"mode", to_string(o.question.mode)},
+               {"from", to_json(o.question.from)},
+               {"to", to_json(o.question.to)},
+               {"step", o.question.step},
+               {"slope", o.slope_degrees()},
+               {"support_radius", o.question.support_radius},
                {"spacing", o.question.spacing}};
   if (one) {
     json.update(json_report(answers.front(), true));
@@ -196,6 +206,7 @@ Json report_of(const ProbeOptions& o, const Surveyed& scene, std::span<const Pro
 }
 
 ExitStatus probe(ProbeOptions o) {
+  take_kept_frame(o.scene);
   o.question = question_of(o);
   const std::vector<ProbedSize> sizes = sizes_of(o);
   if (o.path) demand_one_output("--path", *o.path, o.json);
@@ -231,7 +242,9 @@ ExitStatus probe(ProbeOptions o) {
   }
   const words::ProbeDetails details = o.matrix ? words::ProbeDetails{} : details_of(o, scene, first);
   print_report(o.json, report_of(o, scene, answers, details),
-               o.matrix ? table(o.question, answers) : words::report(o.question, first, details).text(), o.path.value_or(""));
+               (o.matrix ? table(o.question, answers) : words::report(o.question, first, details).text()) +
+                   kept_frame_line(o.scene),
+               o.path.value_or(""));
   unwritten.raise();
   const bool all = std::all_of(answers.begin(), answers.end(), [](const ProbeAnswer& a) { return a.passable; });
   return all ? done : answer_no;
@@ -244,12 +257,13 @@ status 0 for yes; 3 for no, and if the walker does not get through; with --matri
 
 Places are of a person's feet or eyes, and are moved down to the floor; in flight, of the centre. The body steps over
 anything lower than --step; a sphere climbs at most its radius. --path writes the way of the body's centre, with the
-body, for `roam walk --path FILE --verify`. --matrix takes sizes R or RxH with commas between, or a file of them.
+body, for `roam walk --path FILE --verify`. --matrix takes sizes R or RxH with commas between, or a file of them. R is
+a person of this radius, as with --radius; with --sphere a sphere. Ways through the air are found for spheres.
 
 Examples:
   roam probe house.glb --from 1,2,1 --to 8,3,1 --radius 0.3 --height 1.9
   roam probe mine.dae --from 5,5,1 --to 90,40,1 --radius 0.4 --height 1.9 --picture door.png
-  roam probe pipe.ply --from 0,0,5 --to 9,0,5 --radius 0.5 --mode fly --json
+  roam probe pipe.ply --from 0,0,5 --to 9,0,5 --radius 0.5 --sphere --mode fly --json
   roam probe house.glb --from 1,2,1 --to 8,3,1 --matrix 0.25x1.9,0.4x1.9,0.4x1.2
 )";
 
@@ -272,8 +286,11 @@ void add_probe(CLI::App& program, Run& run) {
       ->check(from_to(0.001, 100.0))
       ->type_name("M");
   verb->option_defaults()->group("Body, in metres");
-  verb->add_option("--radius", o.radius, "Radius")->check(positive())->type_name("R");
-  verb->add_option("--height", o.height, "Whole height (default: 2 R, a sphere)")->check(positive())->type_name("H");
+  verb->add_option("--radius", o.radius, "Radius (default: 0.3)")->check(positive())->type_name("R");
+  verb->add_option("--height", o.height, "Whole height (default: a person's 1.8, but at least 2 R)")
+      ->check(positive())
+      ->type_name("H");
+  add_sphere_to(*verb, o.sphere);
   verb->add_option("--matrix", o.matrix, "Several sizes in one run: 0.3,0.4x1.9 or a file of them")->type_name("SIZES");
   verb->add_option("--mode", o.mode, "walk: on the ground; fly: through the air (default: walk)")
       ->check(one_of({"walk", "fly"}))

@@ -21,6 +21,7 @@
 #include "cli/standard_streams.h"
 #include "cli/tell.h"
 #include "roam/error.h"
+#include "scenes/frame.h"
 #include "scenes/open_scene.h"
 #include "sweep/paged.h"
 #include "sweep/rows.h"
@@ -172,7 +173,8 @@ class Missing {
   std::set<std::string> told_;
 };
 
-ExitStatus sweep(const SceneOptions& options) {
+ExitStatus sweep(SceneOptions options) {
+  take_kept_frame(options);
   OpenScene scene(options, Source::release);
   const int threads =
       options.threads > 0 ? options.threads : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));

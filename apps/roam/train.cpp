@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdint>
 #include <limits>
 #include <memory>
@@ -18,6 +19,8 @@
 #include "cli/values.h"
 #include "draw/picture_file.h"
 #include "roam/error.h"
+#include "scenes/body_options.h"
+#include "scenes/frame.h"
 #include "scenes/surveyed.h"
 #include "train/report.h"
 #include "verbs.h"
@@ -32,7 +35,8 @@ struct TrainVerbOptions {
   std::string mode = "walk", method = "interval";
   double slope = 45.0;
   std::optional<std::filesystem::path> picture, profile;
-  bool no_profile = false;
+  std::optional<double> height, radius_max;
+  bool sphere = false;
   bool json = false;
   bool stats = false;
 };
@@ -57,7 +61,7 @@ class StagedProgress {
 
 /// The file of the profile; empty: none.
 std::filesystem::path profile_file(const TrainVerbOptions& o) {
-  if (o.no_profile) return {};
+  if (o.scene.no_profile) return {};
   if (o.profile) {
     check_output(o.scene.scenes, "-o", *o.profile);
     return *o.profile;
@@ -81,24 +85,43 @@ void write_profile(const TrainVerbOptions& o, const std::filesystem::path& file,
   } else if (!t.complete && !o.profile && std::filesystem::exists(std::filesystem::symlink_status(file))) {
     tell(fmt::format("{} is left as it is: this training ended early", file.string()));
   } else {
-    save_profile(profile_of(t, identity), file);
+    Profile learnt = profile_of(t, identity);
+    learnt.frame = frame_to_keep(o.scene);
+    save_profile(learnt, file);
     report.profile = file;
   }
+}
+
+/// Sets the trained body: a person of a fixed height, or a sphere, which has none.
+void describe_body(TrainVerbOptions& o) {
+  if (o.train.mode == Mode::fly && !o.sphere) throw UsageError("--mode fly", flight_is_for_spheres);
+  if (o.sphere) {
+    o.train.radius_max = o.radius_max.value_or(o.train.radius_max);
+    return;
+  }
+  o.train.height = o.height.value_or(default_height(o.train.radius_min, false));
+  constexpr double least_above_knee = 0.1;  // m
+  if (o.train.height <= o.train.step + least_above_knee)
+    throw UsageError(fmt::format("--height {:g} with --step {:g}", o.train.height, o.train.step),
+                     "nothing is left above the knee; take a smaller step, or --sphere");
+  const double widest = 0.5 * o.train.height;
+  if (o.radius_max && *o.radius_max > widest)
+    throw UsageError(fmt::format("--radius-max {:g}", *o.radius_max),
+                     fmt::format("a body {:g} m high has a radius of at most {:g} m; take a larger --height, or "
+                                 "--sphere",
+                                 o.train.height, widest));
+  o.train.radius_max = o.radius_max.value_or(std::min(o.train.radius_max, widest));
 }
 
 ExitStatus train(TrainVerbOptions o) {
   o.train.mode = o.mode == "fly" ? Mode::fly : Mode::walk;
   o.train.method = o.method == "paper" ? Method::paper : Method::interval;
   o.train.threads = o.scene.threads;
-  if (o.train.mode == Mode::fly && o.train.height > 0.0)
-    throw UsageError("--height with --mode fly", "what flies is a sphere; leave it out");
-  constexpr double least_above_knee = 0.1;  // m
-  if (o.train.height > 0.0 && o.train.height <= o.train.step + least_above_knee)
-    throw UsageError(fmt::format("--height {:g} with --step {:g}", o.train.height, o.train.step),
-                     "nothing is left above the knee; take a smaller step or leave --height out");
+  describe_body(o);
   o.scene.check_there();
-  if (o.no_profile && o.profile) throw UsageError("-o and --no-profile", "one of them");
+  if (o.scene.no_profile && o.profile) throw UsageError("-o and --no-profile", "one of them");
   const std::filesystem::path profile = profile_file(o);
+  take_kept_frame(o.scene);
   if (o.picture) check_output(o.scene.scenes, "--picture", *o.picture);
   std::optional<draw::PictureFile> drawing;
   if (o.picture) drawing.emplace(*o.picture);
@@ -106,6 +129,7 @@ ExitStatus train(TrainVerbOptions o) {
   constexpr double narrow_door = 0.6;  // m: width of a person without clearance
   check_spacing(scene, o.train.spacing, narrow_door);
   TrainReport report{o.scene.names(), scene.survey.triangles(), o.train, {}, {}, {}};
+  report.frame = frame_of(o.scene);
   {
     StagedProgress progress;
     o.train.progress = [&](TrainStage stage, double done) { return progress.at(stage, done); };
@@ -115,7 +139,8 @@ ExitStatus train(TrainVerbOptions o) {
     report.names.push_back(scene.names_at(d.point, d.direction, d.width));
   Unwritten unwritten;
   unwritten.attempt([&] { write_profile(o, profile, scene.identity, report); });
-  print_report(o.json, json_report(report), text_report(report) + (o.stats ? stats_report(report) : ""));
+  print_report(o.json, json_report(report),
+               text_report(report) + kept_frame_line(o.scene) + (o.stats ? stats_report(report) : ""));
   if (drawing && interrupted()) {
     tell(fmt::format("{} was not drawn: this training ended early", o.picture->string()));
   } else if (drawing) {
@@ -137,13 +162,13 @@ paths, 3 when none does; the report then says why, where, and what to use. Ctrl-
 far.
 
 --method paper is that of Xie and Niu: bodies roam the paths in turn. The radius shrinks where a body cannot enter and
-grows where it falls. Without --height the body is their sphere.
+grows where it falls. Theirs are spheres.
 
 Examples:
-  roam train gallery.ply --height 1.7
-  roam train gallery.ply --method paper --seed 7 --json --no-profile
+  roam train gallery.ply
+  roam train gallery.ply --method paper --sphere --seed 7 --json --no-profile
   roam train mine.dae --height 1.7 --picture decides.svg
-  roam train pipes.ply --mode fly --radius-max 0.8
+  roam train pipes.ply --mode fly --sphere --radius-max 0.8
 )";
 
 }  // namespace
@@ -156,13 +181,14 @@ void add_train(CLI::App& program, Run& run) {
   TrainVerbOptions& o = *options;
   add_surveyed_to(*verb, o.scene);
   verb->option_defaults()->group("Body, in metres");
-  verb->add_option("--height", o.train.height, "Whole height (default: a sphere)")
+  verb->add_option("--height", o.height, "Whole height (default: a person's 1.8)")
       ->check(from_to(0.1, 100.0))
       ->type_name("H");
+  add_sphere_to(*verb, o.sphere);
   verb->add_option("--radius-min", o.train.radius_min, "Smallest radius; narrower openings are ignored (default: 0.15)")
       ->check(from_to(0.01, 100.0))
       ->type_name("R");
-  verb->add_option("--radius-max", o.train.radius_max, "Largest radius (default: 1)")
+  verb->add_option("--radius-max", o.radius_max, "Largest radius, at most H / 2 (default: 1, or H / 2 if less)")
       ->check(from_to(0.01, 100.0))
       ->type_name("R");
   verb->add_option(
@@ -199,7 +225,7 @@ void add_train(CLI::App& program, Run& run) {
   verb->add_option("--picture", o.picture, "Draw the openings that decide (.svg or .png)")->type_name("FILE");
   verb->add_option("-o,--output", o.profile, "Write the profile to this file (default: SCENE.roam.json)")
       ->type_name("FILE");
-  verb->add_flag("--no-profile", o.no_profile, "Write no profile");
+  verb->get_option("--no-profile")->description("Neither read nor write SCENE.roam.json");
   verb->add_flag("--stats", o.stats, "Print the interval, all regions, parts and counts, too");
   verb->add_flag("--json", o.json, "Print one JSON object");
   verb->callback([options, &run] { run = [options] { return train(*options); }; });

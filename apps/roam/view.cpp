@@ -15,6 +15,7 @@
 #include "cli/tell.h"
 #include "roam/error.h"
 #include "scenes/beside_scene.h"
+#include "scenes/frame.h"
 #include "verbs.h"
 #include "verify/verify_stored.h"
 #include "view/notices.h"
@@ -43,9 +44,9 @@ std::string keys_of(const ViewSettings& settings) {
   return key_table(roamer->controls());
 }
 
-/// The scene's profile, if no radius is given.
+/// The scene's profile, unless the options describe a body.
 std::optional<SceneProfile> profile_for(const ViewOptions& options, const std::optional<RecordedBody>& recorded) {
-  if (options.no_profile || options.radius) return std::nullopt;
+  if (options.scene.no_profile || options.body.describe_a_body()) return std::nullopt;
   const std::string mode = options.mode.value_or(to_string(recorded ? recorded->mode : Mode::walk));
   return find_scene_profile(options.scene,
                             mode == "ghost" ? Mode::ghost
@@ -64,7 +65,30 @@ verification::Verification verified(const ViewReport& report, const ViewOptions&
   return verify(*store, report.pieces, progress);
 }
 
-ExitStatus view(const ViewOptions& options) {
+/// One session, to its end or Ctrl-C. Returns the frame in which the person wants to see the scene next.
+std::optional<SceneFrame> run_session(const ViewOptions& options, const ViewPlan& plan, const ViewSettings& settings,
+                                      ViewReport& report, bool& cancelled) {
+  Session session(options, plan, settings);
+  try {
+    while (session.frame()) {
+    }
+  } catch (const Cancelled&) {
+    // Write, verify and report what there is so far.
+    cancelled = true;
+  }
+  report = session.finish();
+  return cancelled ? std::nullopt : session.turned();
+}
+
+/// Sets the options for the scene in another frame, where places of this one mean nothing.
+void read_turned(ViewOptions& options, const SceneFrame& frame) {
+  options.scene.up = to_string(frame.up);
+  options.scene.unit = to_string(frame.unit);
+  options.at.clear();
+  options.bookmark.clear();
+}
+
+ExitStatus view(ViewOptions options) {
   make_notices_printable();
   const ViewSettings settings = read_settings_for(options);
   const std::string keys = keys_of(settings);
@@ -73,7 +97,9 @@ ExitStatus view(const ViewOptions& options) {
     return done;
   }
   if (options.scene.scenes.empty()) throw UsageError("view", "which scene? Give it a file or a folder");
+  take_kept_frame(options.scene);
   const RecordedPath path = load_recorded_path(options.path);
+  if (path.frame) demand_frame(path, frame_of(options.scene), options.scene);
   ViewPlan plan = make_plan(options, settings, path.body, profile_for(options, path.body));
   plan.path = path.waypoints();
   std::optional<tbb::global_control> limit;
@@ -82,16 +108,10 @@ ExitStatus view(const ViewOptions& options) {
   }
   ViewReport report;
   bool cancelled = false;
-  {
-    Session session(options, plan, settings);
-    try {
-      while (session.frame()) {
-      }
-    } catch (const Cancelled&) {
-      // Write, verify and report what there is so far.
-      cancelled = true;
-    }
-    report = session.finish();
+  while (const std::optional<SceneFrame> turned = run_session(options, plan, settings, report, cancelled)) {
+    read_turned(options, *turned);
+    plan = make_plan(options, settings, std::nullopt, profile_for(options, std::nullopt));
+    plan.note = fmt::format("read with {}", options_of(*turned));
   }
   for (const std::string& note : report.notes) tell("note: " + note);
   if (options.verify && report.roamed) {
@@ -105,7 +125,7 @@ ExitStatus view(const ViewOptions& options) {
       tell(fmt::format("note: the {} moves were not all verified: Ctrl-C came before", report.pieces.size()));
     }
   }
-  print_report(options.json, json_report(report), text_report(report), options.trace);
+  print_report(options.json, json_report(report), text_report(report) + kept_frame_line(options.scene), options.trace);
   if (cancelled) throw Cancelled();
   if (report.verified) verification::demand_all_read(*report.verified, report.store);
   const bool reached = report.path_ended && report.result->outcome == Outcome::reached;
@@ -116,8 +136,8 @@ constexpr const char* help =
     R"(W A S D and the mouse move you, H shows all keys. Gravity pulls you down and walls stop you; the
 display says what stops you. The window opens at once; you are held until the walls are loaded.
 
-Positions are of the body's centre, in metres, as in the file. The body is a person of radius 0.3 m and height 1.8 m.
-With --radius or --path alone it is a sphere, as for `roam walk`. A path that was recorded here names its body.
+Positions are of the body's centre, in metres, with z up. The body is a person of radius 0.3 m and height 1.8 m,
+or the one that `roam train` saved. A path that was recorded here names its body.
 
 A collision store (`roam build`) beside the scene is used if you built it: then the walls are there at once, in little
 memory, for scenes of any size.

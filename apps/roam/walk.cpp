@@ -25,6 +25,7 @@
 #include "roam/route.h"
 #include "roam/wander.h"
 #include "scenes/arrivals.h"
+#include "scenes/frame.h"
 #include "scenes/open_scene.h"
 #include "store/meshes.h"
 #include "verbs.h"
@@ -236,11 +237,12 @@ void check_moves(const WalkOptions& options, const OpenScene& scene, const verif
 
 ExitStatus walk(WalkOptions options) {
   check_way(options);
+  take_kept_frame(options.scene);
   if (!options.against.scenes.empty()) {
     // For a store, these options can only apply to the scene of --against.
     SceneOptions& scene = options.scene;
     options.against.up = std::exchange(scene.up, {});
-    options.against.unit = std::exchange(scene.unit, "m");
+    options.against.unit = std::exchange(scene.unit, {});
     options.against.ignore = std::exchange(scene.ignore, {});
     check_against(options.against);
   }
@@ -257,7 +259,10 @@ ExitStatus walk(WalkOptions options) {
   if (options.wander && mode == Mode::ghost) {
     throw UsageError("--wander with --mode ghost", "a ghost meets nothing that could turn it; give it a --path");
   }
+  const bool stored = options.scene.name_a_store();
+  std::optional<SceneFrame> frame = stored ? std::nullopt : frame_of(options.scene);
   const std::vector<Vec3> path = positions(recorded.waypoints());
+  demand_frame(recorded, frame, options.scene);
   if (options.recorded) {
     const std::string other = compare(*options.recorded, options.settings, mode);
     if (!other.empty()) tell("note: " + other);
@@ -270,6 +275,10 @@ ExitStatus walk(WalkOptions options) {
   if (!options.picture.empty()) drawing.emplace(options.picture);
   const bool needs_triangles = options.verify || drawing;
   OpenScene scene(options.scene, needs_triangles ? Source::keep : Source::release);
+  if (stored) {
+    frame = frame_of(*scene.store());
+    demand_frame(recorded, frame, options.scene);
+  }
   if (!options.against.scenes.empty() && scene.store()) read_as(options.against, *scene.store());
   if (options.profile) {
     demand_belongs(*options.profile, scene.store() ? identity_of(scene.store()->info()) : scene.loaded().identity,
@@ -297,6 +306,7 @@ ExitStatus walk(WalkOptions options) {
   recorder.finish();
 
   report.scene = options.scene.names();
+  report.frame = frame;
   report.triangles = scene.triangles();
   report.mode = mode;
   report.settings = options.settings;
@@ -326,7 +336,8 @@ ExitStatus walk(WalkOptions options) {
   const auto draw_way = [&] { drawing->write(sheet(options, scene, report, recorder.record(), *seen)); };
   // After Ctrl-C the picture may take more time than there is.
   if (drawing && !report.interrupted) draw_way();
-  const std::string text = text_report(report) + (options.stats ? stats_report(report) : "");
+  const std::string text =
+      text_report(report) + kept_frame_line(options.scene) + (options.stats ? stats_report(report) : "");
   print_report(options.json, json_report(report), text, options.trace);
   if (drawing && report.interrupted) draw_way();
   if (report.interrupted) return failed;
@@ -344,17 +355,18 @@ Ctrl-C, report, trace and picture of the way so far are still written (130).
 A path file has one waypoint `x y z` in each line, or the lines `t x y z qx qy qz qw` that osgViewer records. Times and
 rotations are ignored: --speed and --dt set the pace. Positions are of the body's centre. A waypoint is reached when
 it is in the body; on foot also when it is at most the step height above or below it. A path that `roam view` recorded
-names its body and mode; --radius and --mode override them.
+names its body and mode; --radius, --sphere and --mode override them.
 
-Without --radius, the body is the one that `roam train` saved beside the scene, in SCENE.roam.json. It is smaller in
-places where only a smaller one fits. --height, --step and --slope change it. A profile of another scene is refused.
+The body is a person of radius 0.3 m and height 1.8 m, or the one that `roam train` saved beside the scene, in
+SCENE.roam.json. That is smaller in places where only a smaller one fits; --height, --step and --slope change it. A
+profile of another scene is refused.
 
 Examples:
-  roam walk mine.dae --path tour.path --height 1.8
+  roam walk mine.dae --path tour.path
   roam walk gallery.ply --path gallery-straight.path --mode fly --speed 50 --verify
   roam walk house.glb --path in.path --radius 0.25 --height 1.8 --json --trace in.csv
-  roam walk house.glb --path in.path --height 1.8 --picture in.svg
-  roam walk Terrain/ --wander 60 --height 1.8 --verify
+  roam walk house.glb --path in.path --picture in.svg
+  roam walk Terrain/ --wander 60 --verify
 )";
 
 }  // namespace

@@ -29,23 +29,9 @@
 #include "roam/error.h"
 #include "roam/math.h"
 #include "roam/mesh.h"
+#include "roam/scene_frame.h"
 
 namespace roam {
-
-/// The axis of a file that points up. Reading rotates it to +z: (x, y, z) becomes
-/// x: (-z, y, x);  y: (x, -z, y);  z: (x, y, z);  minus_x: (z, y, -x);  minus_y: (x, z, -y);  minus_z: (x, -y, -z).
-enum class UpAxis : std::uint8_t { x, y, z, minus_x, minus_y, minus_z };
-/// The length of 1 in a file: metre, centimetre, millimetre, international foot (0.3048 m), inch (0.0254 m).
-enum class LengthUnit : std::uint8_t { m, cm, mm, ft, in };
-
-/// "x", "y", "z", "-x", "-y" or "-z".
-[[nodiscard]] const char* to_string(UpAxis up);
-/// The reverse of to_string. Throws roam::Error for other texts.
-[[nodiscard]] UpAxis parse_up_axis(std::string_view text);
-/// Takes "m", "cm", "mm", "ft" or "in". Throws roam::Error otherwise.
-[[nodiscard]] LengthUnit parse_length_unit(std::string_view text);
-/// Metres per unit, exact.
-[[nodiscard]] double metres_per(LengthUnit unit);
 
 /// Progress of an import.
 struct ImportProgress {
@@ -74,6 +60,11 @@ struct ImportOptions {
   /// Called from the calling thread at least twice a second. Returning false ends the reader and throws Cancelled.
   std::function<bool(const ImportProgress&)> progress{};
 };
+
+/// The frame of a scene: that of the options; without ImportOptions::up, y is up in glTF and z in every other format.
+/// None if the formats of `paths` differ in this. Reads no file.
+[[nodiscard]] std::optional<SceneFrame> frame_of(std::span<const std::filesystem::path> paths,
+                                                 const ImportOptions& options = {});
 
 /// An object that was left out, wholly or partly.
 struct LeftOutObject {

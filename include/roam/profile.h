@@ -21,6 +21,7 @@
 #include "roam/error.h"
 #include "roam/math.h"
 #include "roam/mesh.h"
+#include "roam/scene_frame.h"
 #include "roam/size_region.h"
 #include "roam/walker.h"
 
@@ -57,6 +58,7 @@ struct Profile {
   double smallest = 0.0;          ///< lower end, m; 0: no crack
   std::vector<SizeRegion> regions;
   std::string method = "interval";  ///< "interval" or "paper" (train.h), or "roaming" (SizeLearner)
+  std::optional<SceneFrame> frame;  ///< in which the scene is to be read; none: that of its format
   bool complete = true;             ///< false: training was interrupted
 
   /// Whether this profile is of the scene: by a hash that both have; between a scene and a store, by the number of
@@ -75,12 +77,13 @@ void check(const Profile& profile);
 [[nodiscard]] std::filesystem::path profile_path(std::span<const std::filesystem::path> scenes);
 
 /// Throws roam::Error if the file is no profile, of a newer version, has members out of range, or is a link, pipe or
-/// device. The message names file, line or member, and what to do. Unknown members are ignored.
+/// device; also if it has a frame, but no body. The message names file, line or member, and what to do. Unknown members
+/// are ignored.
 [[nodiscard]] Profile load_profile(const std::filesystem::path& file);
 /// Writes atomically: a temporary file, synced and renamed. Throws roam::Error if it cannot be written, or as check()
 /// does.
 void save_profile(const Profile& profile, const std::filesystem::path& file);
-/// Loads the file profile_path(scene), if it exists. Throws as load_profile does.
+/// Loads the file profile_path(scene), if it exists and has a body. Throws as load_profile does.
 [[nodiscard]] std::optional<Profile> find_profile(const std::filesystem::path& scene);
 [[nodiscard]] std::optional<Profile> find_profile(std::span<const std::filesystem::path> scenes);
 
@@ -88,6 +91,13 @@ void save_profile(const Profile& profile, const std::filesystem::path& file);
 [[nodiscard]] std::optional<Profile> find_profile(const std::filesystem::path& scene, const SceneIdentity& identity);
 [[nodiscard]] std::optional<Profile> find_profile(std::span<const std::filesystem::path> scenes,
                                                   const SceneIdentity& identity);
+
+/// The frame in the file profile_path(scenes), to be found before the scene is read. None if there is no file, or no
+/// frame in it. Throws as load_profile does.
+[[nodiscard]] std::optional<SceneFrame> find_frame(std::span<const std::filesystem::path> scenes);
+/// Keeps a frame in a profile, whose body stays if it is of the same frame. Otherwise it is of a scene that was read
+/// in another way, and is left out: returns whether it was. Throws as load_profile and save_profile do.
+bool save_frame(const SceneFrame& frame, const std::filesystem::path& file);
 
 /// `settings` with the profile's radius, height, step, slope and support radius. The eye stays, but at most at the top
 /// of the body, and in the centre of a sphere. Pass the regions to Walker::set_regions. Does not check the scene.

@@ -1,10 +1,8 @@
 #include "roam/import.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <array>
 
+#include "files/extension.h"
 #include "import/assembler.h"
 #include "import/find_reader.h"
 #include "import/read_all.h"
@@ -14,13 +12,6 @@ namespace roam {
 namespace {
 
 namespace fs = std::filesystem;
-
-struct NamedUnit {
-  std::string_view name;
-  double metres;
-};
-constexpr std::array<NamedUnit, 5> units{{{"m", 1.0}, {"cm", 0.01}, {"mm", 0.001}, {"ft", 0.3048}, {"in", 0.0254}}};
-constexpr std::array<const char*, 6> axes{"x", "y", "z", "-x", "-y", "-z"};
 
 std::uint64_t bytes_of(const std::vector<Mesh>& meshes) {
   std::uint64_t bytes = 0;
@@ -32,23 +23,17 @@ std::uint64_t bytes_of(const std::vector<Mesh>& meshes) {
 
 }  // namespace
 
-const char* to_string(UpAxis up) { return axes[static_cast<std::size_t>(up)]; }
-
-UpAxis parse_up_axis(std::string_view text) {
-  for (std::size_t i = 0; i < axes.size(); ++i) {
-    if (axes[i] == text) return static_cast<UpAxis>(i);
-  }
-  throw Error(fmt::format("'{}' is no axis; give x, y, z, -x, -y or -z.", text));
+std::optional<SceneFrame> frame_of(std::span<const fs::path> paths, const ImportOptions& options) {
+  if (options.up) return SceneFrame{*options.up, options.unit};
+  const auto is_gltf = [](const fs::path& path) {
+    const std::string extension = files::lower_extension(path);
+    return extension == ".gltf" || extension == ".glb";
+  };
+  const auto count = std::count_if(paths.begin(), paths.end(), is_gltf);
+  if (count == 0) return SceneFrame{UpAxis::z, options.unit};
+  if (static_cast<std::size_t>(count) == paths.size()) return SceneFrame{UpAxis::y, options.unit};
+  return std::nullopt;
 }
-
-LengthUnit parse_length_unit(std::string_view text) {
-  for (std::size_t i = 0; i < units.size(); ++i) {
-    if (units[i].name == text) return static_cast<LengthUnit>(i);
-  }
-  throw Error(fmt::format("'{}' is no unit of length; give m, cm, mm, ft or in.", text));
-}
-
-double metres_per(LengthUnit unit) { return units[static_cast<std::size_t>(unit)].metres; }
 
 Confinement reader_confinement(const ImportOptions& options) {
   return reader::confinement_of(reader::find_reader(options.reader));

@@ -68,6 +68,7 @@ class Members {
     if (!json.is_object()) refuse(path_.empty() ? "{" : path_, "must be an object, { ... }");
   }
 
+  [[nodiscard]] bool has(const char* key) const { return json_.contains(key); }
   [[nodiscard]] std::string path(const char* key) const { return path_.empty() ? key : path_ + "." + key; }
   [[nodiscard]] const Json& at(const char* key) const {
     const auto it = json_.find(key);
@@ -136,6 +137,7 @@ class Members {
 
 Json json_of(const Vec3& v) { return Json::array({v.x, v.y, v.z}); }
 Json json_of(const Box& box) { return {{"min", json_of(box.lower)}, {"max", json_of(box.upper)}}; }
+Json json_of(const SceneFrame& frame) { return {{"up", to_string(frame.up)}, {"unit", to_string(frame.unit)}}; }
 Json text_or_null(const std::string& text) { return text.empty() ? Json(nullptr) : Json(text); }
 
 Json json_of(const Profile& p) {
@@ -146,25 +148,50 @@ Json json_of(const Profile& p) {
                        {"support_radius", region.support_radius},
                        {"why", region.why}});
   }
-  return {{"roam_profile", Profile::version},
-          {"scene",
-           {{"hash", text_or_null(p.scene.hash)},
-            {"geometry_hash", text_or_null(p.scene.geometry_hash)},
-            {"triangles", p.scene.triangles},
-            {"bounds", json_of(p.scene.bounds)}}},
-          {"mode", to_string(p.mode)},
-          {"radius", p.radius},
-          {"height", p.height},
-          {"support_radius", p.support_radius},
-          {"step", p.step},
-          {"slope", p.slope_degrees},
-          {"interval", {{"min", p.smallest}, {"max", p.largest ? Json(*p.largest) : Json(nullptr)}}},
-          {"regions", std::move(regions)},
-          {"method", p.method},
-          {"complete", p.complete}};
+  Json json = {{"roam_profile", Profile::version}};
+  if (p.frame) json["frame"] = json_of(*p.frame);
+  json.update({{"scene",
+                {{"hash", text_or_null(p.scene.hash)},
+                 {"geometry_hash", text_or_null(p.scene.geometry_hash)},
+                 {"triangles", p.scene.triangles},
+                 {"bounds", json_of(p.scene.bounds)}}},
+               {"mode", to_string(p.mode)},
+               {"radius", p.radius},
+               {"height", p.height},
+               {"support_radius", p.support_radius},
+               {"step", p.step},
+               {"slope", p.slope_degrees},
+               {"interval", {{"min", p.smallest}, {"max", p.largest ? Json(*p.largest) : Json(nullptr)}}},
+               {"regions", std::move(regions)},
+               {"method", p.method},
+               {"complete", p.complete}});
+  return json;
 }
 
-Profile parsed(const Json& json) {
+/// A profile file: a body, a frame, or both.
+struct Contents {
+  std::optional<Profile> profile;  ///< with the frame
+  std::optional<SceneFrame> frame;
+};
+
+std::optional<SceneFrame> frame_in(const Members& all) {
+  if (!all.has("frame")) return std::nullopt;
+  const Members frame(all.at("frame"), "frame");
+  SceneFrame read;
+  const auto parse = [&](const char* key, const auto& parser) {
+    const std::string text = frame.text(key);
+    try {
+      return parser(text);
+    } catch (const Error& error) {
+      refuse(frame.path(key), printable(error.what()));
+    }
+  };
+  read.up = parse("up", [](const std::string& text) { return parse_up_axis(text); });
+  read.unit = parse("unit", [](const std::string& text) { return parse_length_unit(text); });
+  return read;
+}
+
+Contents parsed(const Json& json) {
   const Members all(json, {});
   const std::uint64_t version = all.count("roam_profile");
   if (version > Profile::version) {
@@ -173,6 +200,8 @@ Profile parsed(const Json& json) {
   }
   if (version == 0) refuse("roam_profile", "must be at least 1");
   Profile p;
+  p.frame = frame_in(all);
+  if (p.frame && !all.has("scene")) return {std::nullopt, p.frame};
   const Members scene(all.at("scene"), "scene");
   p.scene = {scene.text_or_null("hash"), scene.text_or_null("geometry_hash"), scene.count("triangles"),
              scene.box("bounds")};
@@ -196,7 +225,27 @@ Profile parsed(const Json& json) {
   }
   p.method = all.text("method");
   p.complete = all.truth("complete");
-  return p;
+  check(p);
+  const std::optional<SceneFrame> frame = p.frame;
+  return {std::move(p), frame};
+}
+
+Contents load(const std::filesystem::path& file) {
+  const std::string text = files::read_whole(file, files::longest_json);
+  try {
+    return parsed(files::parse_json(text));
+  } catch (const Error& error) {
+    throw Error(file.string(), fmt::format("{}; correct the file, or delete it and train again", error.what()));
+  }
+}
+
+/// The contents of the profile of a scene; empty if there is no file.
+Contents contents_of(std::span<const std::filesystem::path> scenes) {
+  const std::filesystem::path file = profile_path(scenes);
+  std::error_code none;
+  const auto status = std::filesystem::symlink_status(file, none);
+  // A file that exists but cannot be read is an error, which load throws.
+  return status.type() == std::filesystem::file_type::not_found ? Contents{} : load(file);
 }
 
 /// The scene's path without a trailing slash, changed as little as possible.
@@ -273,14 +322,9 @@ std::filesystem::path profile_path(std::span<const std::filesystem::path> scenes
 }
 
 Profile load_profile(const std::filesystem::path& file) {
-  const std::string text = files::read_whole(file, files::longest_json);
-  try {
-    Profile profile = parsed(files::parse_json(text));
-    check(profile);
-    return profile;
-  } catch (const Error& error) {
-    throw Error(file.string(), fmt::format("{}; correct the file, or delete it and train again", error.what()));
-  }
+  Contents contents = load(file);
+  if (!contents.profile) throw Error(file.string(), "it has a frame, but no body; train again");
+  return std::move(*contents.profile);
 }
 
 void save_profile(const Profile& profile, const std::filesystem::path& file) {
@@ -300,12 +344,22 @@ void save_profile(const Profile& profile, const std::filesystem::path& file) {
 std::optional<Profile> find_profile(const std::filesystem::path& scene) { return find_profile({&scene, 1}); }
 
 std::optional<Profile> find_profile(std::span<const std::filesystem::path> scenes) {
-  const std::filesystem::path file = profile_path(scenes);
+  return contents_of(scenes).profile;
+}
+
+std::optional<SceneFrame> find_frame(std::span<const std::filesystem::path> scenes) {
+  return contents_of(scenes).frame;
+}
+
+bool save_frame(const SceneFrame& frame, const std::filesystem::path& file) {
   std::error_code none;
   const auto status = std::filesystem::symlink_status(file, none);
-  // A file that exists but cannot be read is an error, which load_profile throws.
-  if (status.type() == std::filesystem::file_type::not_found) return std::nullopt;
-  return load_profile(file);
+  const bool is_new = status.type() == std::filesystem::file_type::not_found;
+  const Contents before = is_new ? Contents{} : load(file);
+  if (before.frame == frame) return false;
+  const Json json = {{"roam_profile", Profile::version}, {"frame", json_of(frame)}};
+  files::write_whole(file, json.dump(2) + "\n");
+  return before.profile.has_value();
 }
 
 std::optional<Profile> find_profile(const std::filesystem::path& scene, const SceneIdentity& identity) {

@@ -153,11 +153,8 @@ std::string OpenScene::why_unknown(TriangleId unknown) const {
 void read_as(SceneOptions& scene, const Store& store) {
   ImportOptions options;
   store::read_as(store.state().manifest.options, options);
-  const SceneOptions unsaid;
-  if (scene.up.empty() && options.up) scene.up = "xyz"[static_cast<int>(*options.up)];
-  for (const char* unit : {"m", "cm", "mm", "ft", "in"}) {
-    if (scene.unit == unsaid.unit && parse_length_unit(unit) == options.unit) scene.unit = unit;
-  }
+  if (scene.up.empty() && options.up) scene.up = to_string(*options.up);
+  if (scene.unit.empty()) scene.unit = to_string(options.unit);
   if (scene.ignore.empty()) scene.ignore = options.ignore;
 }
 

@@ -6,12 +6,14 @@
 #include <sstream>
 
 #include "cli/standard_streams.h"
+#include "scenes/frame.h"
 #include "text/printable.h"
 
 namespace roam::app {
 namespace {
 
 constexpr const char* mark = "# roam: mode ";
+constexpr const char* frame_mark = "# roam: frame ";
 
 std::optional<Mode> parse_mode(const std::string& text) {
   for (const Mode mode : {Mode::fly, Mode::walk, Mode::ghost}) {
@@ -71,7 +73,50 @@ std::optional<RecordedBody> recorded_body(const std::string& text, const std::st
   return body;
 }
 
+std::optional<SceneFrame> recorded_frame(const std::string& text, const std::string& name_of_file) {
+  std::istringstream in(text);
+  std::optional<SceneFrame> frame;
+  std::string line;
+  for (int number = 1; std::getline(in, line); ++number) {
+    if (!line.starts_with(frame_mark)) continue;
+    const auto refuse = [&](const std::string& why) {
+      throw Error(fmt::format("{}:{}", name_of_file, number),
+                  fmt::format("'{}' {}; correct or remove the line", printable(line, longest_excerpt), why));
+    };
+    std::istringstream words(line.substr(std::string(frame_mark).size()));
+    std::string up, axis, unit, length, more;
+    words >> up >> axis >> unit >> length;
+    SceneFrame read;
+    try {
+      read = {parse_up_axis(axis), parse_length_unit(length)};
+    } catch (const Error&) {
+      up.clear();
+    }
+    if (up != "up" || unit != "unit" || words >> more) refuse("does not say a frame as in '" + frame_line({}) + "'");
+    if (frame && *frame != read) refuse("is a second frame");
+    frame = read;
+  }
+  return frame;
+}
+
 }  // namespace
+
+std::string frame_line(const SceneFrame& frame) {
+  return fmt::format("{}up {} unit {}", frame_mark, to_string(frame.up), to_string(frame.unit));
+}
+
+void demand_frame(const RecordedPath& path, const std::optional<SceneFrame>& frame, const SceneOptions& scene) {
+  if (!path.frame || !frame || *path.frame == *frame) return;
+  const std::string here = options_of(*frame), there = options_of(*path.frame);
+  throw Error(path.name,
+              scene.name_a_store()
+                  ? fmt::format("its places are of the scene with {}, and this store was built with {}: follow it in "
+                                "the scene itself with {}, or in a store that is built so",
+                                there, here, there)
+                  : fmt::format("its places are of the scene with {}, which is read with {} here: add {}, or record "
+                                "the path again",
+                                there, here, there));
+}
 
 std::string mode_line(Mode mode) { return fmt::format("{}{}", mark, to_string(mode)); }
 
@@ -82,7 +127,9 @@ RecordedPath load_recorded_path(const std::filesystem::path& file) {
     const std::string text = read_input(file, longest_path_file);
     const std::string name = is_standard(file) ? "standard input" : file.string();
     std::istringstream in(text);
+    path.name = name;
     path.places = read_path(in, name);
+    path.frame = recorded_frame(text, name);
     path.body = recorded_body(text, name);
   } catch (const Error& error) {
     path.problem = error;

@@ -1,12 +1,14 @@
 #pragma once
 /// \file
-/// The body that recorded a path: a comment of the path file, so that the same body can repeat the way.
+/// The body that recorded a path, and the frame of its positions: comments of the path file, so that the same body can
+/// repeat the way in the same scene.
 ///
+///     # roam: frame up y unit m
 ///     # roam: mode walk radius 0.3 height 1.8 eye 1.5 step 0.3 slope 45
 ///     # roam: mode walk radius 0.3 height 1.8 eye 1.5 step 0.3 slope 45 support 0.65
 ///     # roam: mode fly
 ///
-/// The first such line describes the body. Each further one marks a change of mode.
+/// The first line `mode` describes the body. Each further one marks a change of mode.
 
 #include <filesystem>
 #include <optional>
@@ -15,7 +17,9 @@
 
 #include "roam/error.h"
 #include "roam/path_file.h"
+#include "roam/scene_frame.h"
 #include "roam/walker.h"
+#include "scenes/scene_options.h"
 
 namespace roam::app {
 
@@ -29,10 +33,15 @@ struct RecordedBody {
 /// A further line; the first is body_line() of path_file.h.
 [[nodiscard]] std::string mode_line(Mode mode);
 
-/// A path, and the body that recorded it, if the file has one.
+/// The line that states the frame.
+[[nodiscard]] std::string frame_line(const SceneFrame& frame);
+
+/// A path, and the body and frame of its recording, if the file states them.
 struct RecordedPath {
+  std::string name;  ///< of the file, for messages
   std::vector<Waypoint> places;
   std::optional<RecordedBody> body;
+  std::optional<SceneFrame> frame;
   std::optional<Error> problem;  ///< why there are no places
 
   /// The places; call it after invalid options are refused. Throws roam::Error as load_path does. It also throws, with
@@ -43,7 +52,11 @@ struct RecordedPath {
   }
 };
 
-/// Reads both in one pass: the file may be a pipe, or `-` for standard input. Empty if there is no file.
+/// Throws roam::Error if the path was recorded in another frame than that of the scene. The message says which options
+/// open the path's frame.
+void demand_frame(const RecordedPath& path, const std::optional<SceneFrame>& frame, const SceneOptions& scene);
+
+/// Reads all in one pass: the file may be a pipe, or `-` for standard input. Empty if there is no file.
 [[nodiscard]] RecordedPath load_recorded_path(const std::filesystem::path& file);
 
 /// A sentence if the way is repeated with another body or in another mode; empty if both are the same.

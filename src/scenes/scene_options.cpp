@@ -11,10 +11,12 @@
 #include "cli/progress.h"
 #include "cli/tell.h"
 #include "cli/values.h"
+#include "import/likely_up.h"
 #include "math/boxes.h"
 #include "roam/error.h"
 #include "roam/store.h"
 #include "roam/wander.h"
+#include "words/frame.h"
 
 namespace roam::app {
 namespace {
@@ -65,6 +67,7 @@ void SceneOptions::add_reading_to(CLI::App& verb) {
       ->type_name("DIR")
       ->expected(1)
       ->take_all();
+  verb.add_flag("--no-profile", no_profile, "Ignore SCENE.roam.json: the trained body, and the axis that is up");
   // For the child process of roam view.
   verb.add_flag("--no-scene-link{false}", through_link)->group("");
   verb.add_option("--threads", threads, "Threads for indexing and queries (default: one per core)")
@@ -79,10 +82,12 @@ void SceneOptions::add_reading_to(CLI::App& verb) {
 
 std::vector<std::string> SceneOptions::arguments() const {
   // With "=", a value may begin with "-".
-  std::vector<std::string> words{"--unit=" + unit};
+  std::vector<std::string> words;
+  if (!unit.empty()) words.push_back("--unit=" + unit);
   if (!up.empty()) words.push_back("--up=" + up);
   for (const std::string& pattern : ignore) words.push_back("--ignore=" + pattern);
   for (const auto& folder : allow) words.push_back("--allow=" + folder.string());
+  if (no_profile) words.emplace_back("--no-profile");
   if (lossless) words.emplace_back("--lossless");
   if (!through_link) words.emplace_back("--no-scene-link");
   if (threads > 0) words.push_back(fmt::format("--threads={}", threads));
@@ -95,7 +100,7 @@ std::vector<std::string> SceneOptions::arguments() const {
 ImportOptions SceneOptions::import_options() const {
   ImportOptions how;
   if (!up.empty()) how.up = parse_up_axis(up);
-  how.unit = parse_length_unit(unit);
+  if (!unit.empty()) how.unit = parse_length_unit(unit);
   how.ignore = ignore;
   how.allow = allow;
   how.through_link = through_link;
@@ -104,7 +109,7 @@ ImportOptions SceneOptions::import_options() const {
 }
 
 bool SceneOptions::says_how_to_read() const {
-  return !up.empty() || unit != "m" || !ignore.empty() || !allow.empty() || lossless;
+  return !up.empty() || !unit.empty() || !ignore.empty() || !allow.empty() || lossless;
 }
 
 bool SceneOptions::name_a_store() const {
@@ -146,6 +151,11 @@ std::string SceneOptions::file_names() const {
   return text;
 }
 
+std::optional<UpAxis> doubted_up(const SceneOptions& options, std::span<const Mesh> meshes) {
+  if (!options.up.empty() || std::any_of(options.scenes.begin(), options.scenes.end(), states_up)) return std::nullopt;
+  return likely_up(meshes);
+}
+
 ImportedScene read_scene(const SceneOptions& options) {
   options.check_there();
   ImportOptions how = options.import_options();
@@ -156,6 +166,9 @@ ImportedScene read_scene(const SceneOptions& options) {
     scene = import_scene(options.scenes, how);
   }
   for (const std::string& note : scene.report.notes) tell("note: " + note);
+  if (const auto up = doubted_up(options, scene.meshes)) {
+    tell("note: " + words::likely_up(printable_part(options.file_names()), *up));
+  }
   return scene;
 }
 

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -20,13 +21,14 @@ namespace roam::app {
 
 struct SceneOptions {
   std::vector<std::filesystem::path> scenes;
-  std::string up;
-  std::string unit = "m";
+  std::string up, unit;  ///< as in --up and --unit; empty: not given
   std::vector<std::string> ignore;
   std::vector<std::filesystem::path> allow;
   bool lossless = false;
   int threads = 0;
   std::optional<std::uint64_t> memory;  ///< `--memory`, bytes
+  bool no_profile = false;              ///< whether the profile beside the scene is not read
+  std::filesystem::path frame_file{};   ///< the profile whose frame was taken; empty: none. No option
   bool identify = false;                ///< whether to set LoadedScene::identity; no option of the command line
   bool through_link = true;             ///< ImportOptions::through_link; false for a scene that the user did not name
 
@@ -34,9 +36,9 @@ struct SceneOptions {
   static constexpr std::uint64_t usual_store_memory = 64ull << 20;
   [[nodiscard]] std::uint64_t store_memory() const { return memory.value_or(usual_store_memory); }
 
-  /// Adds SCENE..., --up, --unit, --ignore, --allow, --lossless, --threads and --memory.
+  /// Adds SCENE..., --up, --unit, --ignore, --allow, --no-profile, --lossless, --threads and --memory.
   void add_to(CLI::App& verb);
-  /// Adds --up, --unit, --ignore, --allow, --threads and --memory.
+  /// Adds --up, --unit, --ignore, --allow, --no-profile, --threads and --memory.
   void add_reading_to(CLI::App& verb);
   /// The command line that add_to() reads as these options, SCENE last.
   [[nodiscard]] std::vector<std::string> arguments() const;
@@ -68,6 +70,10 @@ struct LoadedScene {
 
 /// Whether the triangles as read stay in memory after the world is built.
 enum class Source : std::uint8_t { keep, release };
+
+/// The axis that the surface makes likely to be up instead of z; see roam::likely_up. None if an option or the format
+/// states one.
+[[nodiscard]] std::optional<UpAxis> doubted_up(const SceneOptions& options, std::span<const Mesh> meshes);
 
 /// Reads, with progress and the import's notes on standard error. Throws what import_scene throws.
 [[nodiscard]] ImportedScene read_scene(const SceneOptions& options);

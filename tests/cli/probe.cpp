@@ -105,6 +105,7 @@ TEST(ProbeVerb, WritesAPathThatIsWalkedWithoutAViolation) {
   for (const char* body : {"", "--height=1.7", "--mode=fly"}) {
     std::vector<std::string> options{"--radius", "0.31", "--path", path};
     if (*body != '\0') options.emplace_back(body);
+    if (contains(body, "fly")) options.emplace_back("--sphere");
     ASSERT_EQ(probe.ask(options).result.status, 0) << probe.result.err << probe.result.out;
     const ProgramResult walked = run_program(ROAM_PROGRAM, {"walk", probe.scene, "--path", path, "--verify", "--json"});
     EXPECT_EQ(walked.status, 0) << walked.err << walked.out;
@@ -113,7 +114,7 @@ TEST(ProbeVerb, WritesAPathThatIsWalkedWithoutAViolation) {
     EXPECT_EQ(report["violations"], 0) << body;
     EXPECT_EQ(report["radius"], 0.31);  // the path says its body
     EXPECT_EQ(report["mode"], contains(body, "fly") ? "fly" : "walk");
-    EXPECT_EQ(report["height"], contains(body, "1.7") ? 1.7 : 0.62);
+    EXPECT_EQ(report["height"], contains(body, "1.7") ? 1.7 : contains(body, "fly") ? 0.62 : 1.8);
   }
 }
 
@@ -144,15 +145,15 @@ TEST(ProbeVerb, SaysNoWhereTheBodyFallsIntoAGapOfAWayThatIsWideEnough) {
 
 TEST(ProbeVerb, FliesWhereAsked) {
   Probe probe(0.9);
-  EXPECT_EQ(probe.ask({"--radius", "0.4", "--mode", "fly", "--json"}).result.status, 0) << probe.result.err;
+  EXPECT_EQ(probe.ask({"--radius", "0.4", "--sphere", "--mode", "fly", "--json"}).result.status, 0) << probe.result.err;
   EXPECT_EQ(probe.json()["mode"], "fly");
   EXPECT_NEAR(probe.json()["clearance_m"].get<double>(), 0.45, 5e-3);
-  EXPECT_EQ(probe.ask({"--radius", "0.5", "--mode", "fly"}).result.status, 3) << probe.result.err;
+  EXPECT_EQ(probe.ask({"--radius", "0.5", "--sphere", "--mode", "fly"}).result.status, 3) << probe.result.err;
 }
 
 TEST(ProbeVerb, AnswersForManySizesInOneRun) {
   Probe probe(0.7);
-  probe.ask({"--matrix", "0.3,0.3x1.8,0.4x1.8 0.34x2.05", "--json"});
+  probe.ask({"--matrix", "0.3,0.3x1.7,0.4x1.8 0.34x2.05", "--json"});
   EXPECT_EQ(probe.result.status, 3) << probe.result.err;
   const Json sizes = probe.json()["sizes"];
   ASSERT_EQ(sizes.size(), 4u);
@@ -161,8 +162,8 @@ TEST(ProbeVerb, AnswersForManySizesInOneRun) {
     EXPECT_EQ(sizes[i]["passable"], expected[i]) << i;
     EXPECT_NEAR(sizes[i]["clearance_m"].get<double>(), 0.35, 5e-4) << i;
   }
-  EXPECT_EQ(sizes[0]["height"], 0.6);
-  EXPECT_EQ(sizes[1]["height"], 1.8);
+  EXPECT_EQ(sizes[0]["height"], 1.8);
+  EXPECT_EQ(sizes[1]["height"], 1.7);
   EXPECT_NEAR(sizes[2]["opening"]["missing_m"].get<double>(), 0.1, 1e-3);
   const std::string file = probe.folder.write("sizes", "# a child\n0.2x1.2\n\n0.3, 0.33x1.9  # grown\n");
   probe.ask({"--matrix", file});
@@ -197,7 +198,6 @@ TEST(ProbeVerb, RefusesWhatCannotBeMeant) {
     EXPECT_EQ(probe.ask(options).result.status, 2) << why;
     EXPECT_TRUE(contains(probe.result.err, why)) << probe.result.err;
   };
-  refused({}, "--radius");
   refused({"--radius", "0"}, "greater than 0");
   refused({"--radius", "0.3", "--height", "0.5"}, "height");
   refused({"--radius", "0.3", "--matrix", "0.3"}, "--matrix");
@@ -221,7 +221,7 @@ TEST(ProbeVerb, RefusesWhatCannotBeMeant) {
   refused({"--radius", "0.3", "--support-radius", "-1"}, "--support-radius");
   refused({"--radius", "0.3", "--threads", "0"}, "--threads");
   refused({"--radius", "0.3", "--mode", "ghost"}, "--mode");
-  refused({"--radius", "0.3", "--mode", "fly", "--step", "0.2"}, "--mode fly");
+  refused({"--sphere", "--mode", "fly", "--step", "0.2"}, "--step, --slope and");
   refused({"--radius", "0.3", "--picture", ""}, "--picture");
   refused({"--radius", "0.3", "--path", ""}, "--path");
   refused({"--radius", "0.3", "--seed", "-1"}, "--seed");

@@ -23,8 +23,9 @@ TEST(ProbePath, FliesOverAWallUnderTheSkyAndIsFlownAgain) {
   const TestFolder folder;
   const std::string scene = folder.write("yard.obj", yard_obj()), path = folder.file("way.path");
   for (const char* radius : {"0.1", "0.3", "0.6"}) {
-    const ProgramResult found = run_program(ROAM_PROGRAM, {"probe", scene, "--from", "8,0,1", "--to", "12,0,1",
-                                                           "--radius", radius, "--mode", "fly", "--path", path});
+    const ProgramResult found =
+        run_program(ROAM_PROGRAM, {"probe", scene, "--from", "8,0,1", "--to", "12,0,1", "--radius", radius, "--sphere",
+                                   "--mode", "fly", "--path", path});
     EXPECT_EQ(found.status, 0) << found.out << found.err;
     EXPECT_TRUE(found.out.starts_with("YES: ")) << found.out;
     const ProgramResult flown = run_program(ROAM_PROGRAM, {"walk", scene, "--path", path, "--verify", "--json"});
@@ -38,7 +39,8 @@ TEST(ProbePath, FliesOverAWallUnderTheSkyAndIsFlownAgain) {
 TEST(ProbePath, EndsAboveTheSceneWhereItIsAskedTo) {
   const TestFolder folder;
   const std::string scene = folder.write("yard.obj", yard_obj());
-  const std::vector<std::string> question{"probe", scene, "--from", "8,0,1", "--to", "12,0,3.5", "--mode", "fly"};
+  const std::vector<std::string> question{"probe",    scene,      "--from", "8,0,1", "--to",
+                                          "12,0,3.5", "--sphere", "--mode", "fly"};
   const auto ask = [&](const std::vector<std::string>& more) {
     std::vector<std::string> arguments = question;
     arguments.insert(arguments.end(), more.begin(), more.end());
@@ -80,7 +82,7 @@ TEST(ProbePath, ThatBreaksOffHasNoOpeningThatIsTooSmall) {
                                          "v 5 -2 0.8\nv 15 -2 0.8\nv 15 2 0.8\nv 5 2 0.8\n"
                                          "o near\nf 1 2 3 4\no far\nf 5 6 7 8\n");
   const ProgramResult none =
-      run_program(ROAM_PROGRAM, {"probe", scene, "--from", "2,0,1", "--to", "12,0,1.8", "--radius", "0.3", "--json"});
+      run_program(ROAM_PROGRAM, {"probe", scene, "--from", "2,0,1", "--to", "12,0,1.8", "--sphere", "--json"});
   EXPECT_EQ(none.status, 3) << none.err;
   const Json opening = Json::parse(none.out, nullptr, false)["opening"];
   ASSERT_TRUE(opening.is_object()) << none.out;

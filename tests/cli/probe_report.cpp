@@ -22,14 +22,14 @@ const std::vector<std::string> of_a_size{
     "scene",  "triangles",      "mode",     "from",        "to",          "step",     "slope",  "spacing",
     "radius", "height",         "passable", "wide_enough", "clearance_m", "limited",  "start",  "target",
     "way",    "length_m",       "opening",  "proven",      "bound_m",     "complete", "places", "walked",
-    "answer", "support_radius", "steepest", "narrower",    "text"};
+    "answer", "support_radius", "steepest", "narrower",    "text",        "frame"};
 
 TEST(ProbeReport, HasEveryMemberWhateverTheAnswer) {
   const TestFolder folder;
   const std::string open = folder.write("open.obj", door_obj(0.84)), closed = folder.write("closed.obj", door_obj(0.0));
   for (const std::string& scene : {open, closed}) {
     for (const char* mode : {"walk", "fly"}) {
-      const ProgramResult result = ask(scene, "2,0.3,1", {"--radius", "0.3", "--mode", mode, "--json"});
+      const ProgramResult result = ask(scene, "2,0.3,1", {"--radius", "0.3", "--sphere", "--mode", mode, "--json"});
       EXPECT_EQ(result.status, scene == open ? 0 : 3) << result.err;
       const Json report = Json::parse(result.out, nullptr, false);
       for (const std::string& member : of_a_size) EXPECT_TRUE(report.contains(member)) << member;
@@ -47,7 +47,7 @@ TEST(ProbeReport, HasEveryMemberWhateverTheAnswer) {
 TEST(ProbeReport, BoundsAndProvesWhatFlies) {
   const TestFolder folder;
   const std::string scene = folder.write("room.obj", door_obj(0.5));
-  const ProgramResult result = ask(scene, "2,0.3,1", {"--radius", "0.3", "--mode", "fly", "--json"});
+  const ProgramResult result = ask(scene, "2,0.3,1", {"--sphere", "--mode", "fly", "--json"});
   EXPECT_EQ(result.status, 3) << result.err;
   const Json report = Json::parse(result.out, nullptr, false);
   EXPECT_EQ(report["opening"]["kind"], "gap");
@@ -92,10 +92,10 @@ TEST(ProbeReport, GivesTheFloorUnderAnEndBesideTheTypedPosition) {
 TEST(ProbeReport, SaysAtOnceThatAnEndLiesFarOffTheScene) {
   const TestFolder folder;
   const std::string scene = folder.write("room.obj", door_obj(0.84));
-  const ProgramResult far = ask(scene, "11000,0,1", {"--radius", "0.3", "--mode", "fly"});
+  const ProgramResult far = ask(scene, "11000,0,1", {"--sphere", "--mode", "fly"});
   EXPECT_EQ(far.status, 1);
   EXPECT_TRUE(contains(far.err, "10980 m outside the scene") && contains(far.err, "at most 100 m outside")) << far.err;
-  EXPECT_EQ(ask(scene, "2,0,60", {"--radius", "0.3", "--mode", "fly"}).status, 3) << "the room is closed";
+  EXPECT_EQ(ask(scene, "2,0,60", {"--sphere", "--mode", "fly"}).status, 3) << "the room is closed";
 }
 
 TEST(ProbeReport, RefusesASpacingThatTheSceneIsTooSmallFor) {

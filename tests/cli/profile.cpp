@@ -81,7 +81,7 @@ TEST(ProfileOfWalk, IsOverruledByARadiusInAll) {
   const ProgramResult result = trained.walk({"--radius", "0.3"});
   const Json report = parsed(result);
   EXPECT_EQ(report["radius"], 0.3);
-  EXPECT_EQ(report["height"], 0.6);
+  EXPECT_EQ(report["height"], 1.8);
   EXPECT_TRUE(report["profile"].is_null());
   EXPECT_FALSE(contains(result.err, ".roam.json")) << result.err;
 }
@@ -190,7 +190,7 @@ TEST(ProfileOfView, IsTakenOnItsOwnAndOverruled) {
   EXPECT_EQ(parsed(result)["height"], 1.7);
   EXPECT_EQ(parsed(result)["profile"], trained.file);
   EXPECT_TRUE(contains(result.err, trained.file)) << result.err;
-  EXPECT_EQ(parsed(trained.view({"--radius", "0.3"}))["height"], 0.6);
+  EXPECT_EQ(parsed(trained.view({"--radius", "0.3"}))["height"], 1.8);
   EXPECT_EQ(parsed(trained.view({"--no-profile"}))["height"], 1.8);
 }
 

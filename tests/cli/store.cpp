@@ -218,8 +218,8 @@ TEST_F(StoreVerbs, AWalkIsCheckedAgainstTheSceneAsTheStoreWasReadOfIt) {
   const std::string small = folder.file("small.roam");
   ASSERT_EQ(run({"build", scene(), "-o", small, "--unit", "cm"}).status, 0);
   const std::string way = folder.write("small.path", "-137.39 2.53 1.82\n-136.39 3.593 1.82\n");
-  const std::vector<std::string> walk{"walk",    small, "--path",   way,     "--mode",    "fly",
-                                      "--speed", "0.2", "--radius", "0.004", "--against", scene()};
+  const std::vector<std::string> walk{"walk", small,      "--path", way,        "--mode",    "fly",  "--speed",
+                                      "0.2",  "--radius", "0.004",  "--sphere", "--against", scene()};
   const ProgramResult walked = run(walk);
   EXPECT_FALSE(contains(walked.out, "no triangle came near")) << walked.out;
   EXPECT_TRUE(contains(walked.out, "0 violations")) << walked.out;

@@ -308,7 +308,7 @@ TEST_F(StoreVerbs, ASurveyOfADamagedStoreSaysWhatToDo) {
   const std::string bad = copy(folder);
   flip(only_pack(bad), static_cast<std::streamoff>(fs::file_size(only_pack(bad)) / 3));
   const ProgramResult told =
-      run({"probe", bad, "--from", "-13739,253,182", "--to", "-13736,256.2,182", "--radius", "0.3", "--mode", "fly"});
+      run({"probe", bad, "--from", "-13739,253,182", "--to", "-13736,256.2,182", "--sphere", "--mode", "fly"});
   EXPECT_EQ(told.status, 1);
   EXPECT_TRUE(contains(told.err, "tile ") && contains(told.err, "the scene itself")) << told.err;
   EXPECT_TRUE(contains(told.err, "roam verify " + bad + " --repair SCENE")) << told.err;

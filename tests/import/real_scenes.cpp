@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "import/likely_up.h"
 #include "import_files.h"
 
 namespace roam::test {
@@ -149,6 +150,11 @@ TEST(ImportRealScenes, HaveTheTrianglesAndTheBoxThatAreKnown) {
     expect_near(box.lower, expected.lower, "lower");
     expect_near(box.upper, expected.upper, "upper");
     EXPECT_EQ(read.report.bad_triangles, 0u);
+    const std::string path = scene.path;
+    const std::optional<UpAxis> lies = path.starts_with("recast/") ? std::optional(UpAxis::y)
+                                       : path.starts_with("scan/") ? std::optional(UpAxis::minus_y)
+                                                                   : std::nullopt;
+    EXPECT_EQ(likely_up(read.meshes), lies) << "the axis that is up in the file";
   }
 }
 

@@ -397,4 +397,52 @@ TEST(Profile, HasTheRightsOfOtherFiles) {
   EXPECT_EQ(status.st_mode & 0777, 0644u);
 }
 
+TEST(Profile, KeepsAFrameWithItsBody) {
+  const TestFolder folder;
+  const std::string scene = folder.file("mine.obj"), file = folder.file("mine.obj.roam.json");
+  const std::vector<std::filesystem::path> scenes{scene};
+  roam::Profile profile = full_profile();
+  roam::save_profile(profile, file);
+  EXPECT_FALSE(contains(folder.read("mine.obj.roam.json"), "frame"));
+  EXPECT_EQ(roam::find_frame(scenes), std::nullopt);
+  profile.frame = roam::SceneFrame{roam::UpAxis::minus_y, roam::LengthUnit::cm};
+  roam::save_profile(profile, file);
+  EXPECT_EQ(roam::find_frame(scenes), profile.frame);
+  EXPECT_EQ(roam::find_profile(scene)->frame, profile.frame);
+  EXPECT_FALSE(roam::save_frame(*profile.frame, file)) << "the body is of this frame";
+  expect_same(roam::load_profile(file), profile);
+}
+
+TEST(Profile, MayHoldAFrameAlone) {
+  const TestFolder folder;
+  const std::string scene = folder.file("mine.obj"), file = folder.file("mine.obj.roam.json");
+  const std::vector<std::filesystem::path> scenes{scene};
+  const roam::SceneFrame turned{roam::UpAxis::y, roam::LengthUnit::in};
+  EXPECT_EQ(roam::find_frame(scenes), std::nullopt) << "there is no file";
+  EXPECT_FALSE(roam::save_frame(turned, file));
+  EXPECT_EQ(roam::find_frame(scenes), turned);
+  EXPECT_FALSE(roam::find_profile(scene));
+  EXPECT_TRUE(contains(complaint([&] { (void)roam::load_profile(file); }), "it has a frame, but no body"));
+}
+
+TEST(Profile, LosesABodyOfAnotherFrame) {
+  const TestFolder folder;
+  const std::string scene = folder.file("mine.obj"), file = folder.file("mine.obj.roam.json");
+  roam::save_profile(full_profile(), file);
+  EXPECT_TRUE(roam::save_frame({.up = roam::UpAxis::y}, file));
+  EXPECT_FALSE(roam::find_profile(scene));
+}
+
+TEST(Profile, NamesAFrameThatIsNone) {
+  const TestFolder folder;
+  const auto said = [&](const std::string& frame) {
+    const std::string file = folder.write("p.json", "{\"roam_profile\": 1, \"frame\": " + frame + "}");
+    return complaint([&] { (void)roam::load_profile(file); });
+  };
+  EXPECT_TRUE(contains(said("3"), "\"frame\" must be an object")) << said("3");
+  EXPECT_TRUE(contains(said("{\"up\": \"y\"}"), "\"frame.unit\" is missing"));
+  EXPECT_TRUE(contains(said("{\"up\": \"w\", \"unit\": \"m\"}"), "\"frame.up\" 'w' is no axis"));
+  EXPECT_TRUE(contains(said("{\"up\": \"y\", \"unit\": 1}"), "\"frame.unit\" must be a text"));
+}
+
 }  // namespace

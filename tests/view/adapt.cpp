@@ -16,8 +16,8 @@ class BeforeADoor : public DrivenSession {
   explicit BeforeADoor(bool adapt) {
     file = write_scene(door_obj(0.6));
     options.at = {6, 0, 0.95, 0};
-    options.radius = 0.4;
-    options.height = 1.8;
+    options.body.radius = 0.4;
+    options.body.height = 1.8;
     options.adapt = adapt;
     options.verify = true;
     begin();

@@ -125,12 +125,25 @@ TEST(ViewPlan, OfNobodyDescribedIsAPerson) {
   EXPECT_EQ(plan.mode, Mode::walk);
 }
 
-TEST(ViewPlan, OfARadiusAloneIsASphereWithTheEyeInItsCentre) {
+TEST(ViewPlan, OfARadiusAloneIsAPersonAndOfASphereHasTheEyeInItsCentre) {
   ViewOptions options;
-  options.radius = 0.5;
+  options.body.radius = 0.5;
+  EXPECT_EQ(make_plan(options, {}).walker.height, 1.8);
+  options.body.sphere = true;
   const ViewPlan plan = make_plan(options, {});
   EXPECT_EQ(plan.walker.height, 1.0);
   EXPECT_EQ(plan.walker.eye, 0.5);
+  options.body.radius.reset();
+  ViewSettings settings;
+  settings.radius = 0.2;
+  settings.height = 1.7;
+  EXPECT_EQ(make_plan(options, settings).walker.height, 0.6);
+}
+
+TEST(ViewPlan, OfARadiusInTheSettingsIsAPerson) {
+  ViewSettings settings;
+  settings.radius = 0.25;
+  EXPECT_EQ(make_plan({}, settings).walker.height, 1.8);
 }
 
 TEST(ViewPlan, OfAPathIsTheBodyOfRoamWalkWhateverTheSettingsSay) {
@@ -142,7 +155,7 @@ TEST(ViewPlan, OfAPathIsTheBodyOfRoamWalkWhateverTheSettingsSay) {
   settings.speed = 9.0;
   const ViewPlan plan = make_plan(options, settings);
   EXPECT_EQ(plan.walker.radius, 0.3);
-  EXPECT_EQ(plan.walker.height, 0.6);
+  EXPECT_EQ(plan.walker.height, 1.8);
   EXPECT_EQ(plan.walker.speed, 1.4);
 }
 
@@ -166,8 +179,8 @@ TEST(ViewPlan, RefusesWhatCannotBeMeant) {
   size.size = "1280*720";
   EXPECT_THROW(static_cast<void>(make_plan(size, {})), UsageError);
   ViewOptions low;
-  low.radius = 0.5;
-  low.height = 0.4;
+  low.body.radius = 0.5;
+  low.body.height = 0.4;
   EXPECT_THROW(static_cast<void>(make_plan(low, {})), UsageError);
   ViewOptions idle;
   idle.headless = true;
@@ -244,19 +257,19 @@ TEST(Settings, SayThatAFolderIsNoFile) {
   const std::string settings = error_of([&] { static_cast<void>(read_settings(folder.file("roam.json"))); });
   EXPECT_TRUE(contains(settings, folder.file("roam.json") + ": Is a directory; name a file")) << settings;
   const std::string bookmarks =
-      error_of([&] { static_cast<void>(Bookmarks(folder.file("roam.json"), {"mine.obj"}, "", "m")); });
+      error_of([&] { static_cast<void>(Bookmarks(folder.file("roam.json"), {"mine.obj"}, {})); });
   EXPECT_TRUE(contains(bookmarks, folder.file("roam.json") + ": Is a directory; name a file")) << bookmarks;
 }
 
 TEST(Bookmarks, AreKeptForTheirSceneAlone) {
   const TestFolder folder;
   const std::filesystem::path file = folder.file("config/roam/bookmarks.json");
-  Bookmarks mine(file, {"mine.obj"}, "", "m");
+  Bookmarks mine(file, {"mine.obj"}, {});
   EXPECT_EQ(mine.add({{1, 2, 3}, 90, -5}).name, "1");
   EXPECT_EQ(mine.add({{4, 5, 6}, 0, 0}).name, "2");
-  EXPECT_TRUE(Bookmarks(file, {"yours.obj"}, "", "m").all().empty());
-  EXPECT_TRUE(Bookmarks(file, {"mine.obj"}, "y", "m").all().empty());
-  Bookmarks again(file, {std::filesystem::absolute("mine.obj")}, "", "m");
+  EXPECT_TRUE(Bookmarks(file, {"yours.obj"}, {}).all().empty());
+  EXPECT_TRUE(Bookmarks(file, {"mine.obj"}, {.up = UpAxis::y}).all().empty());
+  Bookmarks again(file, {std::filesystem::absolute("mine.obj")}, {});
   ASSERT_EQ(again.all().size(), 2u);
   EXPECT_EQ(again.find("1")->pose.position, Vec3(1, 2, 3));
   EXPECT_EQ(again.find("1")->pose.yaw, 90.0);
@@ -266,10 +279,33 @@ TEST(Bookmarks, AreKeptForTheirSceneAlone) {
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(file.parent_path()), {}), 1);
 }
 
+TEST(Bookmarks, OfAnotherFrameAreNotTakenButKnown) {
+  const TestFolder folder;
+  const std::filesystem::path file = folder.file("b.json");
+  const SceneFrame turned{UpAxis::minus_y, LengthUnit::cm};
+  Bookmarks(file, {"mine.obj"}, turned).add({{1, 2, 3}, 90, -5});
+  Bookmarks plain(file, {"mine.obj"}, {});
+  EXPECT_FALSE(plain.find("1"));
+  EXPECT_EQ(plain.frame_elsewhere("1"), turned);
+  EXPECT_FALSE(plain.frame_elsewhere("2"));
+  EXPECT_TRUE(Bookmarks(file, {"mine.obj"}, turned).find("1"));
+}
+
+TEST(Bookmarks, OfAnOldFileAreOfTheFrameWithoutOptions) {
+  const TestFolder folder;
+  const std::string file =
+      folder.write("b.json",
+                   "[{\"scene\": [\"/house.glb\"], \"up\": \"\", \"unit\": \"m\", \"bookmarks\": [{\"name\": "
+                   "\"1\", \"position\": [1, 2, 3]}]}]");
+  const SceneFrame gltf{.up = UpAxis::y};
+  EXPECT_TRUE(Bookmarks(file, {"/house.glb"}, gltf, gltf).find("1"));
+  EXPECT_EQ(Bookmarks(file, {"/house.glb"}, {}, gltf).frame_elsewhere("1"), gltf);
+}
+
 TEST(Bookmarks, KeepWhatAnotherSessionHasWrittenMeanwhile) {
   const TestFolder folder;
-  Bookmarks one(folder.file("b.json"), {"mine.obj"}, "", "m");
-  Bookmarks two(folder.file("b.json"), {"mine.obj"}, "", "m");
+  Bookmarks one(folder.file("b.json"), {"mine.obj"}, {});
+  Bookmarks two(folder.file("b.json"), {"mine.obj"}, {});
   one.add({{1, 0, 0}, 0, 0});
   EXPECT_EQ(two.add({{2, 0, 0}, 0, 0}).name, "2");
   EXPECT_EQ(two.all().size(), 2u);
@@ -278,7 +314,7 @@ TEST(Bookmarks, KeepWhatAnotherSessionHasWrittenMeanwhile) {
 TEST(Bookmarks, NeverWriteOverAFileThatTheyDoNotUnderstand) {
   const TestFolder folder;
   const std::string file = folder.write("b.json", "{\"mine\": 1}");
-  const std::string what = error_of([&] { Bookmarks(file, {"mine.obj"}, "", "m"); });
+  const std::string what = error_of([&] { Bookmarks(file, {"mine.obj"}, {}); });
   EXPECT_TRUE(contains(what, file) && contains(what, "list of scenes")) << what;
   EXPECT_EQ(folder.read("b.json"), "{\"mine\": 1}");
 }

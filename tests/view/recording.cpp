@@ -114,6 +114,45 @@ TEST(PathRecorder, SaysTheBodyAndItsModes) {
   EXPECT_TRUE(mixed.ghost);
 }
 
+TEST(PathRecorder, SaysTheFrame) {
+  const TestFolder folder;
+  const std::string file = folder.file("way.path");
+  const SceneFrame turned{UpAxis::minus_y, LengthUnit::in};
+  {
+    PathRecorder recorder(file, {}, Mode::walk, turned);
+    for (const double t : {0.0, 1.0}) recorder.add(t, {t, 0, 0}, {}, Mode::walk);
+    recorder.close();
+  }
+  EXPECT_EQ(load_recorded_path(file).frame, turned);
+  EXPECT_TRUE(load_recorded_path(file).body);
+}
+
+TEST(RecordedPath, OfAnotherFrameIsRefusedWithTheOptionsThatOpenIt) {
+  const TestFolder folder;
+  const RecordedPath path = load_recorded_path(folder.write("p.path", "# roam: frame up -y unit cm\n1 2 3\n4 5 6\n"));
+  const auto error = [&](const std::optional<SceneFrame>& frame) {
+    return error_of([&] { demand_frame(path, frame, {}); });
+  };
+  EXPECT_TRUE(contains(error(SceneFrame{}), "--up=-y --unit=cm, which is read with --up=z here: add --up=-y --unit=cm"))
+      << error(SceneFrame{});
+  EXPECT_EQ(error(SceneFrame{UpAxis::minus_y, LengthUnit::cm}), "");
+  EXPECT_EQ(error(std::nullopt), "");
+  EXPECT_EQ(error_of([&] {
+              demand_frame(load_recorded_path(folder.write("q.path", "1 2 3\n4 5 6\n")), SceneFrame{UpAxis::x}, {});
+            }),
+            "");
+}
+
+TEST(RecordedPath, NamesTheLineOfAFrameThatIsNone) {
+  const TestFolder folder;
+  for (const char* frame :
+       {"up w unit m", "up y unit parsec", "up y", "y m", "up y unit m m", "up z unit m\n# roam: frame up y unit m"}) {
+    const std::string bad = folder.write("bad.path", "# roam: frame " + std::string(frame) + "\n1 2 3\n4 5 6\n");
+    EXPECT_TRUE(contains(error_of([&] { static_cast<void>(load_recorded_path(bad).waypoints()); }), "bad.path:"))
+        << frame;
+  }
+}
+
 TEST(RecordedBody, IsSaidByNoOtherComment) {
   const TestFolder folder;
   EXPECT_FALSE(load_recorded_path(folder.write("p.path", "# roam: a fine tour\n1 2 3\n4 5 6\n")).body);
@@ -157,16 +196,16 @@ TEST(RecordedBody, IsTheBodyOfThePlanUnlessOptionsSayOtherwise) {
   EXPECT_EQ(same.walker.slope_degrees, 30.0);
   EXPECT_EQ(same.mode, Mode::fly);
   EXPECT_EQ(same.note, "");
-  options.radius = 0.4;
+  options.body.radius = 0.4;
   options.mode = "walk";
   const ViewPlan other = make_plan(options, settings, body);
-  EXPECT_EQ(other.walker.height, 0.8);
+  EXPECT_EQ(other.walker.height, 1.8);
   EXPECT_EQ(other.walker.slope_degrees, 45.0);
   EXPECT_EQ(other.mode, Mode::walk);
   EXPECT_EQ(other.note,
-            "the path was recorded by another body: radius 0.25 m, height 1.7 m; this is a sphere of radius 0.4 m");
-  options.radius.reset();
-  options.height = 1.0;
+            "the path was recorded by another body: radius 0.25 m, height 1.7 m; this is radius 0.4 m, height 1.8 m");
+  options.body.radius.reset();
+  options.body.height = 1.0;
   EXPECT_EQ(make_plan(options, settings, body).walker.eye, 1.0);
 }
 

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/exit_status.h"
+#include "scenes/body_options.h"
 #include "text/printable.h"
 #include "words/measures.h"
 #include "words/probe.h"
@@ -27,7 +28,7 @@ bool is_number(const std::string& text, double& value) {
 
 }  // namespace
 
-std::vector<ProbedSize> parse_sizes(const std::string& text, const std::string& where) {
+std::vector<ProbedSize> parse_sizes(const std::string& text, const std::string& where, bool spheres) {
   std::vector<ProbedSize> sizes;
   for (std::size_t i = 0; i < text.size();) {
     const std::size_t begin = text.find_first_not_of(", \t\r", i);
@@ -37,7 +38,10 @@ std::vector<ProbedSize> parse_sizes(const std::string& text, const std::string& 
     const std::size_t cross = item.find('x');
     ProbedSize size;
     bool good = is_number(item.substr(0, cross), size.radius);
-    size.height = 2.0 * size.radius;
+    size.height = default_height(size.radius, spheres);
+    if (spheres && cross != std::string::npos)
+      throw UsageError(where, fmt::format("'{}' has a height, and --sphere excludes it: leave one out",
+                                          printable(item, longest_excerpt)));
     if (good && cross != std::string::npos) good = is_number(item.substr(cross + 1), size.height);
     if (!good)
       throw UsageError(

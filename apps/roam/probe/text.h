@@ -12,9 +12,10 @@
 
 namespace roam::app {
 
-/// "0.3, 0.4x1.9": radii, or radius x height, in metres, separated by commas or blanks. `where` begins messages. Throws
-/// UsageError for other text.
-[[nodiscard]] std::vector<ProbedSize> parse_sizes(const std::string& text, const std::string& where);
+/// "0.3, 0.4x1.9": radii, or radius x height, in metres, separated by commas or blanks. A radius alone has its
+/// default_height. `where` begins messages. Throws UsageError for other text, and for a sphere with a height.
+[[nodiscard]] std::vector<ProbedSize> parse_sizes(const std::string& text, const std::string& where,
+                                                  bool spheres = false);
 
 /// The members of one size; `with_way` adds the way and its members.
 [[nodiscard]] Json json_report(const ProbeAnswer& answer, bool with_way);

@@ -10,6 +10,7 @@
 
 #include "cli/progress.h"
 #include "cli/tell.h"
+#include "scenes/frame.h"
 #include "words/measures.h"
 #include "words/training.h"
 
@@ -110,6 +111,7 @@ Json json_report(const TrainReport& report) {
                      {"why", words::why(p.left_out)}});
   }
   Json json = {{"scene", report.scene},
+               {"frame", to_json(report.frame)},
                {"triangles", report.triangles},
                {"mode", roam::to_string(report.options.mode)},
                {"method", to_string(report.options.method)},

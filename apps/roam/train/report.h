@@ -3,11 +3,13 @@
 /// Report and drawings of `roam train`.
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "cli/report.h"
 #include "draw/opening.h"
+#include "roam/scene_frame.h"
 #include "roam/train.h"
 #include "words/training.h"
 
@@ -21,6 +23,7 @@ struct TrainReport {
   Training training;
   std::filesystem::path profile;  ///< the written file; empty: none
   words::TrainingNames names;
+  std::optional<SceneFrame> frame{};
 };
 
 [[nodiscard]] Json json_report(const TrainReport& report);

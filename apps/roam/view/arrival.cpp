@@ -10,6 +10,7 @@
 #include "roam/error.h"
 #include "view/body.h"
 #include "view/commands.h"
+#include "words/frame.h"
 
 namespace roam::app {
 namespace {
@@ -66,6 +67,10 @@ bool Arrival::receive(const Seen& seen) {
     if (!loaded_->start->note.empty()) news_.note(loaded_->start->note);
   } else {
     start_ = plan_.at ? *plan_.at : Pose{plan_.path.front().position, 0.0, 0.0};
+  }
+  if (const auto up = loaded_->likely_up) {
+    const std::string key = key_of(roamer_.controls(), "turn");
+    news_.note(words::likely_up(scene_names_, *up) + (key.empty() ? key : fmt::format("; {} turns it", key)));
   }
   roamer_.setMode(mode);
   pager_ = loaded_->pager;

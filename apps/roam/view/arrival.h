@@ -49,6 +49,8 @@ class Arrival {
   [[nodiscard]] bool is_ghost_only() const { return !collision_keys_.empty(); }
   /// The identity of the scene or store; null for a ghost.
   [[nodiscard]] const SceneIdentity* identity() const { return loaded_ ? &loaded_->identity : nullptr; }
+  /// The axis that is likely to be up instead of z; none without reason to doubt, or before the scene is loaded.
+  [[nodiscard]] std::optional<UpAxis> likely_up() const { return loaded_ ? loaded_->likely_up : std::nullopt; }
   /// The pager of the store that the body collides with; null if it collides with a scene.
   [[nodiscard]] const Pager* pager() const { return pager_.get(); }
 

@@ -58,6 +58,19 @@ std::vector<Bookmark> bookmarks_of(const Json& scene, const std::filesystem::pat
   return bookmarks;
 }
 
+/// The frame of a scene's entry.
+SceneFrame frame_of(const Json& scene, const SceneFrame& usual, const std::filesystem::path& file) {
+  SceneFrame frame = usual;
+  const Json up = scene.value("up", Json("")), unit = scene.value("unit", Json(""));
+  try {
+    if (up != Json("")) frame.up = parse_up_axis(up.is_string() ? up.get<std::string>() : up.dump());
+    if (unit != Json("")) frame.unit = parse_length_unit(unit.is_string() ? unit.get<std::string>() : unit.dump());
+  } catch (const Error& error) {
+    fail(file, printable(error.what()));
+  }
+  return frame;
+}
+
 Json to_json(const Bookmark& bookmark) {
   const Vec3& p = bookmark.pose.position;
   return {{"name", bookmark.name},
@@ -68,9 +81,9 @@ Json to_json(const Bookmark& bookmark) {
 
 }  // namespace
 
-Bookmarks::Bookmarks(std::filesystem::path file, const std::vector<std::filesystem::path>& scenes, std::string up,
-                     std::string unit)
-    : file_(std::move(file)), up_(std::move(up)), unit_(std::move(unit)) {
+Bookmarks::Bookmarks(std::filesystem::path file, const std::vector<std::filesystem::path>& scenes,
+                     const SceneFrame& frame, const SceneFrame& usual)
+    : file_(std::move(file)), frame_(frame), usual_(usual) {
   for (const auto& scene : scenes) {
     std::error_code none;
     const std::filesystem::path absolute = std::filesystem::absolute(scene);
@@ -81,8 +94,13 @@ Bookmarks::Bookmarks(std::filesystem::path file, const std::vector<std::filesyst
   for (const Json& scene : document) {
     if (!scene.is_object()) fail(file_, "each scene must be an object, { ... }");
     if (scene.value("scene", Json::array()) != Json(scenes_)) continue;
-    if (scene.value("up", Json("")) != Json(up_) || scene.value("unit", Json("m")) != Json(unit_)) continue;
-    bookmarks_ = bookmarks_of(scene, file_);
+    const SceneFrame theirs = frame_of(scene, usual_, file_);
+    std::vector<Bookmark> bookmarks = bookmarks_of(scene, file_);
+    if (theirs == frame_) {
+      bookmarks_.insert(bookmarks_.end(), bookmarks.begin(), bookmarks.end());
+    } else {
+      for (Bookmark& bookmark : bookmarks) elsewhere_.emplace_back(theirs, std::move(bookmark.name));
+    }
   }
 }
 
@@ -92,6 +110,13 @@ const Bookmark* Bookmarks::find(const std::string& name) {
   if (found == bookmarks_.end()) return nullptr;
   present_ = static_cast<std::size_t>(found - bookmarks_.begin());
   return &*found;
+}
+
+std::optional<SceneFrame> Bookmarks::frame_elsewhere(const std::string& name) const {
+  const auto found =
+      std::find_if(elsewhere_.begin(), elsewhere_.end(), [&](const auto& b) { return b.second == name; });
+  if (found == elsewhere_.end()) return std::nullopt;
+  return found->first;
 }
 
 const Bookmark* Bookmarks::next(bool backwards) {
@@ -113,11 +138,14 @@ const Bookmark& Bookmarks::add(const Pose& pose) {
   Json document = read(file_);
   const auto is_ours = [&](const Json& scene) {
     return scene.is_object() && scene.value("scene", Json::array()) == Json(scenes_) &&
-           scene.value("up", Json("")) == Json(up_) && scene.value("unit", Json("m")) == Json(unit_);
+           frame_of(scene, usual_, file_) == frame_;
   };
   auto ours = std::find_if(document.begin(), document.end(), is_ours);
   if (ours == document.end()) {
-    document.push_back({{"scene", scenes_}, {"up", up_}, {"unit", unit_}, {"bookmarks", Json::array()}});
+    document.push_back({{"scene", scenes_},
+                        {"up", to_string(frame_.up)},
+                        {"unit", to_string(frame_.unit)},
+                        {"bookmarks", Json::array()}});
     ours = std::prev(document.end());
   }
   std::vector<Bookmark> bookmarks = bookmarks_of(*ours, file_);

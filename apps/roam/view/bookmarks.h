@@ -5,8 +5,10 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "roam/scene_frame.h"
 #include "view/pose.h"
 
 namespace roam::app {
@@ -21,18 +23,20 @@ struct Bookmark {
 ///     [{"scene": ["/home/me/mine.dae"], "up": "", "unit": "m",
 ///       "bookmarks": [{"name": "shaft", "position": [1, 2, 3], "yaw": 90, "pitch": 0}]}]
 ///
-/// Absolute paths identify a scene, together with the axis and unit of reading, which change its coordinates. Only
-/// add() writes the file, as a whole: a reader sees the old or the new one.
+/// Absolute paths identify a scene, together with its frame, which its positions are of. An empty "up" is the axis that
+/// is up without --up. Only add() writes the file, as a whole: a reader sees the old or the new one.
 class Bookmarks {
  public:
-  /// Reads the file; a missing file has no bookmarks. Throws roam::Error if the file cannot be read, with its name and
-  /// the mistake. Such a file is never written.
-  Bookmarks(std::filesystem::path file, const std::vector<std::filesystem::path>& scenes, std::string up,
-            std::string unit);
+  /// Reads the file; a missing file has no bookmarks. `usual`: the frame without options. Throws roam::Error if the
+  /// file cannot be read, with its name and the mistake. Such a file is never written.
+  Bookmarks(std::filesystem::path file, const std::vector<std::filesystem::path>& scenes, const SceneFrame& frame,
+            const SceneFrame& usual = {});
 
   [[nodiscard]] const std::vector<Bookmark>& all() const { return bookmarks_; }
   /// The bookmark of that name, or null. It becomes the present one.
   const Bookmark* find(const std::string& name);
+  /// Another frame of the scene that has a bookmark of that name, if there is one.
+  [[nodiscard]] std::optional<SceneFrame> frame_elsewhere(const std::string& name) const;
   /// The bookmark after the present one, or before it, in a circle; null if there are none. It becomes the present one.
   /// If there is no present one: the first, or the last.
   const Bookmark* next(bool backwards);
@@ -46,9 +50,9 @@ class Bookmarks {
  private:
   std::filesystem::path file_;
   std::vector<std::string> scenes_;
-  std::string up_;
-  std::string unit_;
+  SceneFrame frame_, usual_;
   std::vector<Bookmark> bookmarks_;
+  std::vector<std::pair<SceneFrame, std::string>> elsewhere_;  ///< names in other frames
   std::optional<std::size_t> present_;
 };
 

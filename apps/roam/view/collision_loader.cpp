@@ -110,6 +110,7 @@ void CollisionLoader::load_scene() {
   loaded.world = std::make_shared<const World>(World::build(scene.meshes, build));
   loaded.triangles = loaded.world->stats().triangles;
   loaded.report = std::move(scene.report);
+  loaded.likely_up = doubted_up(options, scene.meshes);
   loaded.identity = identity_of(scene.meshes);
   if (wish_.keep_meshes) loaded.meshes = std::move(scene.meshes);
   scene.meshes.clear();

@@ -26,6 +26,7 @@ struct Collision {
   std::vector<Mesh> meshes;  ///< the triangles as read, if the wish keeps them
   SceneIdentity identity;    ///< of the scene or the store
   ImportReport report;
+  std::optional<UpAxis> likely_up;  ///< see doubted_up
   std::optional<StartPlace> start;  ///< set if the wish has no position
 };
 

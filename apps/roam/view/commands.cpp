@@ -29,6 +29,7 @@ constexpr Line lines[] = {
     {"picture", "P, F12", "writes a picture, roam-1.png and so on, into this folder"},
     {"record", "R", "begins or ends recording the way, as roam-1.path and so on"},
     {"store", "O", "builds the scene's collision store in the background, or stops that"},
+    {"turn", "U", "turns the scene by 90 degrees, first as its floors suggest; SCENE.roam.json keeps it"},
     {"adapt", "Y", "takes the size of the body that would get on here"},
     {"quit", "F10", "ends; so does Escape when the mouse is free"},
 };

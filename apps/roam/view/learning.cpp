@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "roam/error.h"
+#include "scenes/frame.h"
 #include "view/commands.h"
 
 namespace roam::app {
@@ -20,10 +21,12 @@ std::string text_of(const Lesson& lesson) {
   return fmt::format("crack {:.2f} m wide: a support disc of {:.2f} m", lesson.width, lesson.support_radius);
 }
 
-Profile known_of(const ViewPlan& plan, const SceneIdentity& scene, const WalkerSettings& body) {
+Profile known_of(const ViewOptions& options, const ViewPlan& plan, const SceneIdentity& scene,
+                 const WalkerSettings& body) {
   if (plan.profile) return plan.profile->profile;
   Profile known;
   known.scene = scene;
+  known.frame = frame_to_keep(options.scene);
   known.radius = body.radius;
   known.height = body.height;
   known.support_radius = body.support_radius;
@@ -32,12 +35,21 @@ Profile known_of(const ViewPlan& plan, const SceneIdentity& scene, const WalkerS
   return known;
 }
 
+/// Whether the scene's profile has a body; true if it cannot be read.
+bool has_body(const SceneOptions& scene) {
+  try {
+    return find_profile(scene.scenes).has_value();
+  } catch (const Error&) {
+    return true;
+  }
+}
+
 /// The file for sizes; empty: they are not saved.
 std::filesystem::path file_for(const ViewOptions& options, const ViewPlan& plan) {
   if (plan.profile) return plan.profile->file;
   std::filesystem::path file = profile_path(options.scene.scenes);
-  // An existing profile belongs to another body and is not overwritten.
-  if (options.no_profile || std::filesystem::exists(std::filesystem::symlink_status(file))) file.clear();
+  // An existing body is another one and is not overwritten.
+  if (options.scene.no_profile || has_body(options.scene)) file.clear();
   return file;
 }
 
@@ -47,7 +59,7 @@ Learning::Learning(const ViewOptions& options, const ViewPlan& plan, const Scene
                    osgRoam::Manipulator& roamer, News& news)
     : roamer_(roamer),
       news_(news),
-      learner_(known_of(plan, scene, roamer.settings())),
+      learner_(known_of(options, plan, scene, roamer.settings())),
       file_(file_for(options, plan)),
       takes_(options.adapt) {
   roamer_.setRegions(learner_.profile().regions);

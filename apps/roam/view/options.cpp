@@ -59,52 +59,19 @@ std::vector<double> parse_place(const std::string& text) {
 WalkerSettings walker_settings(const ViewOptions& options, const ViewSettings& settings,
                                const std::optional<RecordedBody>& recorded,
                                const std::optional<SceneProfile>& profile) {
-  WalkerSettings walker;
   const bool replay = !options.path.empty();
-  ViewSettings known = replay ? ViewSettings{} : settings;
-  if (recorded) {
-    const WalkerSettings& body = recorded->settings;
-    known.radius = body.radius;
-    known.height = body.height;
-    known.eye = body.eye;
-    known.step = body.step;
-    known.slope = body.slope_degrees;
-    if (!options.radius) walker.support_radius = body.support_radius;
+  const ViewSettings set = replay ? ViewSettings{} : settings;
+  BodySizes known{set.radius, set.height, set.eye, set.step, set.slope, std::nullopt};
+  if (recorded) known = sizes_of(*recorded);
+  if (profile) {
+    const std::optional<double> eye = known.eye;
+    known = sizes_of(profile->profile);
+    if (eye) known.eye = std::min(*eye, *known.height);
   }
-  if (profile && !options.radius) {
-    const Profile& trained = profile->profile;
-    known.radius = trained.radius;
-    known.height = trained.height;
-    if (known.eye) known.eye = std::min(*known.eye, trained.height);
-    known.step = trained.step;
-    known.slope = trained.slope_degrees;
-    walker.support_radius = trained.support_radius;
-  }
-  const bool known_body = recorded || profile;
-  const bool described = options.radius.has_value() || (replay && !known_body);
-  // All sizes come from one source: a height from the settings does not fit a radius from the command line.
-  const auto body = [&](const std::optional<double>& option, const std::optional<double>& setting) {
-    return option || described ? option : setting;
-  };
-  walker.radius = body(options.radius, known.radius).value_or(walker.radius);
-  const double sphere = 2.0 * walker.radius;
-  const double tall = described || known.radius ? sphere : walker.height;
-  walker.height = body(options.height, known.height).value_or(tall);
-  // On the axis, the camera is a radius away from every surface.
-  const double eye = std::max(std::min(walker.eye, walker.height - walker.radius), 0.0);
-  walker.eye = body(options.eye, known.eye).value_or(eye);
-  walker.step = body(options.step, known.step).value_or(std::min(walker.step, 0.5 * walker.height));
-  if (known_body && options.height) {
-    // A new height for a recorded or trained body: fit the rest to it.
-    walker.eye = options.eye.value_or(std::min(walker.eye, walker.height));
-    walker.step = options.step.value_or(std::min(walker.step, 0.5 * walker.height));
-  }
-  const bool same_body = !options.radius || !replay;
-  walker.slope_degrees = (options.slope ? options.slope
-                          : same_body   ? known.slope
-                                        : std::nullopt)
-                             .value_or(walker.slope_degrees);
-  walker.speed = (options.speed ? options.speed : known.speed).value_or(walker.speed);
+  WalkerSettings walker = body_of(options.body, known);
+  // The sizes belong to one body, the slope to all that the person walks.
+  if (options.body.describe_a_body() && !options.body.slope && set.slope) walker.slope_degrees = *set.slope;
+  walker.speed = (options.speed ? options.speed : set.speed).value_or(walker.speed);
   return walker;
 }
 
@@ -178,7 +145,6 @@ void ViewOptions::add_to(CLI::App& verb) {
   verb.add_option("--store", store,
                   "Use this store for collision (default: SCENE.roam beside the scene, if you built it from SCENE)")
       ->type_name("STORE");
-  constexpr double metres = Space::reach_limit / 4.0;
   verb.option_defaults()->group("Start");
   auto* from = verb.add_option_function<std::string>(
                        "--at", [this](const std::string& text) { at = parse_place(text); },
@@ -201,23 +167,7 @@ void ViewOptions::add_to(CLI::App& verb) {
       ->check(from_to(Route::shortest_step, 10.0))
       ->type_name("S");
   verb.option_defaults()->group("Body, in metres");
-  verb.add_option("--radius", radius, "Radius (default: as trained, or 0.3)")
-      ->check(from_to(1e-6, 0.5 * metres))
-      ->type_name("R");
-  verb.add_option("--height", height, "Whole height (default: a person's 1.8; with --radius or --path: 2 R)")
-      ->check(from_to(1e-6, metres))
-      ->type_name("H");
-  verb.add_option("--eye", eye,
-                  "Height of the camera above the body's lowest point (without it: 1.6, but at most H - R)")
-      ->check(from_to(0.0, metres))
-      ->type_name("E");
-  verb.add_option("--step", step, "Highest step (stair, kerb) that the body climbs (default: 0.3, at most H / 2)")
-      ->check(from_to(0.0, metres))
-      ->type_name("M");
-  verb.add_option("--slope", slope, "Slope that the body climbs, in degrees (default: 45)")
-      ->check(from_to(0.0, 89.0))
-      ->type_name("DEG");
-  verb.add_flag("--no-profile", no_profile, "Ignore the trained body in SCENE.roam.json");
+  body.add_to(verb);
   verb.add_flag("--adapt", adapt,
                 "Learn on the way: a smaller body at an opening that stops it, a larger support disc where it falls; "
                 "SCENE.roam.json keeps them");
@@ -260,7 +210,7 @@ ViewPlan make_plan(const ViewOptions& options, const ViewSettings& settings,
   check_files(options, settings);
   ViewPlan plan;
   plan.walker = walker_settings(options, settings, recorded, profile);
-  if (!options.radius) plan.profile = profile;
+  if (!options.body.describe_a_body()) plan.profile = profile;
   try {
     check(plan.walker);
   } catch (const Error& error) {

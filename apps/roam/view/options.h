@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "roam/walker.h"
+#include "scenes/body_options.h"
 #include "scenes/open_scene.h"
 #include "scenes/recorded_body.h"
 #include "scenes/scene_options.h"
@@ -26,7 +27,8 @@ struct ViewOptions {
   SceneOptions scene;
   std::filesystem::path store;  ///< empty: search beside the scene
   std::optional<std::string> mode;
-  std::optional<double> radius, height, eye, step, slope, speed, fov;
+  BodyOptions body;
+  std::optional<double> speed, fov;
   std::string size = "1280x720";
   bool fullscreen = false;
   std::vector<double> at;  ///< x, y, z, perhaps yaw, perhaps pitch
@@ -40,7 +42,6 @@ struct ViewOptions {
   bool verify = false;
   bool json = false;
   bool keys = false;
-  bool no_profile = false;
   bool adapt = false;
   std::filesystem::path program;  ///< roam, for building stores; empty: the running program; no option
 
@@ -65,9 +66,8 @@ struct ViewPlan {
 
 /// The plan for `options` and `settings`.
 ///
-/// The default body is an adult (WalkerSettings). If a radius is given, the default height follows from it, as in `roam
-/// walk`. A path uses the body that `recorded` it, else the body of `roam walk`; never the sizes of the settings. If
-/// the command line has no radius, a `profile` gives the sizes, whatever the settings say.
+/// The body is that of `roam walk`; see body_of. A path uses the body that `recorded` it, never the sizes of the
+/// settings. Unless the options describe a body, a `profile` gives the sizes, whatever the settings say.
 ///
 /// Throws UsageError for contradictory or invalid options, with the settings file's name if the value comes from there.
 /// Throws it too for outputs that cannot be written, or would overwrite each other or an input.

@@ -5,22 +5,24 @@
 #include <array>
 #include <exception>
 #include <filesystem>
+#include <optional>
 #include <string_view>
 
 #include "files/whole_file.h"
+#include "roam/scene_frame.h"
 #include "roam/walker.h"
 
 namespace roam::app {
 
 /// Writes osgViewer's lines `t x y z qx qy qz qw`: the time since the recording began, the body's centre in the scene's
-/// frame, and the camera's rotation. It writes the body too; see recorded_body.h. `--path` replays the file. An
+/// frame, and the camera's rotation. It writes body and frame too; see recorded_body.h. `--path` replays the file. An
 /// existing file stays until close(). Each line is written at once, so that a temporary file with the path so far
 /// survives a crash.
 class PathRecorder {
  public:
   /// Begins a file with the body in it. Throws roam::Error if it cannot be written.
   PathRecorder(const std::filesystem::path& file, const WalkerSettings& body, Mode mode,
-               files::Naming naming = files::Naming::exact);
+               const std::optional<SceneFrame>& frame = std::nullopt, files::Naming naming = files::Naming::exact);
   /// Closes a recording that an error cut short.
   ~PathRecorder();
   PathRecorder(const PathRecorder&) = delete;

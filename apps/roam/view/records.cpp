@@ -4,6 +4,7 @@
 
 #include "cli/exit_status.h"
 #include "roam/error.h"
+#include "scenes/frame.h"
 #include "view/body.h"
 #include "view/settings.h"
 
@@ -19,10 +20,12 @@ std::string remedy(const osgRoam::Manipulator& roamer) {
 
 }  // namespace
 
-Records::Records(const SceneOptions& scene, osgRoam::Manipulator& roamer, News& news) : roamer_(roamer), news_(news) {
+Records::Records(const SceneOptions& scene, osgRoam::Manipulator& roamer, News& news)
+    : roamer_(roamer), news_(news), frame_(frame_of(scene)) {
   const std::filesystem::path folder = settings_folder();
   try {
-    bookmarks_.emplace(folder.empty() ? folder : folder / "bookmarks.json", scene.scenes, scene.up, scene.unit);
+    bookmarks_.emplace(folder.empty() ? folder : folder / "bookmarks.json", scene.scenes, frame_.value_or(SceneFrame{}),
+                       (scene.name_a_store() ? frame_ : usual_frame_of(scene)).value_or(SceneFrame{}));
   } catch (const Error& error) {
     problem_ = error;
     news_.note(error.what());
@@ -32,6 +35,10 @@ Records::Records(const SceneOptions& scene, osgRoam::Manipulator& roamer, News& 
 Pose Records::named(const std::string& name) {
   if (!bookmarks_) throw Error(*problem_);
   if (const Bookmark* found = bookmarks_->find(name)) return found->pose;
+  if (const std::optional<SceneFrame> other = bookmarks_->frame_elsewhere(name)) {
+    throw UsageError(fmt::format("--bookmark {}", name),
+                     fmt::format("it is of the scene with {}: add {}", options_of(*other), options_of(*other)));
+  }
   throw UsageError(fmt::format("--bookmark {}", name),
                    fmt::format("this scene has {}", bookmarks_->all().empty() ? "no bookmarks" + remedy(roamer_)
                                                                               : "these: " + bookmarks_->names()));
@@ -59,7 +66,7 @@ void Records::go_to_next_bookmark(bool backwards) {
 }
 
 void Records::record(const std::filesystem::path& file, files::Naming naming) {
-  recorder_.emplace(file, roamer_.settings(), roamer_.mode(), naming);
+  recorder_.emplace(file, roamer_.settings(), roamer_.mode(), frame_, naming);
 }
 
 void Records::add_frame(double now) {
@@ -73,6 +80,8 @@ void Records::finish() {
   news_.written(recorder_->close());
   recorder_.reset();
 }
+
+void Records::fill(ViewReport& report) const { report.frame = frame_; }
 
 void Records::fill(Status& status) const {
   if (!recorder_) return;

@@ -8,12 +8,14 @@
 
 #include "osgRoam/Manipulator.h"
 #include "roam/error.h"
+#include "roam/scene_frame.h"
 #include "scenes/scene_options.h"
 #include "view/bookmarks.h"
 #include "view/commands.h"
 #include "view/news.h"
 #include "view/path_recorder.h"
 #include "view/status.h"
+#include "view/view_report.h"
 
 namespace roam::app {
 
@@ -25,7 +27,7 @@ class Records {
   Records(const SceneOptions& scene, osgRoam::Manipulator& roamer, News& news);
 
   /// The bookmark of that name. Throws roam::Error if the bookmarks cannot be read, UsageError if there is no such
-  /// name.
+  /// name, or only in another frame of the scene.
   [[nodiscard]] Pose named(const std::string& name);
   /// Adds the body's pose. Throws roam::Error on failure.
   void add_bookmark();
@@ -43,10 +45,12 @@ class Records {
   void finish();
 
   void fill(Status& status) const;
+  void fill(ViewReport& report) const;
 
  private:
   osgRoam::Manipulator& roamer_;
   News& news_;
+  std::optional<SceneFrame> frame_;  ///< of the scene; none: its files differ
   std::optional<Bookmarks> bookmarks_;
   std::optional<Error> problem_;  ///< why the bookmarks cannot be read
   std::optional<PathRecorder> recorder_;

@@ -1,9 +1,13 @@
 #include "view/session.h"
 
+#include <fmt/format.h>
+
 #include <memory>
 
 #include "cli/interrupt.h"
 #include "roam/error.h"
+#include "roam/profile.h"
+#include "scenes/frame.h"
 #include "view/body.h"
 #include "view/session_handler.h"
 
@@ -50,6 +54,7 @@ Session::Session(const ViewOptions& options, const ViewPlan& plan, const ViewSet
   stage_.add_to(commands_);
   display_.add_to(commands_);
   commands_.add("store", [this] { building_.toggle(arrival_.pager(), place()); });
+  commands_.add("turn", [this] { turn(); });
   commands_.add("quit", [this] { quits_ = true; });
   roamer_->setCommandCallback([this](const std::string& name) { run(name); });
   stage_.viewer().addEventHandler(new SessionHandler(*this));
@@ -81,7 +86,7 @@ bool Session::frame() {
   if (stage_.headless() && roaming()) arrival_.wait_for_tiles(passed);
   arrival_.fly_without_ground();
   if (learning_) learning_->update();
-  if (quits_ || stage_.viewer().done()) return false;
+  if (quits_ || turned_ || stage_.viewer().done()) return false;
   if (roaming()) {
     if (replay_) replay_->look(*roamer_, passed);
     if (roamer_->steps() > 0) log_.take_frame(roamer_->collisionNanoseconds(), roamer_->collisionOwnNanoseconds());
@@ -151,6 +156,26 @@ Vec3 Session::place() const {
   return scene_.bounds().empty() ? Vec3(0.0) : scene_.bounds().center();
 }
 
+/// Ends the session to begin it anew with another axis up, which the profile keeps.
+void Session::turn() {
+  const std::optional<SceneFrame> frame = frame_of(what_.scene);
+  const bool writes = !options_.trace.empty() || !options_.record.empty() || !options_.record_path.empty();
+  if (!what_.store.empty() || !frame) {
+    news_.tell("a store keeps the frame in which it was built: turn its scene, and build it again");
+  } else if (!options_.path.empty() || options_.verify || writes) {
+    news_.tell("the scene is not turned on a path, or while a trace, a film or a way is written");
+  } else {
+    turned_ = next_frame(*frame, arrival_.likely_up());
+    if (what_.scene.no_profile) return;
+    try {
+      const std::filesystem::path file = profile_path(what_.scene.scenes);
+      if (save_frame(*turned_, file)) news_.note(file.string() + " had a body for the scene as it was: train again");
+    } catch (const Error& error) {
+      news_.note(fmt::format("the turn is not kept: {}", error.what()));
+    }
+  }
+}
+
 void Session::show_keys() { stage_.hud().set_help(key_lines(roamer_->controls())); }
 
 bool Session::is_at_its_end() const {
@@ -189,6 +214,7 @@ ViewReport Session::finish() {
   arrival_.fill(report);
   display_.fill(report);
   records_.finish();
+  records_.fill(report);
   report.written = news_.files();
   log_.fill(report);
   stage_.fill(report);

@@ -51,6 +51,8 @@ class Session {
   /// Runs one frame. False at the end of the session: closed, or all work done. Throws roam::Error if nothing of the
   /// scene can be loaded, or if the path or --verify is not possible.
   bool frame();
+  /// The frame in which the person wants to see the scene next: the session has ended for that.
+  [[nodiscard]] const std::optional<SceneFrame>& turned() const { return turned_; }
   /// Ends the session and writes its outputs.
   [[nodiscard]] ViewReport finish();
 
@@ -71,6 +73,7 @@ class Session {
   void step_taken(const StepReport& report, double seconds);
   void see_to_store();
   void show_keys();
+  void turn();
   void show(bool at_once);
   [[nodiscard]] Vec3 place() const;
   [[nodiscard]] bool is_replaying() const { return replay_ && !replay_->done(); }
@@ -94,6 +97,7 @@ class Session {
   std::optional<Replay> replay_;
   double placed_at_ = 0.0;  ///< s since the session began
   bool quits_ = false;
+  std::optional<SceneFrame> turned_;
 };
 
 }  // namespace roam::app

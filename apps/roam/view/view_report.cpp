@@ -8,6 +8,7 @@
 
 #include "cli/progress.h"
 #include "cli/tell.h"
+#include "scenes/frame.h"
 #include "words/walk.h"
 
 namespace roam::app {
@@ -51,6 +52,7 @@ void append(std::vector<std::string>& all, const std::vector<std::string>& more)
 
 Json json_report(const ViewReport& report) {
   Json json = {{"scene", report.scene},
+               {"frame", to_json(report.frame)},
                {"triangles", report.triangles},
                {"mode", to_string(report.mode)},
                {"radius", report.settings.radius},

@@ -10,6 +10,7 @@
 #include "cli/report.h"
 #include "roam/pager.h"
 #include "roam/route.h"
+#include "roam/scene_frame.h"
 #include "verify/piece_log.h"
 #include "view/pose.h"
 
@@ -28,7 +29,8 @@ struct ViewReport {
   std::string scene;
   std::uint64_t triangles = 0;  ///< of the collision; 0: no collision
   WalkerSettings settings;
-  std::string profile;                ///< file of the body's profile; empty: none
+  std::string profile;  ///< file of the body's profile; empty: none
+  std::optional<SceneFrame> frame;
   int learned = 0;                    ///< number of sizes accepted on the way
   Mode mode = Mode::walk;             ///< at the end
   std::optional<RouteResult> result;  ///< of a path

@@ -29,35 +29,19 @@ void check_output(const WalkOptions& options, const char* option, const std::fil
 }  // namespace
 
 void take_profile(WalkOptions& options) {
-  if (options.no_profile || options.radius) return;
+  if (options.scene.no_profile || options.body.describe_a_body()) return;
   options.profile = find_scene_profile(options.scene, options.walker_mode(), options.recorded);
   options.scene.identify = options.profile.has_value();
 }
 
 WalkerSettings walker_settings(const WalkOptions& options) {
-  constexpr double sphere = 2.0;  // height of a sphere in radii
-  WalkerSettings settings = options.settings;
-  if (options.recorded && !options.radius) {
-    const WalkerSettings& body = options.recorded->settings;
-    settings.radius = body.radius;
-    settings.height = options.height.value_or(body.height);
-    settings.eye = options.eye.value_or(std::min(body.eye, settings.height));
-    settings.step = options.step.value_or(std::min(body.step, 0.5 * settings.height));
-    settings.slope_degrees = body.slope_degrees;
-    settings.support_radius = body.support_radius;
+  BodySizes known;
+  if (options.recorded) {
+    known = sizes_of(*options.recorded);
   } else if (options.profile) {
-    settings = apply(options.profile->profile, settings);
-    settings.height = options.height.value_or(settings.height);
-    settings.eye = options.eye.value_or(std::min(settings.eye, settings.height));
-    settings.step = options.step.value_or(std::min(settings.step, 0.5 * settings.height));
-  } else {
-    settings.radius = options.radius.value_or(settings.radius);
-    settings.height = options.height.value_or(sphere * settings.radius);
-    settings.eye = options.eye.value_or(std::min(settings.eye, settings.height));
-    settings.step = options.step.value_or(std::min(settings.step, 0.5 * settings.height));
+    known = sizes_of(options.profile->profile);
   }
-  settings.slope_degrees = options.slope.value_or(settings.slope_degrees);
-  settings.support_radius = options.support_radius.value_or(settings.support_radius);
+  WalkerSettings settings = body_of(options.body, known);
   settings.speed = options.route.speed;
   try {
     check(settings);
@@ -106,17 +90,7 @@ void WalkOptions::add_to(CLI::App& verb) {
   verb.add_option("--mode", mode, "walk: on the ground; fly: without gravity; ghost: through walls (default: walk)")
       ->check(one_of({"fly", "walk", "ghost"}))
       ->type_name("MODE");
-  verb.add_option("--radius", radius, "Radius (default: as trained, or 0.3)")->type_name("R");
-  verb.add_option("--height", height, "Whole height (default: 2 R, a sphere)")->type_name("H");
-  verb.add_option("--support-radius", support_radius,
-                  "Radius of the support disc, which carries the body over cracks (default: as trained, or none)")
-      ->type_name("RS");
-  verb.add_option("--eye", eye, "Height of the camera above the body's lowest point (default: 1.6, at most H)")
-      ->type_name("E");
-  verb.add_option("--step", step, "Highest step (stair, kerb) that the body climbs (default: 0.3, at most H / 2)")
-      ->type_name("M");
-  verb.add_option("--slope", slope, "Slope that the body climbs, in degrees (default: 45)")->type_name("DEG");
-  verb.add_flag("--no-profile", no_profile, "Ignore the trained body in SCENE.roam.json");
+  body.add_to(verb);
   verb.option_defaults()->group("Results");
   verb.add_option("--trace", trace, "Write every step to this CSV file (-: standard output)")->type_name("FILE");
   verb.add_option("--picture", picture, "Draw plan and section of the way (.svg or .png)")->type_name("FILE");

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "roam/route.h"
+#include "scenes/body_options.h"
 #include "scenes/open_scene.h"
 #include "scenes/recorded_body.h"
 #include "scenes/scene_profile.h"
@@ -24,11 +25,10 @@ struct WalkOptions {
   std::optional<double> wander;  ///< seconds
   std::vector<double> from;      ///< start of wandering: x, y, z; or empty
   std::optional<std::string> mode;
-  WalkerSettings settings;
-  std::optional<double> radius, support_radius, height, eye, step, slope;
+  BodyOptions body;
+  WalkerSettings settings;               ///< see walker_settings()
   std::optional<RecordedBody> recorded;  ///< the body that recorded the path
-  bool no_profile = false;
-  std::optional<SceneProfile> profile;  ///< the profile that gives the body its size
+  std::optional<SceneProfile> profile;   ///< the profile that gives the body its size
   RouteOptions route;
   std::filesystem::path trace;
   std::filesystem::path picture;
@@ -48,12 +48,10 @@ struct WalkOptions {
   void add_to(CLI::App& verb);
 };
 
-/// Finds the scene's profile if no radius is given; see find_scene_profile.
+/// Finds the scene's profile, unless the options describe a body; see find_scene_profile.
 void take_profile(WalkOptions& options);
 
-/// The settings that the options stand for. Without a radius: those of the recorded or trained body, with the given
-/// options changed. The height follows from the radius, and the eye from the height. Throws UsageError for invalid
-/// ones.
+/// The settings that the options stand for; see body_of. Throws UsageError for invalid ones.
 [[nodiscard]] WalkerSettings walker_settings(const WalkOptions& options);
 
 /// Throws UsageError if the options name no path to follow.

@@ -7,6 +7,7 @@
 
 #include "cli/progress.h"
 #include "cli/tell.h"
+#include "scenes/frame.h"
 #include "words/lines.h"
 #include "words/measures.h"
 #include "words/verification.h"
@@ -58,6 +59,7 @@ Json json_report(const WalkReport& report) {
     events.push_back({{"step", e.step}, {"kind", to_string(e.event.kind)}, {"point", to_json(e.event.point)}});
   }
   Json json = {{"scene", report.scene},
+               {"frame", to_json(report.frame)},
                {"triangles", report.triangles},
                {"mode", to_string(report.mode)},
                {"radius", report.settings.radius},

@@ -8,6 +8,7 @@
 
 #include "cli/report.h"
 #include "roam/pager.h"
+#include "roam/scene_frame.h"
 #include "verify/verification.h"
 #include "words/walk.h"
 
@@ -24,7 +25,8 @@ struct WalkReport : words::EndedWalk {
   std::string scene;  ///< the file names
   std::uint64_t triangles = 0;
   std::string profile;  ///< file of the body's profile; empty: none
-  Vec3 eye{0.0};        ///< the camera's position at the end
+  std::optional<SceneFrame> frame;
+  Vec3 eye{0.0};  ///< the camera's position at the end
   StepTimes times;
   std::optional<verification::Verification> verified;
   double verify_seconds = 0.0;

@@ -151,33 +151,50 @@ std::string text_of(const ImportOptions& options) {
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
-// Lenient: the result is compared with the text.
-void read_as(const std::string& text, ImportOptions& options) {
+namespace {
+
+/// The text as JSON; null if it is none, or too long.
+Json options_in(const std::string& text) {
   /// Bytes. A pattern of one character takes four bytes in the text.
   constexpr std::uint64_t most = 64 * longest_options;
-  const auto now = Json::parse(text_of(options));
-  Json then;
-  bool known = text.size() <= longest_options;
+  if (text.size() > longest_options) return nullptr;
   try {
-    if (known) then = parse_json(text, "the options", most);
+    return parse_json(text, "the options", most);
   } catch (const Error&) {
-    known = false;
+    return nullptr;
   }
-  const auto member = [](const Json& json, const char* name) {
-    return json.is_object() ? json.value(name, Json()) : Json();
-  };
+}
+
+Json member(const Json& json, const char* name) { return json.is_object() ? json.value(name, Json()) : Json(); }
+
+}  // namespace
+
+ImportOptions stated_in(const std::string& text) {
+  const Json json = options_in(text);
+  ImportOptions options;
+  for (const char* const up : up_axis_names) {
+    if (member(json, "up") == Json(up)) options.up = parse_up_axis(up);
+  }
+  for (const char* const unit : length_unit_names) {
+    const LengthUnit length = parse_length_unit(unit);
+    if (member(json, "metres_per_unit") == Json(metres_per(length))) options.unit = length;
+  }
+  for (const Json& pattern : member(json, "ignore")) {
+    if (pattern.is_string()) options.ignore.push_back(pattern.get<std::string>());
+  }
+  return options;
+}
+
+// Lenient: the result is compared with the text.
+void read_as(const std::string& text, ImportOptions& options) {
+  const auto now = Json::parse(text_of(options));
+  const Json then = options_in(text);
+  const bool known = !then.is_null();
+  const ImportOptions stated = stated_in(text);
   ImportOptions read = options;
-  read.up.reset();
-  for (const UpAxis up : {UpAxis::x, UpAxis::y, UpAxis::z, UpAxis::minus_x, UpAxis::minus_y, UpAxis::minus_z}) {
-    if (member(then, "up") == Json(to_string(up))) read.up = up;
-  }
-  for (const LengthUnit unit : {LengthUnit::m, LengthUnit::cm, LengthUnit::mm, LengthUnit::ft, LengthUnit::in}) {
-    if (member(then, "metres_per_unit") == Json(metres_per(unit))) read.unit = unit;
-  }
-  read.ignore.clear();
-  for (const Json& pattern : member(then, "ignore")) {
-    if (pattern.is_string()) read.ignore.push_back(pattern.get<std::string>());
-  }
+  read.up = stated.up;
+  read.unit = stated.unit;
+  read.ignore = stated.ignore;
   // Only the user decides which folders a scene may refer to, never a store.
   if (known && member(then, "allow") != member(now, "allow")) {
     throw Error("the store was built with other folders allowed (--allow): repair it with the same");

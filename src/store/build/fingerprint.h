@@ -23,6 +23,8 @@ namespace roam::store {
 
 /// The import options as text: the same text gives the same triangles from the same files.
 [[nodiscard]] std::string text_of(const ImportOptions& options);
+/// Up axis, unit and ignored objects in such a text; the defaults where it has none. Accepts any text.
+[[nodiscard]] ImportOptions stated_in(const std::string& text);
 /// The reverse: sets `options` from the text. Throws roam::Error for a text that text_of did not write.
 void read_as(const std::string& text, ImportOptions& options);
 

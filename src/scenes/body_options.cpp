@@ -1,0 +1,58 @@
+#include "scenes/body_options.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+
+namespace roam::app {
+
+double default_height(double radius, bool sphere) {
+  const double least = 2.0 * radius;
+  return sphere ? least : std::max(WalkerSettings{}.height, least);
+}
+
+BodySizes sizes_of(const RecordedBody& recorded) {
+  const WalkerSettings& s = recorded.settings;
+  return {s.radius, s.height, s.eye, s.step, s.slope_degrees, s.support_radius};
+}
+
+BodySizes sizes_of(const Profile& profile) {
+  return {profile.radius, profile.height, std::nullopt, profile.step, profile.slope_degrees, profile.support_radius};
+}
+
+void add_sphere_to(CLI::App& verb, bool& sphere) {
+  verb.add_flag("--sphere", sphere, "A sphere instead of a person")->excludes("--height");
+}
+
+void BodyOptions::add_to(CLI::App& verb) {
+  // The ranges are those of check(WalkerSettings).
+  verb.add_option("--radius", radius, "Radius (default: as trained, or 0.3)")->type_name("R");
+  verb.add_option("--height", height, "Whole height (default: as trained, or a person's 1.8, but at least 2 R)")
+      ->type_name("H");
+  add_sphere_to(verb, sphere);
+  verb.add_option("--support-radius", support_radius,
+                  "Radius of the support disc, which carries the body over cracks (default: as trained, or none)")
+      ->type_name("RS");
+  verb.add_option("--eye", eye, "Height of the camera above the body's lowest point (default: 1.6, at most H - R)")
+      ->type_name("E");
+  verb.add_option("--step", step, "Highest step (stair, kerb) that the body climbs (default: 0.3, at most H / 2)")
+      ->type_name("M");
+  verb.add_option("--slope", slope, "Slope that the body climbs, in degrees (default: 45)")->type_name("DEG");
+}
+
+WalkerSettings body_of(const BodyOptions& options, const BodySizes& known) {
+  const BodySizes body = options.describe_a_body() ? BodySizes{} : known;
+  WalkerSettings s;
+  s.radius = options.radius.value_or(body.radius.value_or(s.radius));
+  s.height = options.height.value_or(body.height.value_or(default_height(s.radius, options.sphere)));
+  const auto fitted = [&](double value, double most) { return options.height ? std::min(value, most) : value; };
+  // On the axis, the camera is a radius away from every surface.
+  const double on_axis = std::max(std::min(s.eye, s.height - s.radius), 0.0);
+  s.eye = options.eye.value_or(body.eye ? fitted(*body.eye, s.height) : on_axis);
+  const double highest = 0.5 * s.height;
+  s.step = options.step.value_or(body.step ? fitted(*body.step, highest) : std::min(s.step, highest));
+  s.slope_degrees = options.slope.value_or(body.slope.value_or(s.slope_degrees));
+  s.support_radius = options.support_radius.value_or(body.support_radius.value_or(s.support_radius));
+  return s;
+}
+
+}  // namespace roam::app

@@ -1,0 +1,14 @@
+#pragma once
+/// \file
+/// The frame of a scene in plain words.
+
+#include <string>
+
+#include "roam/scene_frame.h"
+
+namespace roam::words {
+
+/// The note on ImportReport::likely_up, with the option that applies it. `scene`: the file names, printable.
+[[nodiscard]] std::string likely_up(const std::string& scene, UpAxis axis);
+
+}  // namespace roam::words
