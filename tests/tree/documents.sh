@@ -6,11 +6,11 @@
 # Checked are README.md, SECURITY.md, CONTRIBUTING.md, CHANGELOG.md and docs/**/*.md:
 #   - a relative link leads to a file or folder, and its #anchor to a heading, by GitHub's rules for anchors;
 #   - docs/NAME.md in code, tests and CMake files exists, and so does the heading in: docs/NAME.md, "Heading";
-#   - README.md and docs have at most 28,000 words together;
+#   - README.md and docs have at most 34,000 words together;
 #   - a line has at most 120 columns, without the targets of its links, unless it is code or a table.
 set -euo pipefail
 export LC_ALL=C  # awk counts bytes then, whichever awk it is
-most_words=28000
+most_words=34000
 
 # documents: their names, one a line.
 documents() {
@@ -185,7 +185,7 @@ planted docs/deep/cellar.md '[gone](rooms.md)' 'there is no docs/deep/rooms.md'
 planted src/house.h '// docs/gone.md' 'src/house.h:2 mentions docs/gone.md, which is not there'
 planted src/house.h '// docs/rooms.md, "Gone"' 'there is no such heading'
 planted README.md "$(printf 'x%.0s' {1..121})" 'README.md:13 has 121 columns'
-planted docs/deep/cellar.md "$(yes word | head -28000)" 'more than 28000'
+planted docs/deep/cellar.md "$(yes word | head -34000)" 'more than 34000'
 # As long as a line may be, with letters of two bytes and a link.
 echo "$(printf 'ü%.0s' {1..114}) [up](../README.md)" >> docs/rooms.md
 check .
