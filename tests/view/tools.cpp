@@ -16,6 +16,7 @@ class Tooled : public view_stores::Driven {
  public:
   explicit Tooled(bool has_store = false) {
     write_scene();
+    options.size = "640x360";  // the panel of the status leaves room for the plan
     options.at = {10, 0, 0.95, 0};
     if (has_store) build();
     begin();
@@ -27,7 +28,9 @@ class Tooled : public view_stores::Driven {
     session->stage().draw();  // one clicks on what one sees
     const osgGA::GUIEventAdapter& now = *events().getCurrentEventState();
     const float across = 0.5f * (1 + static_cast<float>(x)) * (now.getXmax() - now.getXmin()) + now.getXmin();
-    const float up = 0.5f * (1 + static_cast<float>(y)) * (now.getYmax() - now.getYmin()) + now.getYmin();
+    const bool upwards = now.getMouseYOrientation() == osgGA::GUIEventAdapter::Y_INCREASING_UPWARDS;
+    const float height = static_cast<float>(upwards ? y : -y);
+    const float up = 0.5f * (1 + height) * (now.getYmax() - now.getYmin()) + now.getYmin();
     for (int i = 0; i < times; ++i) {
       events().mouseButtonPress(across, up, 1);
       events().mouseButtonRelease(across, up, 1);
