@@ -20,21 +20,36 @@ class Hud::Panels : public osg::NodeCallback {
   std::string message;
   Tone tone = Tone::info;
   std::optional<double> progress;
+  std::string hint, recording;
+  std::vector<HudLabel> labels;
+  double hint_opacity = 1.0;
   std::vector<HelpLine> help;
   bool help_shown = false;
   Detail detail = Detail::full;
   bool crosshair = true;
   bool status_changed = true, message_changed = true, help_changed = true, crosshair_changed = true;
+  bool hint_changed = true, recording_changed = true, labels_changed = true;
 
   /// Adds the nodes, from the lowest to the topmost.
   void add_to(osg::Group& group) {
-    for (osg::Node* node : {static_cast<osg::Node*>(crosshair_.get()), status_panel_.node(),
-                            static_cast<osg::Node*>(message_.get()), static_cast<osg::Node*>(help_.get())}) {
+    for (osg::Node* node :
+         {static_cast<osg::Node*>(labels_.get()), static_cast<osg::Node*>(crosshair_.get()), status_panel_.node(),
+          static_cast<osg::Node*>(message_.get()), static_cast<osg::Node*>(recording_.get()),
+          static_cast<osg::Node*>(help_.get()), static_cast<osg::Node*>(hint_.get())}) {
       group.addChild(node);
     }
   }
 
-  void change_all() { status_changed = message_changed = help_changed = crosshair_changed = true; }
+  void change_all() {
+    status_changed = message_changed = help_changed = crosshair_changed = hint_changed = recording_changed = true;
+    labels_changed = true;
+  }
+  /// Hides everything but the hint, or no longer.
+  void set_off(bool off) {
+    const osg::Node::NodeMask mask = off ? 0u : ~0u;
+    status_panel_.node()->setNodeMask(mask);
+    for (const auto& group : {labels_, crosshair_, message_, recording_, help_}) group->setNodeMask(mask);
+  }
 
   [[nodiscard]] std::vector<StatusLine> status_shown() const {
     if (help_shown) return {};  // the help takes its place
@@ -48,6 +63,10 @@ class Hud::Panels : public osg::NodeCallback {
     const Page page = Page::of(static_cast<float>(viewport.width()), static_cast<float>(viewport.height()));
     if (page != page_) change_all();
     page_ = page;
+    if (hint_changed) {
+      show_only(*hint_, hint.empty() ? nullptr : make_hint(page_, hint, hint_opacity, plates_.get()));
+      hint_changed = false;
+    }
     if (detail != Detail::off) lay_out();
     traverse(node, visitor);
   }
@@ -67,7 +86,12 @@ class Hud::Panels : public osg::NodeCallback {
     }
     if (help_changed) show_only(*help_, help_shown ? make_help(page_, help, plates) : nullptr);
     if (crosshair_changed) show_only(*crosshair_, crosshair && !help_shown ? make_crosshair(page_, plates) : nullptr);
-    status_changed = message_changed = help_changed = crosshair_changed = false;
+    if (labels_changed) show_only(*labels_, help_shown ? nullptr : make_labels(page_, labels, plates));
+    if (recording_changed) {
+      show_only(*recording_, recording.empty() ? nullptr : make_recording(page_, recording, plates));
+    }
+    status_changed = message_changed = help_changed = crosshair_changed = recording_changed = false;
+    labels_changed = false;
   }
 
   osg::ref_ptr<osg::Camera> picture_;
@@ -75,6 +99,7 @@ class Hud::Panels : public osg::NodeCallback {
   osg::ref_ptr<osg::StateSet> plates_ = plate_state();
   StatusPanel status_panel_{plates_};
   osg::ref_ptr<osg::Group> message_ = new osg::Group, help_ = new osg::Group, crosshair_ = new osg::Group;
+  osg::ref_ptr<osg::Group> hint_ = new osg::Group, recording_ = new osg::Group, labels_ = new osg::Group;
 };
 
 Hud::Hud(Frame& frame) : panels_(new Panels(frame.flat())), parent_(frame.flat()), group_(new osg::Group) {
@@ -111,6 +136,25 @@ void Hud::set_progress(double share) {
   panels_->message_changed = true;
 }
 
+void Hud::set_hint(std::string text, double opacity) {
+  if (text == panels_->hint && opacity == panels_->hint_opacity) return;
+  panels_->hint = std::move(text);
+  panels_->hint_opacity = opacity;
+  panels_->hint_changed = true;
+}
+
+void Hud::set_recording(std::string text) {
+  if (text == panels_->recording) return;
+  panels_->recording = std::move(text);
+  panels_->recording_changed = true;
+}
+
+void Hud::set_labels(std::vector<HudLabel> labels) {
+  if (labels == panels_->labels) return;
+  panels_->labels = std::move(labels);
+  panels_->labels_changed = true;
+}
+
 void Hud::set_help(std::vector<HelpLine> lines) {
   if (lines == panels_->help) return;
   panels_->help = std::move(lines);
@@ -129,7 +173,7 @@ void Hud::set_detail(Detail detail) {
   if (detail == panels_->detail) return;
   panels_->detail = detail;
   panels_->change_all();
-  group_->setNodeMask(detail == Detail::off ? 0u : ~0u);
+  panels_->set_off(detail == Detail::off);
 }
 
 Detail Hud::detail() const { return panels_->detail; }
@@ -142,12 +186,16 @@ void Hud::set_crosshair(bool shown) {
 
 std::string Hud::text() const {
   std::string all;
-  if (panels_->detail == Detail::off) return all;
+  const std::string hint = panels_->hint.empty() ? std::string() : panels_->hint + '\n';
+  if (panels_->detail == Detail::off) return hint;
   for (const StatusLine& line : panels_->status_shown()) {
     all += line.label.empty() ? line.value : line.label + ": " + line.value;
     all += '\n';
   }
+  if (!panels_->recording.empty()) all += "recording: " + panels_->recording + '\n';
   if (!panels_->message.empty()) all += panels_->message + '\n';
+  all += hint;
+  for (const HudLabel& label : panels_->labels) all += label.text + '\n';
   if (panels_->help_shown) {
     for (const auto& [key, deed] : panels_->help) all += (deed.empty() ? key : key + ": " + deed) + '\n';
   }

@@ -21,7 +21,7 @@
 namespace roam::graphics {
 
 /// Amount of display. full: status, message, crosshair. minimal: the first status line, message,
-/// crosshair. off: nothing, not even help.
+/// crosshair. off: nothing, not even help; only a hint.
 enum class Detail : std::uint8_t { full, minimal, off };
 /// Kind of a text. A warning is amber with a bar at its side; an info is white.
 enum class Tone : std::uint8_t { info, warning };
@@ -38,6 +38,13 @@ struct StatusLine {
 /// A key and its effect. With an empty second string: a heading.
 using HelpLine = std::pair<std::string, std::string>;
 
+/// A text on the picture, centred above a point. Pixels from the lower left corner.
+struct HudLabel {
+  std::string text;
+  float x = 0, y = 0;
+  bool operator==(const HudLabel&) const = default;
+};
+
 /// The head-up display of a frame. Use it between frames, from the thread that calls viewer.frame(), in any threading
 /// model.
 class Hud {
@@ -53,6 +60,12 @@ class Hud {
   void set_message(std::string text, Tone tone = Tone::info);
   /// A bar below the message for progress in [0, 1]; negative: none.
   void set_progress(double share);
+  /// A sentence above the middle, in any detail; empty: none. `opacity` in [0, 1].
+  void set_hint(std::string text, double opacity = 1.0);
+  /// Beside a red dot at the upper right; empty: nothing.
+  void set_recording(std::string text);
+  /// Texts below all other parts of the display.
+  void set_labels(std::vector<HudLabel> labels);
   /// From about 480 x 360 pixels on, all lines are visible. In smaller windows only the first ones are, with a line
   /// that says so.
   void set_help(std::vector<HelpLine> lines);
@@ -63,7 +76,8 @@ class Hud {
   [[nodiscard]] Detail detail() const;
   void set_crosshair(bool shown);  ///< default true
 
-  /// All visible text, line by line: "label: value", the message, "key: effect". Empty if off.
+  /// All visible text, line by line: "label: value", "recording: ...", the message, the hint, the labels, "key:
+  /// effect".
   [[nodiscard]] std::string text() const;
 
  private:

@@ -13,6 +13,7 @@ const osg::Vec4 text_color(1.0f, 1.0f, 1.0f, 1.0f);
 const osg::Vec4 label_color(0.72f, 0.79f, 0.86f, 1.0f);
 const osg::Vec4 warning_color(1.0f, 0.83f, 0.40f, 1.0f);
 const osg::Vec4 accent_color(0.52f, 0.80f, 1.0f, 1.0f);
+const osg::Vec4 recording_color(0.95f, 0.20f, 0.22f, 1.0f);
 const osg::Vec4 groove_color(0.96f, 0.97f, 0.98f, 0.18f);
 const osg::Vec4 rim_color(0.0f, 0.0f, 0.0f, 0.55f);
 
@@ -204,6 +205,59 @@ osg::ref_ptr<osg::Node> make_message(const Page& page, const std::string& text, 
     group->addChild(plate(plates, groove, bar, groove_color));
     groove.width *= share;
     if (groove.width >= 1) group->addChild(plate(plates, groove, bar, accent_color));
+  }
+  return group;
+}
+
+osg::ref_ptr<osg::Node> make_hint(const Page& page, const std::string& text, double opacity, osg::StateSet* plates) {
+  osg::ref_ptr<osg::Group> group = new osg::Group;
+  const auto faded = [&](osg::Vec4 color) {
+    color.a() *= static_cast<float>(std::clamp(opacity, 0.0, 1.0));
+    return color;
+  };
+  const Look look{static_cast<int>(std::lround(1.15f * static_cast<float>(page.letter))), false, faded(text_color)};
+  const std::string words = shorten(text, look, page.width - 4 * page.margin);
+  const float width = width_of(words, look), line = std::round(1.45f * static_cast<float>(look.size));
+  Rectangle panel;
+  panel.width = std::round(width + 2 * page.margin);
+  panel.height = std::round(line + page.margin);
+  panel.x = std::round(0.5f * (page.width - panel.width));
+  panel.y = std::round(0.56f * page.height);
+  group->addChild(plate(plates, panel, 0.5f * page.margin, faded(panel_color)));
+  const float y = panel.y + panel.height - 0.5f * page.margin - std::round(1.08f * static_cast<float>(look.size));
+  group->addChild(make_text(words, look, std::round(panel.x + page.margin), std::round(y)));
+  return group;
+}
+
+osg::ref_ptr<osg::Node> make_recording(const Page& page, const std::string& text, osg::StateSet* plates) {
+  osg::ref_ptr<osg::Group> group = new osg::Group;
+  const Look look{page.letter, false, text_color};
+  const float dot = std::round(0.75f * static_cast<float>(page.letter)), pad = page.margin;
+  // The width changes in steps, because a panel that follows each digit is restless.
+  const float width = up_to(width_of(text, look), 3.0f * static_cast<float>(page.letter));
+  Rectangle panel;
+  panel.width = std::round(width + dot + 2.5f * pad);
+  panel.height = page.line + std::round(0.8f * pad);
+  panel.x = std::round(page.width - page.margin - panel.width);
+  panel.y = std::round(page.height - page.margin - panel.height);
+  group->addChild(plate(plates, panel, 0.5f * pad, panel_color));
+  const Rectangle mark{panel.x + pad, std::round(panel.y + 0.5f * (panel.height - dot)), dot, dot};
+  group->addChild(plate(plates, mark, 0.5f * dot, recording_color));
+  const float base = std::round(panel.y + 0.5f * panel.height - 0.36f * static_cast<float>(look.size));
+  group->addChild(make_text(text, look, std::round(mark.x + dot + 0.5f * pad), base));
+  return group;
+}
+
+osg::ref_ptr<osg::Node> make_labels(const Page& page, const std::vector<HudLabel>& labels, osg::StateSet* plates) {
+  osg::ref_ptr<osg::Group> group = new osg::Group;
+  const Look look{page.letter, true, text_color};
+  for (const HudLabel& label : labels) {
+    const float pad = std::round(0.4f * page.margin), width = width_of(label.text, look);
+    const Rectangle panel{std::round(label.x - 0.5f * width - pad), std::round(label.y + pad), width + 2 * pad,
+                          page.line};
+    group->addChild(plate(plates, panel, 0.3f * page.margin, panel_color));
+    const float base = std::round(panel.y + 0.5f * panel.height - 0.36f * static_cast<float>(look.size));
+    group->addChild(make_text(label.text, look, panel.x + pad, base));
   }
   return group;
 }

@@ -66,6 +66,16 @@ class StatusPanel {
 [[nodiscard]] osg::ref_ptr<osg::Node> make_message(const Page& page, const std::string& text, Tone tone,
                                                    std::optional<double> progress, osg::StateSet* plates);
 
+/// A sentence above the middle, over the crosshair.
+[[nodiscard]] osg::ref_ptr<osg::Node> make_hint(const Page& page, const std::string& text, double opacity,
+                                                osg::StateSet* plates);
+
+/// A red dot and a text at the upper right.
+[[nodiscard]] osg::ref_ptr<osg::Node> make_recording(const Page& page, const std::string& text, osg::StateSet* plates);
+
+[[nodiscard]] osg::ref_ptr<osg::Node> make_labels(const Page& page, const std::vector<HudLabel>& labels,
+                                                  osg::StateSet* plates);
+
 /// The keys, over the whole picture. Uses as many columns, as small letters and as many breaks as needed to fit. If
 /// they still do not fit, shows the first of them and "… enlarge the window".
 [[nodiscard]] osg::ref_ptr<osg::Node> make_help(const Page& page, const std::vector<HelpLine>& lines,

@@ -16,6 +16,7 @@ namespace {
 const osg::Vec4 body_color(0.35f, 0.80f, 1.0f, 0.9f);
 const osg::Vec4 held_color(1.0f, 0.66f, 0.20f, 0.95f);
 const osg::Vec4 contact_color(1.0f, 0.25f, 0.30f, 1.0f);
+const osg::Vec4 measure_color(0.95f, 0.15f, 0.75f, 1.0f);
 const osg::Vec4 triangle_color(1.0f, 0.72f, 0.20f, 0.95f);
 const osg::Vec4 face_color(1.0f, 0.72f, 0.20f, 0.28f);
 constexpr double normal_length = 0.3, cross_size = 0.05;  // metres
@@ -102,13 +103,17 @@ void draw_body(const BodyMark& body, Strokes& lines) {
   }
 }
 
-void draw_contact(const ContactMark& contact, Strokes& lines) {
-  lines.line(contact.point, contact.point + normal_length * contact.normal, contact_color);
+void draw_cross(const Vec3& point, const osg::Vec4& color, Strokes& lines) {
   for (int k = 0; k < 3; ++k) {
     Vec3 arm(0.0);
     arm[k] = cross_size;
-    lines.line(contact.point - arm, contact.point + arm, contact_color);
+    lines.line(point - arm, point + arm, color);
   }
+}
+
+void draw_contact(const ContactMark& contact, Strokes& lines) {
+  lines.line(contact.point, contact.point + normal_length * contact.normal, contact_color);
+  draw_cross(contact.point, contact_color, lines);
 }
 
 void draw_triangle(const std::array<Vec3, 3>& corners, Strokes& lines, Strokes& faces) {
@@ -158,6 +163,8 @@ void Overlay::set_marks(const Marks& marks) {
   if (marks.body) draw_body(*marks.body, lines);
   for (const ContactMark& contact : marks.contacts) draw_contact(contact, lines);
   for (const std::array<Vec3, 3>& triangle : marks.triangles) draw_triangle(triangle, lines, faces);
+  for (const auto& [from, to] : marks.lines) lines.line(from, to, measure_color);
+  for (const Vec3& point : marks.points) draw_cross(point, measure_color, lines);
   marks_->removeChildren(0, marks_->getNumChildren());
   faces.add_to(*marks_);
   lines.add_to(*marks_);

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Collision data drawn in the scene: body, contacts and triangles.
+/// Collision data drawn in the scene: body, contacts, triangles, measured points and lines.
 ///
 /// Walls do not hide it completely: hidden parts are drawn faintly. All positions are in the frame of the scene graph,
 /// which is the scene minus one origin; subtract that from positions in the scene.
@@ -8,6 +8,7 @@
 #include <array>
 #include <optional>
 #include <osg/ref_ptr>
+#include <string>
 #include <vector>
 
 #include "graphics/frame.h"
@@ -29,11 +30,20 @@ struct ContactMark {
   Vec3 normal{0.0};  ///< away from the wall, length 1; drawn 0.3 m long
 };
 
+/// A text at a place. The overlay does not draw it: see Hud::set_labels().
+struct LabelMark {
+  Vec3 at{0.0};  ///< metres, scene minus origin
+  std::string text;
+};
+
 /// The marks to draw. Empty by default.
 struct Marks {
   std::optional<BodyMark> body{};
   std::vector<ContactMark> contacts{};
   std::vector<std::array<Vec3, 3>> triangles{};  ///< corners, metres, scene minus origin
+  std::vector<std::array<Vec3, 2>> lines{};      ///< measured lengths: ends, metres, scene minus origin
+  std::vector<Vec3> points{};                    ///< measured points, metres, scene minus origin
+  std::vector<LabelMark> labels{};
 };
 
 /// Draws marks in a frame. Use it from the thread that calls viewer.frame(), between frames.

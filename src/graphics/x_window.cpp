@@ -30,6 +30,14 @@ class XWindow : public osgViewer::GraphicsWindowX11 {
     XSetClassHint(_display, _window, &hint);
   }
 
+  /// Makes the window grey until the first frame is drawn; it would be black.
+  void paint_grey() {
+    constexpr unsigned long grey = 0x737D87;  // as Frame's background; visuals for OpenGL have 8 bits a colour
+    XSetWindowBackground(_display, _window, grey);
+    XClearWindow(_display, _window);
+    XFlush(_display);
+  }
+
  protected:
   /// Closes here: the server would end before the base class closes, and Xlib ends programs whose server has gone.
   ~XWindow() override { close(true); }
@@ -98,6 +106,7 @@ osg::ref_ptr<osgViewer::GraphicsWindow> open_x_window(const XWindowWish& wish, o
                 "card, or Mesa's (Debian: libgl1-mesa-dri)");
   }
   window->set_class();
+  window->paint_grey();
   return window;
 }
 

@@ -14,6 +14,7 @@
 #include <fstream>
 #include <functional>
 #include <iostream>
+#include <memory>
 #include <string>
 #include <thread>
 
@@ -21,6 +22,10 @@
 #include "graphics_stage.h"
 #include "process/child.h"
 #include "process/find_program.h"
+
+// Last: their macros take names that others use.
+#include <X11/Xlib.h>
+#include <X11/Xutil.h>
 
 namespace roam::test {
 namespace {
@@ -184,6 +189,28 @@ TEST(GraphicsContext, AWindowOpensOnTheDisplay) {
     ASSERT_TRUE(taken);
     EXPECT_EQ(taken->s(), 400);
     EXPECT_EQ(taken->t(), 300);
+  }
+  unsetenv("DISPLAY");
+}
+
+TEST(GraphicsContext, AWindowIsGreyUntilItsFirstFrame) {
+  const osg::ref_ptr<graphics::Xvfb> xvfb = new graphics::Xvfb(800, 600);
+  const std::string name = std::string(":").append(std::to_string(xvfb->display()));
+  setenv("DISPLAY", name.c_str(), 1);
+  {
+    const graphics::Context context = graphics::open_window("a title", 400, 300);
+    const std::unique_ptr<Display, int (*)(Display*)> display(XOpenDisplay(name.c_str()), XCloseDisplay);
+    ASSERT_TRUE(display);
+    unsigned long pixel = 0;
+    for (int i = 0; i < 100 && pixel == 0; ++i) {
+      const std::unique_ptr<XImage, int (*)(XImage*)> image(
+          XGetImage(display.get(), DefaultRootWindow(display.get()), 400, 300, 1, 1, AllPlanes, ZPixmap),
+          [](XImage* one) { return XDestroyImage(one); });
+      ASSERT_TRUE(image);
+      pixel = XGetPixel(image.get(), 0, 0) & 0xFFFFFF;
+      std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    }
+    EXPECT_EQ(pixel, 0x737D87u);
   }
   unsetenv("DISPLAY");
 }

@@ -346,6 +346,64 @@ TEST(GraphicsHud, DetailSaysHowMuchIsDrawn) {
   EXPECT_GT(shown_in(stage).pixels, full);
 }
 
+TEST(GraphicsHud, AHintIsSeenInEveryDetailAndFades) {
+  Stage stage(640, 360);
+  Hud hud(stage.frame);
+  hud.set_crosshair(false);
+  hud.set_detail(Detail::off);
+  hud.set_hint("H: help");
+  EXPECT_EQ(hud.text(), "H: help\n");
+  const auto without = stage.picture(false);
+  const auto darkest = [&] {
+    const auto with = stage.picture(true);
+    int most = 0;
+    for (int y = 0; y < 360; ++y) {
+      for (int x = 0; x < 640; ++x) most = std::max(most, at(*without, x, y).distance(at(*with, x, y)));
+    }
+    return most;
+  };
+  const int whole = darkest();
+  hud.set_hint("H: help", 0.3);
+  const int faded = darkest();
+  EXPECT_GT(whole, 50);
+  EXPECT_GT(faded, 5);
+  EXPECT_LT(faded, whole / 2);
+  hud.set_hint({});
+  EXPECT_EQ(shown_in(stage).pixels, 0);
+}
+
+TEST(GraphicsHud, ARecordingIsARedDotAtTheUpperRight) {
+  Stage stage(640, 360);
+  Hud hud(stage.frame);
+  hud.set_crosshair(false);
+  hud.set_recording("12.4 m, 34 s");
+  EXPECT_EQ(hud.text(), "recording: 12.4 m, 34 s\n");
+  const Region mark = shown_in(stage);
+  EXPECT_GT(mark.left, 400);
+  EXPECT_GT(mark.bottom, 300);
+  const auto picture = stage.picture(true);
+  int red = 0;
+  for (int y = mark.bottom; y < mark.top; ++y) {
+    for (int x = mark.left; x < mark.right; ++x) {
+      const Pixel p = at(*picture, x, y);
+      red += p.r > 150 && p.g < 90 && p.b < 90;
+    }
+  }
+  EXPECT_GT(red, 30);
+}
+
+TEST(GraphicsHud, LabelsStandAboveTheirPoints) {
+  Stage stage(640, 360);
+  Hud hud(stage.frame);
+  hud.set_crosshair(false);
+  hud.set_labels({{"3.214 m", 200, 100}});
+  EXPECT_EQ(hud.text(), "3.214 m\n");
+  const Region label = shown_in(stage);
+  EXPECT_NEAR(0.5 * (label.left + label.right), 200, 3);
+  EXPECT_GE(label.bottom, 100);
+  EXPECT_LT(label.bottom, 110);
+}
+
 TEST(GraphicsHud, GoesAwayWithItsObject) {
   Stage stage(640, 360);
   {

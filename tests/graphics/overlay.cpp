@@ -134,5 +134,18 @@ TEST(GraphicsOverlay, GoesAwayWithItsObject) {
   EXPECT_EQ(difference(*without, *stage.picture()).pixels, 0);
 }
 
+TEST(GraphicsOverlay, AMeasuredLineIsSeen) {
+  Stage stage(320, 180);
+  stage.add(grey_wall(20));
+  const auto without = stage.picture();
+  Overlay overlay(stage.frame);
+  graphics::Marks marks;
+  marks.lines.push_back({Vec3(-3, 10, 0), Vec3(3, 10, 0)});
+  marks.points.push_back({-3, 10, 0});
+  overlay.set_marks(marks);
+  const double scale = 90 / std::tan(0.5 * 65 * M_PI / 180) / 10;  // pixels a metre at 10 m
+  EXPECT_NEAR(extent(*without, *stage.picture()).width, 6 * scale, 3);
+}
+
 }  // namespace
 }  // namespace roam::test

@@ -39,7 +39,7 @@ TEST(Hold, NamesTheWallAndMeasuresItsOpening) {
   Hold hold;
   const Vec3 wish(1.4, 0, 0);
   for (int i = 0; i < 240; ++i) hold.take(walker, wish, walker.step({.velocity = wish}, 1.0 / 60.0).elapsed);
-  EXPECT_EQ(hold.told().text, "blocked: wall, Door_12, opening 0.50 m for a body of 0.60 m");
+  EXPECT_EQ(hold.told().text, "blocked by Door_12: opening 0.50 m for a body of 0.60 m");
   EXPECT_TRUE(hold.told().warning);
   for (int i = 0; i < 60; ++i) hold.take(walker, {}, walker.step({}, 1.0 / 60.0).elapsed);
   EXPECT_EQ(hold.told().text, "");
@@ -55,7 +55,7 @@ TEST(Hold, ComparesWhatIsTooLowWithTheHeight) {
     const Vec3 wish(1.4, 0, 0);
     for (int i = 0; i < 240; ++i) hold.take(walker, wish, walker.step({.velocity = wish}, 1.0 / 60.0).elapsed);
     // It has crouched to 1.1 m.
-    EXPECT_EQ(hold.told().text, "blocked: wall, beam, opening 0.90 m high for a body of 1.10 m");
+    EXPECT_EQ(hold.told().text, "blocked by beam: opening 0.90 m high for a body of 1.10 m");
   }
 }
 

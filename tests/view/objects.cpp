@@ -111,14 +111,16 @@ TEST_F(ViewObjects, ArrivalOfNothingIsAnError) {
 
 TEST_F(ViewObjects, StoreBuildingHandsOverThePager) {
   StoreBuilding building(what(), ROAM_PROGRAM, *roamer_, news_);
-  building.toggle(nullptr, {8, 0, 1});
+  building.toggle(nullptr, {8, 0, 1}, 12);
+  EXPECT_TRUE(contains(news_.shown().back().text, "again builds the collision store"));
+  building.toggle(nullptr, {8, 0, 1}, 12);
   Status status;
   building.fill(status);
   ASSERT_TRUE(status.building);
   std::shared_ptr<Pager> pager;
   wait_until([&] { return pager != nullptr || (pager = building.take()) != nullptr; });
   EXPECT_TRUE(std::filesystem::exists(folder_.file("scene.obj.roam")));
-  building.toggle(pager.get(), {8, 0, 1});
+  building.toggle(pager.get(), {8, 0, 1}, 12);
   EXPECT_TRUE(contains(news_.shown().back().text, "there is nothing to build"));
 }
 
@@ -131,7 +133,8 @@ TEST_F(ViewObjects, StoreBuildingSaysWhyItFailed) {
         std::pair(std::string("/bin/false"), "the store could not be built: `roam build` ended with status 1"),
         std::pair(folder_.file("absent"), "the store could not be built: cannot start ")}) {
     StoreBuilding building(what(), program, *roamer_, news_);
-    building.toggle(nullptr, {8, 0, 1});
+    building.toggle(nullptr, {8, 0, 1}, 12);
+    building.toggle(nullptr, {8, 0, 1}, 12);
     const std::size_t before = news_.notes().size();
     wait_until([&] {
       building.follow({8, 0, 1});

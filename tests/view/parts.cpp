@@ -15,6 +15,7 @@
 #include "view/settings.h"
 #include "view/status.h"
 #include "view/store_choice.h"
+#include "view/twice.h"
 
 namespace {
 
@@ -54,7 +55,7 @@ TEST(ViewSettings, NameFileAndEntryOfWhatIsWrong) {
   };
   EXPECT_TRUE(contains(error(R"({"mouse": {"sensitivity": "fast"}})"), "\"mouse.sensitivity\" must be a number"));
   EXPECT_TRUE(contains(error(R"({"body": {"radius": -1}})"), "\"body.radius\""));
-  EXPECT_TRUE(contains(error(R"({"hud": "big"})"), "\"hud\" must be \"full\", \"minimal\" or \"off\""));
+  EXPECT_TRUE(contains(error(R"({"hud": "big"})"), "\"hud\" must be \"plain\", \"full\", \"minimal\" or \"off\""));
   EXPECT_TRUE(contains(error(R"({"speeed": 1})"), "\"speeed\" is not known; there are: keys, mouse"));
   EXPECT_TRUE(contains(error(R"({"keys": {"jump": 3}})"), "\"keys.jump\" must be the name of a key"));
   EXPECT_TRUE(contains(error("{"), "is no JSON"));
@@ -346,7 +347,7 @@ TEST(Status, TellsHowLoadingGoesOn) {
 
 TEST(Status, HoldsTheBodyUntilThereIsSomethingToCollideWith) {
   Status status;
-  EXPECT_TRUE(contains(status_message(status).text, "held until the walls are known"));
+  EXPECT_TRUE(contains(status_message(status).text, "Loading the walls; then you can walk."));
   EXPECT_GE(load_share(status.display, status.collision), 0.0);
   status.collision.phase = LoadState::Phase::failed;
   EXPECT_TRUE(contains(status_message(status).text, "passes through walls"));
@@ -357,22 +358,21 @@ TEST(Status, HoldsTheBodyUntilThereIsSomethingToCollideWith) {
 TEST(Status, TellsNewsInFullBelowWhatHolds) {
   Status status;
   status.mode = Mode::walk;
-  status.hold = {"blocked: wall", false};
+  status.hold = {"blocked by a wall", false};
   status.news = {{"written: a.png", false}, {std::string(200, 'x'), true}};
   const Told message = status_message(status);
-  EXPECT_EQ(message.text, "blocked: wall\nwritten: a.png\n" + std::string(200, 'x'));
+  EXPECT_EQ(message.text, "blocked by a wall\nwritten: a.png\n" + std::string(200, 'x'));
   EXPECT_TRUE(message.warning);
 }
 
-TEST(Status, KnowsNoMinusZero) {
-  Status status;
-  status.mode = Mode::walk;
-  status.yaw = -0.3;
-  status.pitch = -0.2;
-  std::string text;
-  for (const StatusText& line : status_lines(status)) text += line.value + "\n";
-  EXPECT_TRUE(contains(text, "0\u00b0, +0\u00b0")) << text;
-  EXPECT_FALSE(contains(text, "-0\u00b0")) << text;
+TEST(Status, GivesBearingsFromNorth) {
+  EXPECT_EQ(heading_text(90.0, 0.2), "0\u00b0 N, level");
+  EXPECT_EQ(heading_text(0.0, -0.2), "90\u00b0 E, level");
+  EXPECT_EQ(heading_text(-122.0, -10.0), "212\u00b0 SW, 10\u00b0 down");
+  EXPECT_EQ(heading_text(90.4, 90.0), "0\u00b0 N, 90\u00b0 up");
+  EXPECT_EQ(heading_text(180.0, 0.0), "270\u00b0 W, level");
+  EXPECT_EQ(heading_text(-180.0, 0.0), "270\u00b0 W, level");
+  EXPECT_EQ(heading_text(112.6, 0.0), "337\u00b0 NW, level");
 }
 
 TEST(Status, SaysModeSpeedBodyAndPlace) {
@@ -380,7 +380,7 @@ TEST(Status, SaysModeSpeedBodyAndPlace) {
   status.mode = Mode::walk;
   status.grounded = true;
   status.speed = 1.4;
-  status.place = {1.0, 2.0, 3.456};
+  status.around.feet = {1.0, 2.0, 3.456};
   status.triangles = 1'970'000;
   std::string text;
   for (const StatusText& line : status_lines(status)) text += line.label + ": " + line.value + "\n";
@@ -388,6 +388,40 @@ TEST(Status, SaysModeSpeedBodyAndPlace) {
   for (const char* part : {"walk  1.4 m/s", "radius 0.30 m, height 1.80 m", "1.00, 2.00, 3.46", "1.97 M"}) {
     EXPECT_TRUE(contains(text, part)) << part << " in\n" << text;
   }
+}
+
+TEST(Status, LeavesFiguresForProgrammersToTheFullDisplay) {
+  Status status;
+  status.mode = Mode::walk;
+  status.triangles = 12;
+  status.frame_ms = 16.0;
+  status.paging.emplace();
+  std::string plain;
+  for (const StatusText& line : status_lines(status)) plain += line.figures ? "" : line.label + "\n";
+  for (const char* label : {"keys", "triangles", "memory", "collision", "frame"}) {
+    EXPECT_FALSE(contains(plain, label)) << label;
+  }
+  status.paging->failed = 1;
+  plain.clear();
+  for (const StatusText& line : status_lines(status)) plain += line.figures ? "" : line.label + "\n";
+  EXPECT_TRUE(contains(plain, "collision")) << "a warning";
+}
+
+TEST(Keys, BeginWithAHint) {
+  osg::ref_ptr<osgRoam::Manipulator> roamer = new osgRoam::Manipulator;
+  set_up(roamer->controls(), {});
+  EXPECT_EQ(first_hint(roamer->controls()), "H: help     W A S D: walk     drag: look");
+  roamer->controls().rebind("help =\nforward = Z\nleft = Q\ndown =\n");
+  EXPECT_EQ(first_hint(roamer->controls()), "Z Q S D: walk     drag: look");
+}
+
+TEST(Twice, ConfirmsWithTheSecondOrderInTime) {
+  Twice twice(3.0);
+  EXPECT_FALSE(twice.confirms(10.0));
+  EXPECT_TRUE(twice.confirms(12.9));
+  EXPECT_FALSE(twice.confirms(13.0)) << "a new question";
+  EXPECT_FALSE(twice.confirms(16.1)) << "too late";
+  EXPECT_TRUE(twice.confirms(16.2));
 }
 
 TEST(Stores, AreOfferedForLargeScenes) {

@@ -47,9 +47,18 @@ struct View {
 
 // ------------------------------------------------------------------------------------------------------- pictures
 
+TEST(ViewPicture, ShowsTheDisplayIfAskedFor) {
+  // The upper left corner: the panel is dark, the ceiling is light.
+  const auto corner = [](const View& view) { return view.picture().at(12, 180).length(); };
+  View clean, full;
+  clean.shot({});
+  full.shot({"--hud", "full"});
+  EXPECT_LT(corner(full) + 0.2f, corner(clean));
+}
+
 TEST(ViewPicture, ShowsTheSceneAndTheDisplay) {
   View view;
-  view.shot({});
+  view.shot({"--hud", "full"});
   ASSERT_EQ(view.result.status, 0) << view.result.err;
   EXPECT_EQ(view.picture().width(), 320);
   EXPECT_EQ(view.picture().height(), 200);
@@ -64,7 +73,7 @@ TEST(ViewPicture, ShowsTheSceneAndTheDisplay) {
   EXPECT_EQ(report["triangles"], 12);
   EXPECT_EQ(report["mode"], "walk");
   EXPECT_EQ(report["height"], 1.8);
-  for (const char* part : {"walk", "radius 0.30 m", "place", "memory", "collision"}) {
+  for (const char* part : {"walk", "radius 0.30 m", "feet", "memory", "collision"}) {
     EXPECT_TRUE(contains(all(report["hud"]), part)) << part;
   }
   // In a closed room there is no sky, and nothing but sky above its roof.
@@ -140,7 +149,7 @@ TEST(ViewPath, ThatIsBlockedAnswersNoAndSaysByWhat) {
   EXPECT_EQ(view.result.status, 3) << view.result.err;
   EXPECT_EQ(view.json()["outcome"], "blocked");
   EXPECT_EQ(view.json()["blocked_at"]["object"], "front");
-  EXPECT_TRUE(contains(all(view.json()["hud"]), "blocked: wall, front")) << view.json()["hud"];
+  EXPECT_TRUE(contains(all(view.json()["hud"]), "blocked by front")) << view.json()["hud"];
   view.run({"--headless", "--path", path});
   EXPECT_TRUE(contains(view.result.out, "blocked: at (19.")) << view.result.out;
   EXPECT_TRUE(contains(view.result.out, "by \"front\" (triangle ")) << view.result.out;

@@ -48,7 +48,7 @@ TEST(Session, WalksWhileAKeyIsDownAndStopsAtTheWall) {
   EXPECT_NEAR(d.place().x, 12.8, 0.2);  // 1.4 m/s
   d.run(8.0);
   EXPECT_NEAR(d.place().x, 19.7, 0.01);
-  EXPECT_TRUE(contains(d.hud(), "blocked: wall, front")) << d.hud();
+  EXPECT_TRUE(contains(d.hud(), "blocked by front")) << d.hud();
   d.release('w');
   d.run(1.0);
   EXPECT_FALSE(contains(d.hud(), "blocked")) << d.hud();
@@ -119,9 +119,28 @@ TEST(Session, EscapeClosesTheHelpFirst) {
   d.tap('h');
   d.tap(osgGA::GUIEventAdapter::KEY_Escape);
   EXPECT_FALSE(d.session->stage().hud().help_shown());
+  d.tap(osgGA::GUIEventAdapter::KEY_Escape);
+  EXPECT_TRUE(contains(d.hud(), "Escape again ends")) << d.hud();
   d.press(osgGA::GUIEventAdapter::KEY_Escape);
   d.run(1.0 / 60.0);
   d.release(osgGA::GUIEventAdapter::KEY_Escape);
+  EXPECT_FALSE(d.session->frame());
+}
+
+TEST(Session, ForgetsAnEscapeThatNoOtherFollows) {
+  Driven d(room_obj(), {10, 0, 0.95, 0});
+  d.tap(osgGA::GUIEventAdapter::KEY_Escape);
+  d.run(4.0);
+  EXPECT_FALSE(contains(d.hud(), "Escape")) << d.hud();
+  d.tap(osgGA::GUIEventAdapter::KEY_Escape);
+  EXPECT_TRUE(contains(d.hud(), "Escape again ends"));
+}
+
+TEST(Session, EndsAtOnceByCtrlQ) {
+  Driven d(room_obj(), {10, 0, 0.95, 0});
+  d.press(osgGA::GUIEventAdapter::KEY_Control_L);
+  d.press('q');
+  d.release('q');
   EXPECT_FALSE(d.session->frame());
 }
 
@@ -138,12 +157,12 @@ TEST(Session, ShowsNoSpeedOfABodyThatWasPutSomewhere) {
 
 TEST(Session, TakesTheKeysOfTheSettings) {
   ViewSettings settings;
-  settings.keys = {{"forward", {"T"}}};
+  settings.keys = {{"forward", {"J"}}};
   Driven d(room_obj(), {10, 0, 0.95, 0}, settings);
   d.press('w');
   d.run(1.0);
   EXPECT_NEAR(d.place().x, 10.0, 1e-6);
-  d.press('t');
+  d.press('j');
   d.run(1.0);
   EXPECT_GT(d.place().x, 11.0);
 }
@@ -163,17 +182,43 @@ TEST(Session, HomeReturnsToTheStart) {
 
 TEST(Session, CyclesTheDisplayAndShowsTheHelp) {
   Driven d(room_obj(), {10, 0, 0.95, 0});
-  EXPECT_TRUE(contains(d.hud(), "place"));
+  EXPECT_TRUE(contains(d.hud(), "feet"));
+  EXPECT_FALSE(contains(d.hud(), "memory"));
   d.tap('h');
   EXPECT_TRUE(contains(d.hud(), "goes to what was clicked"));
   EXPECT_TRUE(contains(d.hud(), "keeps this place as a bookmark"));
   d.tap('h');
   EXPECT_FALSE(contains(d.hud(), "bookmark"));
   d.tap(osgGA::GUIEventAdapter::KEY_F1);
-  EXPECT_FALSE(contains(d.hud(), "place"));
+  EXPECT_TRUE(contains(d.hud(), "memory") && contains(d.hud(), "display: all figures")) << d.hud();
+  d.tap(osgGA::GUIEventAdapter::KEY_F1);
+  EXPECT_FALSE(contains(d.hud(), "feet"));
   EXPECT_TRUE(contains(d.hud(), "walk"));
   d.tap(osgGA::GUIEventAdapter::KEY_F1);
+  EXPECT_EQ(d.hud(), "display: none\n");
+  d.run(2.0);
   EXPECT_EQ(d.hud(), "");
+  d.tap(osgGA::GUIEventAdapter::KEY_F1);
+  EXPECT_TRUE(contains(d.hud(), "feet"));
+}
+
+TEST(Session, SaysWhereTheFeetAreAndWhatIsAhead) {
+  Driven d(room_obj(), {10, 0, 2.4, -30});
+  d.session->roamer().setMode(Mode::fly);
+  std::string hud = d.hud();
+  EXPECT_TRUE(contains(hud, "feet: 10.00, 0.00, 1.50\nheight: 1.50 m above the floor")) << hud;
+  EXPECT_TRUE(contains(hud, "heading: 120\u00b0 SE, level")) << hud;
+  EXPECT_TRUE(contains(hud, "ahead: right, 4.00 m")) << hud;
+  d.session->roamer().setMode(Mode::walk);
+  d.run(2.0);
+  EXPECT_TRUE(contains(d.hud(), "height: on the floor")) << d.hud();
+}
+
+TEST(Session, SaysTheSpeedThatTheWheelSets) {
+  Driven d(room_obj(), {10, 0, 0.95, 0});
+  d.run(0.2);
+  d.session->roamer().setSpeed(2.5);
+  EXPECT_TRUE(contains(d.hud(), "speed 2.5 m/s")) << d.hud();
 }
 
 TEST(Session, KeepsBookmarksAndGoesThere) {
@@ -199,11 +244,12 @@ TEST(Session, RecordsTheWayThatWasWalked) {
   const auto before = std::filesystem::current_path();
   std::filesystem::current_path(d.folder.file(""));
   d.tap('r');
-  EXPECT_TRUE(contains(d.hud(), "recording")) << d.hud();
   d.press('w');
   d.run(2.0);
   d.release('w');
+  EXPECT_TRUE(contains(d.hud(), "recording: 2.")) << d.hud();
   d.tap('r');
+  EXPECT_TRUE(contains(d.hud(), "written: " + d.folder.file("roam-1.path"))) << d.hud();
   std::filesystem::current_path(before);
   const std::vector<Waypoint> path = load_path(d.folder.file("roam-1.path"));
   EXPECT_NEAR(path.front().position.x, 10.0, 0.1);

@@ -19,6 +19,7 @@ TEST(ViewStore, FindsTheStoreBesideTheScene) {
   Driven d;
   d.write_scene();
   const std::string store = d.build();
+  d.options.hud = "full";
   d.begin();
   d.run(0.2);
   ASSERT_TRUE(d.on_store());
@@ -27,7 +28,7 @@ TEST(ViewStore, FindsTheStoreBesideTheScene) {
   d.run(12.0);
   EXPECT_NEAR(d.place().x, 19.7, 0.02);
   // The name is read by another thread, and comes with a later frame.
-  EXPECT_TRUE(d.until([&] { return contains(d.hud(), "blocked: wall, front"); })) << d.hud();
+  EXPECT_TRUE(d.until([&] { return contains(d.hud(), "blocked by front"); })) << d.hud();
   const ViewReport report = d.session->finish();
   EXPECT_EQ(report.store, store);
   EXPECT_EQ(report.triangles, 12u);
@@ -65,7 +66,8 @@ TEST(ViewStore, LeavesAStoreOfAnotherSceneAlone) {
   d.run(12.0);
   EXPECT_NEAR(d.place().x, 19.7, 0.02);
   const std::string notes = d.notes();
-  EXPECT_TRUE(contains(notes, "scene.obj.roam is not used: scene.obj, or a file that it refers to, has changed since")) << notes;
+  EXPECT_TRUE(contains(notes, "scene.obj.roam is not used: scene.obj, or a file that it refers to, has changed since"))
+      << notes;
   EXPECT_TRUE(contains(notes, "O or `roam build ")) << notes;
 }
 
@@ -86,6 +88,7 @@ TEST(ViewStore, TakesTheStoreThatIsNamed) {
   d.options.store = d.folder.file("elsewhere.roam");
   build_store(build_of(scene, d.options.store));
   d.options.scene.memory = 16u << 20;
+  d.options.hud = "full";
   d.begin();
   d.run(0.2);
   ASSERT_TRUE(d.on_store());

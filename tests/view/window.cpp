@@ -175,6 +175,19 @@ TEST(ViewWindow, ShowsAllOfItselfWhenItIsResized) {
   EXPECT_EQ(report["written"][0], "./roam-1.png");
 }
 
+TEST(ViewWindow, WritesPicturesWithoutTheDisplayUnlessAsked) {
+  Window w({"--at", "2,0,0.95,0"});
+  xdo("key h key p");
+  ASSERT_TRUE(eventually([&] { return std::filesystem::exists(w.folder.file("roam-1.png")); }));
+  xdo("key ctrl+p");
+  ASSERT_TRUE(eventually([&] { return std::filesystem::exists(w.folder.file("roam-2.png")); }));
+  // The help's panel is dark, the room's walls are light.
+  const auto is_dark = [](const osg::Vec4& c) { return c.r() + c.g() + c.b() < 0.6f; };
+  EXPECT_FALSE(is_dark(Shot(w.folder.file("roam-1.png")).at(60, 120)));
+  EXPECT_TRUE(is_dark(Shot(w.folder.file("roam-2.png")).at(60, 120)));
+  w.end();
+}
+
 TEST(ViewWindow, WritesEachPictureToAFileOfItsOwn) {
   Window w({"--at", "2,0,0.95,0"});
   xdo("key p key p");
@@ -201,7 +214,7 @@ TEST(ViewWindow, FillsTheScreenAndLeavesIt) {
   w.end();
 }
 
-TEST(ViewWindow, LooksWithTheGrabbedMouseUntilEscapeAndEndsWithTheNext) {
+TEST(ViewWindow, LooksWithTheGrabbedMouseUntilEscapeAndEndsWithTheNextTwo) {
   Window w({"--at", "2,0,0.95,0"});
   w.point(160, 100);
   wait(0.5);
@@ -213,6 +226,9 @@ TEST(ViewWindow, LooksWithTheGrabbedMouseUntilEscapeAndEndsWithTheNext) {
   }
   xdo("key Escape");
   wait(1.5);
+  EXPECT_FALSE(w.ended());
+  xdo("key Escape");
+  wait(0.5);
   EXPECT_FALSE(w.ended());
   xdo("key Escape");
   EXPECT_TRUE(eventually([&] { return w.ended(); }));
@@ -251,6 +267,9 @@ TEST(ViewWindow, EscapeClosesTheHelpFirst) {
   wait(0.7);
   xdo("key Escape");
   wait(1.5);
+  EXPECT_FALSE(w.ended());
+  xdo("key Escape");
+  wait(0.5);
   EXPECT_FALSE(w.ended());
   xdo("key Escape");
   EXPECT_TRUE(eventually([&] { return w.ended(); }));
@@ -302,7 +321,8 @@ TEST(ViewWindow, ClosedWhileLoadingEndsAtOnceAndLeavesNoReader) {
   EXPECT_EQ(report["roamed"], false);
   std::string hud;
   for (const auto& line : report["hud"]) hud += line.get<std::string>() + "\n";
-  EXPECT_TRUE(contains(hud, "held until the walls are known")) << hud;
+  EXPECT_TRUE(contains(hud, "Loading the walls; then you can walk.")) << hud;
+  EXPECT_TRUE(contains(hud, "H: help     W A S D: walk     drag: look")) << hud;
   std::istringstream pids(w.folder.read("pids"));
   for (pid_t pid = 0; pids >> pid;) EXPECT_NE(::kill(pid, 0), 0) << "a reader still runs";
 }

@@ -175,14 +175,17 @@ void Arrival::note_failures(double now) {
   news_.note(failure + "; it is solid");
 }
 
+std::uint64_t Arrival::triangles() const {
+  return pager_ ? pager_->store().info().triangles : loaded_ ? loaded_->triangles : 0;
+}
+
 void Arrival::fill(Status& status) const {
   status.collision = loader_.state();
+  status.triangles = triangles();
   if (pager_) {
     status.paging = pager_->stats();
-    status.triangles = pager_->store().info().triangles;
     status.world_bytes = status.paging->memory;
   } else if (loaded_) {
-    status.triangles = loaded_->triangles;
     status.world_bytes = loaded_->world->stats().bytes;
   }
 }

@@ -54,6 +54,9 @@ class Arrival {
   /// The pager of the store that the body collides with; null if it collides with a scene.
   [[nodiscard]] const Pager* pager() const { return pager_.get(); }
 
+  /// The number of the collision's triangles; 0: not known.
+  [[nodiscard]] std::uint64_t triangles() const;
+
   /// Makes the body collide with a store. The body stays where it is. Another thread frees the previous collision.
   void change_to(std::shared_ptr<Pager> pager);
 

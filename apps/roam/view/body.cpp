@@ -5,6 +5,7 @@
 #include <glm/trigonometric.hpp>
 
 #include "view/commands.h"
+#include "view/surroundings.h"
 
 namespace roam::app {
 
@@ -36,7 +37,7 @@ void go_to(osgRoam::Manipulator& roamer, const Pose& pose) {
 Vec3 wish_of(const osgRoam::Manipulator& roamer) {
   const double yaw = roamer.yaw();
   const double pitch = roamer.mode() == Mode::walk ? 0.0 : roamer.pitch();
-  const Vec3 ahead(std::cos(yaw) * std::cos(pitch), std::sin(yaw) * std::cos(pitch), std::sin(pitch));
+  const Vec3 ahead = gaze(yaw, pitch);
   const Vec3 right(std::sin(yaw), -std::cos(yaw), 0.0);
   const auto sign = [&](const char* plus, const char* minus) {
     return (roamer.down(plus) ? 1.0 : 0.0) - (roamer.down(minus) ? 1.0 : 0.0);

@@ -21,17 +21,20 @@ struct Line {
 
 constexpr Line lines[] = {
     {"help", "H", "shows or hides this help"},
-    {"hud", "F1", "all of the display, the least of it, none"},
+    {"hud", "F1", "changes the display: usual, with all figures, one line, none"},
+    {"measure", "T", "measures between clicked points, and the room around the body"},
+    {"plan", "L", "shows a plan of the walls around: small, large, none; a click on it goes there"},
     {"marks", "V", "shows the body, what it touches and the nearest triangles"},
     {"fullscreen", "F", "fills the screen, or leaves it"},
     {"bookmark", "B", "keeps this place as a bookmark"},
     {"next_bookmark", "Tab", "goes to the next bookmark; with Shift to the one before"},
     {"picture", "P, F12", "writes a picture, roam-1.png and so on, into this folder"},
+    {"picture_with_display", "Ctrl+P", "the same, with the display in it"},
     {"record", "R", "begins or ends recording the way, as roam-1.path and so on"},
-    {"store", "O", "builds the scene's collision store in the background, or stops that"},
+    {"store", "O", "builds the scene's collision store in the background, after a question, or stops that"},
     {"turn", "U", "turns the scene by 90 degrees, first as its floors suggest; SCENE.roam.json keeps it"},
     {"adapt", "Y", "takes the size of the body that would get on here"},
-    {"quit", "F10", "ends; so does Escape when the mouse is free"},
+    {"quit", "F10, Ctrl+Q", "ends at once; so does Escape, pressed twice"},
 };
 
 /// Headings of the help, each with the first command below it.
@@ -105,6 +108,21 @@ void set_up(osgRoam::Controls& controls, const ViewSettings& settings) {
 std::string key_of(const osgRoam::Controls& controls, const char* command) {
   const Controls::Command* const found = controls.find(command);
   return found == nullptr ? std::string() : Controls::keyText(*found);
+}
+
+std::string first_hint(const osgRoam::Controls& controls) {
+  const auto first_key = [&](const char* command) {
+    const Controls::Command* const found = controls.find(command);
+    return found == nullptr || found->keys.empty() ? std::string() : Controls::print(found->keys.front());
+  };
+  const std::string help = first_key("help");
+  std::vector<std::string> walk;
+  for (const char* command : {"forward", "left", "back", "right"}) {
+    if (std::string key = first_key(command); !key.empty()) walk.push_back(std::move(key));
+  }
+  std::string text = help.empty() ? help : help + ": help     ";
+  if (!walk.empty()) text += fmt::format("{}: walk     ", fmt::join(walk, " "));
+  return text + "drag: look";
 }
 
 std::vector<KeyLine> key_lines(const osgRoam::Controls& controls) {

@@ -37,6 +37,9 @@ void set_up(osgRoam::Controls& controls, const ViewSettings& settings);
 /// The keys of a command, for display; empty if it has none.
 [[nodiscard]] std::string key_of(const osgRoam::Controls& controls, const char* command);
 
+/// The line that a window begins with: "H: help     W A S D: walk     drag: look".
+[[nodiscard]] std::string first_hint(const osgRoam::Controls& controls);
+
 /// Keys and their action; a heading if the second is empty.
 using KeyLine = std::pair<std::string, std::string>;
 /// The table of keys, for display.

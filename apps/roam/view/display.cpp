@@ -98,7 +98,7 @@ Status Display::status(bool has_body) {
   s.size_reason = size_reason(walker);
   s.crouched = walker.crouched();
   s.grounded = walker.grounded();
-  s.place = at.position;
+  s.around = surroundings(roamer_);
   s.yaw = at.yaw;
   s.pitch = at.pitch;
   s.pace = roamer_.speed();
@@ -109,6 +109,10 @@ Status Display::status(bool has_body) {
 }
 
 void Display::show(Status status) {
+  constexpr double speed_seconds = 2.0;
+  if (shown_.mode && status.mode && status.pace != shown_.pace) {
+    stage_.hint(fmt::format("speed {:.3g} m/s", status.pace), speed_seconds);
+  }
   shown_ = std::move(status);
   shown_at_ = stage_.now();
   stage_.show(shown_);
@@ -118,11 +122,10 @@ double Display::aspect() const {
   return static_cast<double>(stage_.frame().width()) / std::max(stage_.frame().height(), 1);
 }
 
-void Display::update(bool has_body, double room) {
+void Display::update(bool has_body, double room, graphics::Marks marks) {
   graphics::Frame& frame = stage_.frame();
   const double near = graphics::near_limit(room, frame.vertical_fov(), aspect());
   if (near != frame.near()) frame.set_near(near);
-  graphics::Marks marks;
   if (marks_ && has_body) {
     const Walker& walker = *roamer_.walker();
     const Vec3 place = walker.position() - scene_.origin();
@@ -133,6 +136,26 @@ void Display::update(bool has_body, double room) {
     marks.triangles = triangles_near(scene_.group(), walker.body(), place);
   }
   stage_.overlay().set_marks(marks);
+  show_labels(marks.labels);
+}
+
+/// Puts the labels to their places in the picture of the next frame.
+void Display::show_labels(const std::vector<graphics::LabelMark>& labels) {
+  osgViewer::Viewer& viewer = stage_.viewer();
+  const auto* const leading = viewer.getCameraManipulator();
+  const osg::Matrixd view = leading != nullptr ? leading->getInverseMatrix() : viewer.getCamera()->getViewMatrix();
+  const osg::Matrixd projection = viewer.getCamera()->getProjectionMatrix();
+  std::vector<graphics::HudLabel> shown;
+  for (const graphics::LabelMark& label : labels) {
+    const osg::Vec3d eye = osgRoam::to_osg(label.at) * view;
+    if (eye.z() >= 0.0) continue;  // behind the eye
+    const osg::Vec3d at = eye * projection;
+    const auto pixels = [](double share, int size) {
+      return static_cast<float>(std::lround(0.5 * (1.0 + share) * size));
+    };
+    shown.push_back({label.text, pixels(at.x(), stage_.frame().width()), pixels(at.y(), stage_.frame().height())});
+  }
+  stage_.hud().set_labels(std::move(shown));
 }
 
 Pose Display::overview() const {
@@ -142,8 +165,7 @@ Pose Display::overview() const {
 
 void Display::look_from_above() {
   const Pose pose = overview();
-  const double yaw = glm::radians(pose.yaw), pitch = glm::radians(pose.pitch);
-  const Vec3 ahead(std::cos(yaw) * std::cos(pitch), std::sin(yaw) * std::cos(pitch), std::sin(pitch));
+  const Vec3 ahead = gaze(glm::radians(pose.yaw), glm::radians(pose.pitch));
   const osg::Vec3d from = osgRoam::to_osg(pose.position - scene_.origin());
   stage_.viewer().getCamera()->setViewMatrixAsLookAt(from, from + osgRoam::to_osg(ahead), osg::Vec3d(0, 0, 1));
 }

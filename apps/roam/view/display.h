@@ -38,8 +38,9 @@ class Display {
   /// The status shown last.
   [[nodiscard]] const Status& shown() const { return shown_; }
 
-  /// Call it in each frame: draws the marks, and fits the near plane to `room`, the eye's distance from every wall (m).
-  void update(bool has_body, double room);
+  /// Call it in each frame: draws the `marks` of tools and its own, and fits the near plane to `room`, the eye's
+  /// distance from every wall (m).
+  void update(bool has_body, double room, graphics::Marks marks);
   /// A pose from which the whole scene is visible.
   [[nodiscard]] Pose overview() const;
   /// Moves the camera to overview().
@@ -49,6 +50,7 @@ class Display {
 
  private:
   [[nodiscard]] double aspect() const;
+  void show_labels(const std::vector<graphics::LabelMark>& labels);
 
   Stage& stage_;
   SceneGraph& scene_;

@@ -17,16 +17,18 @@ constexpr double measuring_period = 0.5;  // s
 constexpr double level_cosine = 0.7071;   // 45 degrees: a wall, or a floor or ceiling
 
 std::string describe(const Walker& walker, const Contact& contact, const Vec3& wish) {
-  std::string text = contact.normal.z > level_cosine ? "floor" : contact.normal.z < -level_cosine ? "ceiling" : "wall";
   const std::string object = walker.space().object_name(contact.triangle);
-  if (!object.empty()) text += ", " + printable(object);
+  std::string text = !object.empty()                    ? printable(object)
+                     : contact.normal.z > level_cosine  ? "the floor"
+                     : contact.normal.z < -level_cosine ? "a ceiling"
+                                                        : "a wall";
   const double length = glm::length(wish);
   if (length <= 0.0) return text;
   const auto opening = measure_opening(walker, wish / length);
   if (!opening) return text;
   const bool is_low = opening->kind == Opening::Kind::lintel;
   const double needed = is_low ? walker.body().height() : 2.0 * walker.settings().radius;
-  text += fmt::format(", opening {:.2f} m {}for a body of {:.2f} m", opening->width, is_low ? "high " : "", needed);
+  text += fmt::format(": opening {:.2f} m {}for a body of {:.2f} m", opening->width, is_low ? "high " : "", needed);
   return text;
 }
 
@@ -112,7 +114,7 @@ Told Hold::told() const {
   if (waiting_) return {"waiting: " + (reason_.empty() ? "loading ahead" : reason_), true};
   if (held_)
     return {nothing_below_ ? "held: there is nothing below to stand on" : "held: the body does not fit here", true};
-  if (!blockage_.empty()) return {"blocked: " + blockage_, true};
+  if (!blockage_.empty()) return {"blocked by " + blockage_, true};
   if (now_ - news_at_ <= news_seconds) return news_;
   if (now_ - slowed_at_ <= slowed_seconds) return {"slowed: loading ahead", false};
   return {};

@@ -33,9 +33,13 @@ void News::tell(std::string sentence, bool warning) {
       if (folder != "/") erase_where_a_path_begins(sentence, folder);
     }
   }
-  sentence = printable(sentence, longest_sentence);
-  const double seconds = std::max(least_seconds, letter_seconds * static_cast<double>(sentence.size()));
-  items_.push_back({{std::move(sentence), warning}, now_ + seconds});
+  tell_as_is(sentence, warning);
+}
+
+void News::tell_as_is(const std::string& sentence, bool warning) {
+  std::string shown = printable(sentence, longest_sentence);
+  const double seconds = std::max(least_seconds, letter_seconds * static_cast<double>(shown.size()));
+  items_.push_back({{std::move(shown), warning}, now_ + seconds});
   if (items_.size() > most_items) items_.erase(items_.begin());
 }
 
@@ -45,7 +49,7 @@ void News::note(const std::string& sentence) {
 }
 
 void News::written(const std::filesystem::path& file) {
-  tell("written: " + file.string());
+  tell_as_is("written: " + std::filesystem::absolute(file).lexically_normal().string());
   files_.push_back(file.string());
 }
 

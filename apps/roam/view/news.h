@@ -18,11 +18,14 @@ class News {
 
   /// Sets the present time, in s; never decreasing.
   void set_time(double seconds) { now_ = seconds; }
+  [[nodiscard]] double now() const { return now_; }
   /// Shows a sentence for some seconds.
   void tell(std::string sentence, bool warning = false);
+  /// The same with all paths as they are, for a person who needs their folders.
+  void tell_as_is(const std::string& sentence, bool warning = false);
   /// Shows a warning, and keeps it for the report.
   void note(const std::string& sentence);
-  /// Shows that a file was written, and keeps its name for the report.
+  /// Shows that a file was written, with its absolute path, and keeps its name for the report.
   void written(const std::filesystem::path& file);
 
   /// The sentences to show now.

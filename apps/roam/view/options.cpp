@@ -177,8 +177,10 @@ void ViewOptions::add_to(CLI::App& verb) {
   verb.add_option("--fov", fov, "Vertical field of view, in degrees (default: 65)")
       ->check(from_to(least_fov, largest_fov))
       ->type_name("DEG");
-  verb.add_option("--hud", hud, "Display: full, minimal or off (default: full)")
-      ->check(one_of({"full", "minimal", "off"}))
+  verb.add_option("--hud", hud,
+                  "Display: plain, full (with figures for programmers), minimal or off (default: plain). With this "
+                  "option, --screenshot shows the display too")
+      ->check(one_of({"plain", "full", "minimal", "off"}))
       ->type_name("MODE");
   verb.add_flag("--headless", headless, "Draw without a screen");
   verb.add_option("--time", time_limit, "End after S seconds of roaming")
@@ -187,7 +189,7 @@ void ViewOptions::add_to(CLI::App& verb) {
       ->type_name("S");
   verb.option_defaults()->group("Results");
   verb.add_option("--screenshot", screenshot,
-                  "Write a picture (.png, .jpg) when all is loaded or the path ends, and end")
+                  "Write a picture (.png, .jpg) without the display when all is loaded or the path ends, and end")
       ->type_name("FILE");
   verb.add_option("--record", record, "Write a film (.mp4) of all that is shown; needs ffmpeg")->type_name("FILE");
   verb.add_option("--record-path", record_path, "Write the way as a path file, as the key R does")->type_name("FILE");

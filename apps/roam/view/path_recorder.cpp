@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <glm/geometric.hpp>
 #include <span>
 #include <string>
 
@@ -40,6 +41,7 @@ void PathRecorder::add(double time, const Vec3& position, const std::array<doubl
     last_ = line;
     return;
   }
+  length_ += glm::distance(position, last_.position);
   const auto differ = [](const Line& a, const Line& b) { return a.position != b.position || a.rotation != b.rotation; };
   if (time - written_.time >= period && differ(line, written_)) {
     // After a rest, the path continues where and when the rest ended.

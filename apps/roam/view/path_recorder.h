@@ -35,7 +35,8 @@ class PathRecorder {
   /// could be written; then there is no new file.
   std::filesystem::path close();
 
-  [[nodiscard]] double seconds() const { return last_.time - begin_; }  ///< since the recording began
+  [[nodiscard]] double seconds() const { return last_.time - begin_; }  ///< since it began
+  [[nodiscard]] double length() const { return length_; }               ///< m, so far
 
  private:
   struct Line {
@@ -50,6 +51,7 @@ class PathRecorder {
   std::exception_ptr failure_;  ///< the first failure; nothing is written after it
   Mode mode_;
   double begin_ = 0.0;
+  double length_ = 0.0;
   Line last_;     ///< added last
   Line written_;  ///< written last
   bool empty_ = true, closed_ = false;

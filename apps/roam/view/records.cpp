@@ -85,7 +85,7 @@ void Records::fill(ViewReport& report) const { report.frame = frame_; }
 
 void Records::fill(Status& status) const {
   if (!recorder_) return;
-  status.recording = fmt::format("{:.0f} s", recorder_->seconds());
+  status.recording = fmt::format("{:.1f} m, {:.0f} s", recorder_->length(), recorder_->seconds());
 }
 
 }  // namespace roam::app

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <memory>
+#include <utility>
 
 #include "cli/interrupt.h"
 #include "roam/error.h"
@@ -13,6 +14,9 @@
 
 namespace roam::app {
 namespace {
+
+/// s: how long the first hint stays when the body can walk.
+constexpr double hint_seconds = 8.0;
 
 ViewOptions with_scene(ViewOptions options, const SceneAndStore& what) {
   options.scene = what.scene;
@@ -47,20 +51,23 @@ Session::Session(const ViewOptions& options, const ViewPlan& plan, const ViewSet
       scene_(stage_.viewer(), *stage_.frame().space(), load_picture(what_, arrival_.loader(), stage_),
              stage_.headless() ? SceneGraph::Arrival::at_once : SceneGraph::Arrival::smooth),
       display_(stage_, scene_, *roamer_, news_, plan_.fov),
+      tools_(new Tools(stage_, *roamer_)),
       building_(what_, options.program, *roamer_, news_) {
   for (const std::string& note : {plan_.note, link_beside(what_)}) {
     if (!note.empty()) news_.note(note);
   }
   stage_.add_to(commands_);
   display_.add_to(commands_);
-  commands_.add("store", [this] { building_.toggle(arrival_.pager(), place()); });
+  commands_.add("store", [this] { building_.toggle(arrival_.pager(), place(), arrival_.triangles()); });
   commands_.add("turn", [this] { turn(); });
   commands_.add("quit", [this] { quits_ = true; });
   roamer_->setCommandCallback([this](const std::string& name) { run(name); });
   stage_.viewer().addEventHandler(new SessionHandler(*this));
+  stage_.viewer().addEventHandler(tools_);
   // SessionHandler handles Escape; the viewer would end before any other use of the key.
   stage_.viewer().setKeyEventSetsDone(0);
   show_keys();
+  if (!stage_.headless() && plan_.path.empty()) stage_.hint(first_hint(roamer_->controls()));
 }
 
 Session::~Session() {
@@ -101,7 +108,7 @@ bool Session::frame() {
   if (!last) {
     stage_.draw_if_seen(at_end);
   } else if (!options_.screenshot.empty()) {
-    stage_.draw_picture(options_.screenshot);
+    stage_.draw_picture(options_.screenshot, options_.hud.has_value());
   }
   return !last;
 }
@@ -112,8 +119,11 @@ void Session::enter() {
     learning_->add_to(commands_);
   }
   records_.add_to(commands_);
+  tools_->add_to(commands_);
+  tools_->set_origin(scene_.origin());
   arrival_.enter();
   show_keys();
+  stage_.end_hint(hint_seconds);
   placed_at_ = stage_.now();
   // Placement is not part of the session's path.
   roamer_->setStepCallback([this](const StepReport& report, double seconds) { step_taken(report, seconds); });
@@ -186,8 +196,11 @@ bool Session::is_at_its_end() const {
 }
 
 void Session::show(bool at_once) {
-  display_.update(roaming(),
-                  roaming() && !arrival_.is_ghost_only() ? roamer_->leastEyeDistance() : plan_.walker.radius);
+  graphics::Marks marks;
+  tools_->add_to(marks);
+  if (roaming()) tools_->update();
+  display_.update(roaming(), roaming() && !arrival_.is_ghost_only() ? roamer_->leastEyeDistance() : plan_.walker.radius,
+                  std::move(marks));
   if (!at_once && !display_.is_due()) return;
   arrival_.note_failures(stage_.now());
   Status status = display_.status(roaming());
@@ -195,6 +208,7 @@ void Session::show(bool at_once) {
   arrival_.fill(status);
   building_.fill(status);
   records_.fill(status);
+  tools_->fill(status);
   if (learning_) learning_->fill(status);
   display_.show(std::move(status));
 }
@@ -213,6 +227,7 @@ ViewReport Session::finish() {
   building_.fill(report);
   arrival_.fill(report);
   display_.fill(report);
+  tools_->fill(report);
   records_.finish();
   records_.fill(report);
   report.written = news_.files();

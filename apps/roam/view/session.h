@@ -18,6 +18,7 @@
 #include "view/scene_graph.h"
 #include "view/stage.h"
 #include "view/store_building.h"
+#include "view/tools.h"
 #include "view/view_report.h"
 #include "view/walk_log.h"
 
@@ -30,6 +31,7 @@ namespace roam::app {
 ///     Learning       sizes of the body
 ///     Records        the recorded path, bookmarks
 ///     Display        head-up display, marks, overview
+///     Tools          measuring by clicks, the plan
 ///     Stage          window, time, pictures and films
 ///
 /// All of them write to News, and add their actions to Commands. The body collides with the scene's store if it matches
@@ -61,6 +63,7 @@ class Session {
 
   [[nodiscard]] osgRoam::Manipulator& roamer() { return *roamer_; }
   [[nodiscard]] Stage& stage() { return stage_; }
+  [[nodiscard]] const Tools& tools() const { return *tools_; }
   [[nodiscard]] const WalkLog& log() const { return log_; }
   [[nodiscard]] const Status& status() const { return display_.shown(); }
   /// Whether the body is in the scene, led by the person or the path.
@@ -92,6 +95,7 @@ class Session {
   Arrival arrival_;
   SceneGraph scene_;
   Display display_;
+  const osg::ref_ptr<Tools> tools_;
   StoreBuilding building_;
   std::optional<Learning> learning_;
   std::optional<Replay> replay_;

@@ -39,9 +39,18 @@ bool SessionHandler::handle_escape(bool down) {
     // A held key repeats.
     escape_spent_ |= step_out();
   } else if (!std::exchange(escape_spent_, false)) {
-    session_.run("quit");
+    ask_to_end();
   }
   return true;
+}
+
+void SessionHandler::ask_to_end() {
+  Stage& stage = session_.stage();
+  if (leave_.confirms(stage.now())) {
+    session_.run("quit");
+  } else {
+    stage.hint("Escape again ends", leave_seconds);
+  }
 }
 
 }  // namespace roam::app

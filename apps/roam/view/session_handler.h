@@ -4,12 +4,14 @@
 
 #include <osgGA/GUIEventHandler>
 
+#include "view/twice.h"
+
 namespace roam::app {
 
 class Session;
 
 /// Runs the viewer's commands while another camera than the body's receives the keys, or none yet. Handles Escape,
-/// which closes the help, releases the mouse, or ends the session.
+/// which closes the help, releases the mouse, or, the second time within 3 s, ends the session.
 class SessionHandler : public osgGA::GUIEventHandler {
  public:
   explicit SessionHandler(Session& session) : session_(session) {}
@@ -20,9 +22,13 @@ class SessionHandler : public osgGA::GUIEventHandler {
  private:
   bool step_out();
   bool handle_escape(bool down);
+  void ask_to_end();
+
+  static constexpr double leave_seconds = 3.0;
 
   Session& session_;
   bool escape_spent_ = false;  ///< Escape acted when pressed; its release does not end the session
+  Twice leave_{leave_seconds};
 };
 
 }  // namespace roam::app

@@ -96,6 +96,8 @@ std::map<std::string, std::vector<std::string>> keys_of(const Section& section) 
 
 const char* to_string(HudMode mode) {
   switch (mode) {
+    case HudMode::plain:
+      return "plain";
     case HudMode::full:
       return "full";
     case HudMode::minimal:
@@ -107,7 +109,7 @@ const char* to_string(HudMode mode) {
 }
 
 std::optional<HudMode> parse_hud_mode(const std::string& text) {
-  for (const HudMode mode : {HudMode::full, HudMode::minimal, HudMode::off}) {
+  for (const HudMode mode : {HudMode::plain, HudMode::full, HudMode::minimal, HudMode::off}) {
     if (text == to_string(mode)) return mode;
   }
   return std::nullopt;
@@ -147,7 +149,7 @@ ViewSettings read_settings(const std::filesystem::path& file) {
   settings.fov = all.number("fov", least_fov, largest_fov);
   if (const auto hud = all.take("hud")) {
     settings.hud = hud->is_string() ? parse_hud_mode(hud->get<std::string>()) : std::nullopt;
-    if (!settings.hud) all.fail("hud", "must be \"full\", \"minimal\" or \"off\"");
+    if (!settings.hud) all.fail("hud", "must be \"plain\", \"full\", \"minimal\" or \"off\"");
   }
   all.end();
   return settings;

@@ -10,7 +10,7 @@
 ///       "body": {"radius": 0.25, "height": 1.7, "eye": 1.5, "step": 0.3, "slope": 45},
 ///       "speed": 1.4,
 ///       "fov": 65,
-///       "hud": "full"
+///       "hud": "plain"
 ///     }
 
 #include <filesystem>
@@ -21,10 +21,10 @@
 
 namespace roam::app {
 
-/// How much of the head-up display is shown.
-enum class HudMode : std::uint8_t { full, minimal, off };
+/// How much of the head-up display is shown. full: plain, and figures for programmers. minimal: one line.
+enum class HudMode : std::uint8_t { plain, full, minimal, off };
 
-/// "full", "minimal" or "off".
+/// "plain", "full", "minimal" or "off".
 [[nodiscard]] const char* to_string(HudMode mode);
 /// The mode of that name, if there is one.
 [[nodiscard]] std::optional<HudMode> parse_hud_mode(const std::string& text);

@@ -2,11 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
+#include <iterator>
 #include <sstream>
 #include <string>
 #include <system_error>
 #include <thread>
+#include <utility>
 
 #include "graphics/lettering.h"
 #include "osg_plugins/plugins.h"
@@ -40,6 +43,7 @@ graphics::Context open(const ViewOptions& options, const ViewPlan& plan) {
 graphics::Detail detail(HudMode mode) {
   switch (mode) {
     case HudMode::full:
+    case HudMode::plain:
       return graphics::Detail::full;
     case HudMode::minimal:
       return graphics::Detail::minimal;
@@ -48,6 +52,12 @@ graphics::Detail detail(HudMode mode) {
   }
   return graphics::Detail::off;
 }
+
+/// The modes in the order of the key, and their names for the person.
+constexpr std::pair<HudMode, const char*> hud_modes[] = {{HudMode::plain, "display: usual"},
+                                                         {HudMode::full, "display: all figures"},
+                                                         {HudMode::minimal, "display: one line"},
+                                                         {HudMode::off, "display: none"}};
 
 }  // namespace
 
@@ -80,9 +90,11 @@ TextureQuality Stage::texture_quality() const {
 void Stage::show(const Status& status) {
   std::vector<graphics::StatusLine> lines;
   for (const StatusText& line : status_lines(status)) {
+    if (line.figures && hud_mode_ != HudMode::full) continue;
     lines.push_back({line.label, line.value, line.warning ? graphics::Tone::warning : graphics::Tone::info});
   }
   hud_->set_status(std::move(lines));
+  hud_->set_recording(status.recording);
   const Told message = status_message(status);
   hud_->set_message(message.text, message.warning ? graphics::Tone::warning : graphics::Tone::info);
   double share = load_share(status.display, status.collision);
@@ -100,12 +112,33 @@ void Stage::add_to(Commands& commands) {
   commands.add("help", [this] { hud_->show_help(!hud_->help_shown()); });
   commands.add("hud", [this] { cycle_hud(); });
   commands.add("fullscreen", [this] { toggle_fullscreen(); });
-  commands.add("picture", [this] { pictures_.emplace_back(*frame_, "roam.png", true, files::Naming::numbered); });
+  for (const auto& [name, with_display] : {std::pair("picture", false), std::pair("picture_with_display", true)}) {
+    commands.add(name, [this, with_display = with_display] {
+      pictures_.emplace_back(*frame_, "roam.png", with_display, files::Naming::numbered);
+    });
+  }
 }
 
-/// Cycles from full to minimal, off, and full again.
 void Stage::cycle_hud() {
-  set_hud(hud_mode_ == HudMode::full ? HudMode::minimal : hud_mode_ == HudMode::minimal ? HudMode::off : HudMode::full);
+  constexpr double name_seconds = 1.5;
+  const auto* const now = std::find_if(std::begin(hud_modes), std::end(hud_modes),
+                                       [this](const auto& mode) { return mode.first == hud_mode_; });
+  const auto& [mode, name] = hud_modes[static_cast<std::size_t>(now - hud_modes + 1) % std::size(hud_modes)];
+  set_hud(mode);
+  hint(name, name_seconds);
+}
+
+void Stage::hint(const std::string& text, double seconds) {
+  hint_ = text;
+  hint_end_ = now_ + seconds;
+}
+
+void Stage::fade_hint() {
+  constexpr double fading = 1.0;   // s
+  constexpr double shades = 10.0;  // each is laid out anew
+  const double opacity = std::clamp(std::ceil(shades * (hint_end_ - now_) / fading) / shades, 0.0, 1.0);
+  if (opacity <= 0.0) hint_.clear();
+  hud_->set_hint(hint_, opacity);
 }
 
 void Stage::toggle_fullscreen() {
@@ -153,6 +186,7 @@ double Stage::advance(bool runs) {
   } else if (runs) {
     now_ += headless_frame;
   }
+  fade_hint();
   return now_ - before;
 }
 
@@ -199,8 +233,8 @@ void Stage::draw_if_seen(bool wanted) {
   }
 }
 
-void Stage::draw_picture(const std::filesystem::path& path) {
-  graphics::Screenshot picture(*frame_, path, true);
+void Stage::draw_picture(const std::filesystem::path& path, bool with_display) {
+  graphics::Screenshot picture(*frame_, path, with_display);
   draw();
   picture.finish();
   written_.push_back(path.string());

@@ -2,8 +2,10 @@
 /// \file
 /// The output of a session: window or off-screen picture, head-up display, pictures and films.
 
+#include <algorithm>
 #include <chrono>
 #include <filesystem>
+#include <limits>
 #include <optional>
 #include <osgViewer/Viewer>
 #include <string>
@@ -48,8 +50,12 @@ class Stage {
   /// Shows the lines and the message; does nothing if they are shown already.
   void show(const Status& status);
   void set_hud(HudMode mode);
-  /// Adds "help", "hud", "fullscreen" and "picture", which writes numbered files. poll_pictures() returns them when
-  /// written.
+  /// Shows a sentence in any mode for `seconds`, the last of them fading. Replaces the one before.
+  void hint(const std::string& text, double seconds = std::numeric_limits<double>::infinity());
+  /// Makes a hint that is shown end after `seconds`, if not before.
+  void end_hint(double seconds) { hint_end_ = std::min(hint_end_, now_ + seconds); }
+  /// Adds "help", "hud", "fullscreen", "picture" and "picture_with_display", which write numbered files.
+  /// poll_pictures() returns them when written.
   void add_to(Commands& commands);
 
   /// The pictures finished since the last call.
@@ -67,7 +73,7 @@ class Stage {
   /// Draws the frame if it is `wanted`, shown in a window, or due in a film. Then rests, which limits the frame rate.
   void draw_if_seen(bool wanted);
   /// Draws one frame into a file and waits for it. Throws roam::Error if it cannot be written.
-  void draw_picture(const std::filesystem::path& path);
+  void draw_picture(const std::filesystem::path& path, bool with_display = false);
   /// Adds the frame statistics, and the files that options request.
   void fill(ViewReport& report) const;
   /// Ends film and pictures. Throws roam::Error if one of them could not be written.
@@ -80,6 +86,7 @@ class Stage {
   using Clock = std::chrono::steady_clock;
 
   void cycle_hud();
+  void fade_hint();
   void toggle_fullscreen();
 
   graphics::Context context_;
@@ -89,7 +96,9 @@ class Stage {
   std::optional<graphics::Overlay> overlay_;
   std::optional<Film> film_;
   std::vector<graphics::Screenshot> pictures_;
-  HudMode hud_mode_ = HudMode::full;
+  HudMode hud_mode_ = HudMode::plain;
+  std::string hint_;
+  double hint_end_ = 0.0;             ///< s
   std::vector<std::string> written_;  ///< names of film and picture
   const Clock::time_point begin_ = Clock::now();
   Clock::time_point frame_begin_ = begin_;

@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <cmath>
+#include <cstdlib>
 #include <fstream>
 #include <utility>
 
@@ -64,7 +65,32 @@ std::string mode_text(const Status& status) {
   return text;
 }
 
+/// "on the floor", "1.20 m above the floor"; empty if no floor is known below.
+std::string height_text(const Status& status) {
+  if (!status.around.above_floor) return {};
+  constexpr double resting = 0.05;  // m: on foot, less is the unevenness of the floor
+  const double height = *status.around.above_floor;
+  if (status.grounded && height < resting) return "on the floor";
+  return fmt::format("{:.2f} m above the floor", height);
+}
+
+/// "Door_12, 3.20 m"
+std::string ahead_text(const Surroundings& around) {
+  if (!around.ahead_m) return {};
+  const std::string name = around.ahead.empty() ? std::string() : printable(around.ahead) + ", ";
+  return fmt::format("{}{:.2f} m", name, *around.ahead_m);
+}
+
 }  // namespace
+
+std::string heading_text(double yaw, double pitch) {
+  constexpr const char* winds[] = {"N", "NE", "E", "SE", "S", "SW", "W", "NW"};
+  constexpr int circle = 360, sector = 45;
+  const int bearing = static_cast<int>(std::lround(90.0 - std::remainder(yaw, double(circle))) + circle) % circle;
+  const int up = static_cast<int>(std::lround(pitch));
+  const std::string slope = up == 0 ? "level" : fmt::format("{}\u00b0 {}", std::abs(up), up > 0 ? "up" : "down");
+  return fmt::format("{}\u00b0 {}, {}", bearing, winds[(bearing + sector / 2) / sector % 8], slope);
+}
 
 std::string load_text(const char* what, const LoadState& state) {
   if (state.phase == Phase::done) return {};
@@ -90,19 +116,25 @@ std::vector<StatusText> status_lines(const Status& status) {
   std::vector<StatusText> lines;
   lines.push_back({"", mode_text(status), false});
   if (status.mode && status.camera.empty()) {
-    const Vec3& p = status.place;
-    lines.push_back({"body", body_text(status), false});
-    lines.push_back({"keys", fmt::format("{:.3g} m/s", status.pace), false});
-    lines.push_back({"place", fmt::format("{:.2f}, {:.2f}, {:.2f}", p.x, p.y, p.z), false});
-    // Adding 0 turns -0 into 0.
-    const double yaw = std::round(status.yaw) + 0.0, pitch = std::round(status.pitch) + 0.0;
-    lines.push_back({"look", fmt::format("{:.0f}\u00b0, {:+.0f}\u00b0", yaw, pitch), false});
+    const Vec3& p = status.around.feet;
+    lines.push_back({"feet", fmt::format("{:.2f}, {:.2f}, {:.2f}", p.x, p.y, p.z)});
+    if (const std::string height = height_text(status); !height.empty()) lines.push_back({"height", height});
+    lines.push_back({"heading", heading_text(status.yaw, status.pitch)});
+    if (const std::string ahead = ahead_text(status.around); !ahead.empty()) lines.push_back({"ahead", ahead});
+    lines.push_back({"body", body_text(status)});
+    lines.push_back({"keys", fmt::format("{:.3g} m/s", status.pace), false, true});
   }
-  if (status.triangles > 0) lines.push_back({"triangles", short_count(static_cast<double>(status.triangles)), false});
+  lines.insert(lines.end(), status.tool.begin(), status.tool.end());
+  if (status.triangles > 0) {
+    lines.push_back({"triangles", short_count(static_cast<double>(status.triangles)), false, true});
+  }
   std::string memory = byte_text(status.resident);
   if (status.world_bytes > 0 && !status.paging) memory += fmt::format(", collision {}", byte_text(status.world_bytes));
-  lines.push_back({"memory", memory, false});
-  if (status.paging) lines.push_back({"collision", paging_text(*status.paging), status.paging->failed > 0});
+  lines.push_back({"memory", memory, false, true});
+  if (status.paging) {
+    const bool failed = status.paging->failed > 0;
+    lines.push_back({"collision", paging_text(*status.paging), failed, !failed});
+  }
   if (status.building) {
     const bool failed = status.building->phase == Phase::failed;
     lines.push_back({"", failed ? "store failed" : load_text("store", *status.building), failed});
@@ -114,8 +146,7 @@ std::vector<StatusText> status_lines(const Status& status) {
   if (status.mode) {
     frame += fmt::format("{}collision {:.0f} \u00b5s", frame.empty() ? "" : ", ", status.collision_us);
   }
-  if (!frame.empty()) lines.push_back({"frame", frame, false});
-  if (!status.recording.empty()) lines.push_back({"recording", status.recording, true});
+  if (!frame.empty()) lines.push_back({"frame", frame, false, true});
   for (const auto& [what, state] : {std::pair("scene", &status.display), std::pair("collision", &status.collision)}) {
     const bool failed = state->phase == Phase::failed;
     // A store has replaced it.
@@ -132,7 +163,7 @@ Told status_message(const Status& status) {
   if (status.collision.phase == Phase::failed && !status.paging) {
     message = {"The collision could not be loaded: this is a ghost that passes through walls.", true};
   } else if (!status.mode) {
-    message = {fmt::format("held until the walls are known\n{}", load_text("collision", status.collision)), false};
+    message = {fmt::format("Loading the walls; then you can walk.\n{}", load_text("walls", status.collision)), false};
   } else if (status.camera.empty()) {
     message = status.hold;
   }

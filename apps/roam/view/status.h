@@ -12,6 +12,7 @@
 #include "roam/pager.h"
 #include "roam/walker.h"
 #include "view/hold.h"
+#include "view/surroundings.h"
 
 namespace roam::app {
 
@@ -29,6 +30,14 @@ struct LoadState {
   return state.phase == LoadState::Phase::done || state.phase == LoadState::Phase::failed;
 }
 
+/// A line of the panel.
+struct StatusText {
+  std::string label;
+  std::string value;
+  bool warning = false;
+  bool figures = false;  ///< for programmers
+};
+
 struct Status {
   std::optional<Mode> mode;  ///< none: no body yet
   double speed = 0.0;        ///< m/s, present speed
@@ -37,7 +46,7 @@ struct Status {
   std::string size_reason;   ///< why the body has another size here; empty: it has not
   bool crouched = false;
   bool grounded = false;
-  Vec3 place{0.0};                ///< the body's centre, in the scene's frame
+  Surroundings around;
   double yaw = 0.0, pitch = 0.0;  ///< degrees
   std::string camera;             ///< name of the active camera, if not the body's; else empty
   LoadState display, collision;
@@ -50,15 +59,9 @@ struct Status {
   double frame_ms = 0.0;              ///< 0: not known yet
   double collision_us = 0.0;          ///< per frame
   std::string recording;              ///< what is being recorded
+  std::vector<StatusText> tool;       ///< of the tool that is on
   std::vector<Told> news;             ///< at this moment
   Told hold;
-};
-
-/// A line of the panel.
-struct StatusText {
-  std::string label;
-  std::string value;
-  bool warning = false;
 };
 
 /// The lines from top to bottom. The first alone is the minimal display.
@@ -72,6 +75,9 @@ struct StatusText {
 
 /// The finished share of the loading, in [0, 1]; negative if all of it is finished.
 [[nodiscard]] double load_share(const LoadState& display, const LoadState& collision);
+
+/// The bearing of a gaze from north, +y: "212\u00b0 SW, 10\u00b0 down". Degrees, see Pose.
+[[nodiscard]] std::string heading_text(double yaw, double pitch);
 
 /// "512 MB", "1.4 GB".
 [[nodiscard]] std::string byte_text(std::uint64_t bytes);

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "view/commands.h"
+#include "view/status.h"
 
 namespace roam::app {
 
@@ -30,7 +31,19 @@ void StoreBuilding::recommend() {
                   key().empty() ? key() : key() + " or ", what_.scene.names()));
 }
 
-void StoreBuilding::toggle(const Pager* used, const Vec3& place) {
+/// Says what a build would write, before it begins.
+void StoreBuilding::ask(std::uint64_t triangles) {
+  constexpr double most_bytes = 3.5;  // a triangle, in a large store; docs/stores.md
+  constexpr std::uint64_t small = 1'000'000;
+  const auto bytes = static_cast<std::uint64_t>(most_bytes * static_cast<double>(triangles));
+  const std::string size = triangles == 0  ? "3.5 bytes a triangle"
+                           : bytes < small ? "less than 1 MB"
+                                           : "up to " + byte_text(bytes);
+  news_.tell_as_is(fmt::format("{} again builds the collision store {} ({})", key(),
+                               std::filesystem::absolute(store_place(what_)).lexically_normal().string(), size));
+}
+
+void StoreBuilding::toggle(const Pager* used, const Vec3& place, std::uint64_t triangles) {
   if (build_) {
     stopped_ = true;
     build_->cancel();
@@ -38,6 +51,8 @@ void StoreBuilding::toggle(const Pager* used, const Vec3& place) {
     news_.tell(fmt::format("the scene of {} is not known: nothing can be built", what_.store.string()));
   } else if (used != nullptr && !is_stale_) {
     news_.tell(fmt::format("{} is of this very scene: there is nothing to build", used->store().name()));
+  } else if (!build_wish_.confirms(news_.now())) {
+    ask(triangles);
   } else {
     stopped_ = false;
     build_.emplace(program_, what_, roamer_.settings(), place);

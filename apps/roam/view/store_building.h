@@ -10,6 +10,7 @@
 #include "view/build_process.h"
 #include "view/news.h"
 #include "view/store_choice.h"
+#include "view/twice.h"
 #include "view/view_report.h"
 
 namespace roam::app {
@@ -29,8 +30,9 @@ class StoreBuilding {
   /// Recommends a store, once.
   void recommend();
   /// Begins a build, or cancels it. `used`: the store that the body collides with, or null. `place`: the body's
-  /// position, or the expected one.
-  void toggle(const Pager* used, const Vec3& place);
+  /// position, or the expected one. A build begins with the second call within 5 s. The first one says where the store
+  /// will be and how large, from the scene's `triangles`; 0: not known.
+  void toggle(const Pager* used, const Vec3& place, std::uint64_t triangles);
   /// Call it in each frame with a body at `place`; reports a failed build.
   void follow(const Vec3& place);
   /// A pager on the new store, once, after the build; else null.
@@ -42,12 +44,14 @@ class StoreBuilding {
 
  private:
   [[nodiscard]] std::string key() const;
+  void ask(std::uint64_t triangles);
 
   SceneAndStore what_;
   std::filesystem::path program_;
   const osgRoam::Manipulator& roamer_;
   News& news_;
   std::optional<BuildProcess> build_;
+  Twice build_wish_{5.0};
   bool stopped_ = false;  ///< by the person
   bool is_stale_ = false;
   bool recommended_ = false;

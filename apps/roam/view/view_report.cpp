@@ -38,6 +38,25 @@ Json blockage(const ViewReport& report) {
   return json;
 }
 
+Json to_json(const Pick& pick) {
+  return {{"point", app::to_json(pick.point)},
+          {"normal", app::to_json(pick.normal)},
+          {"object", pick.object},
+          {"slope_degrees", slope_degrees(pick)}};
+}
+
+Json to_json(const Measurement& measurement) {
+  Json json = {{"a", to_json(measurement.a)}, {"b", nullptr}};
+  if (!measurement.b) return json;
+  const Span span = span_of(measurement.a.point, measurement.b->point);
+  json["b"] = to_json(*measurement.b);
+  json["distance_m"] = span.distance;
+  json["level_m"] = span.level;
+  json["height_m"] = span.height;
+  json["slope_degrees"] = span.slope_degrees;
+  return json;
+}
+
 }  // namespace
 
 Times times(const Histogram& histogram, double scale) {
@@ -83,6 +102,8 @@ Json json_report(const ViewReport& report) {
   json["profile"] = report.profile.empty() ? Json(nullptr) : Json(report.profile);
   json["learned"] = report.learned;
   json["store"] = report.store.empty() ? Json(nullptr) : Json(report.store);
+  json["measurements"] = Json::array();
+  for (const Measurement& measurement : report.measurements) json["measurements"].push_back(to_json(measurement));
   if (report.paging) json["paging"] = to_json(*report.paging);
   json["end"]["eye"] = app::to_json(report.eye);
   if (report.start) json["start"] = to_json(*report.start);
@@ -122,6 +143,9 @@ std::string text_report(const ViewReport& report) {
   }
   if (report.verified) {
     text += fmt::format("verified: {}\n", summary(*report.verified));
+  }
+  for (const Measurement& measurement : report.measurements) {
+    text += fmt::format("measured: {}\n", to_json(measurement).dump(-1, ' ', false, Json::error_handler_t::replace));
   }
   for (const std::string& file : report.written) text += fmt::format("written: {}\n", printable_part(file));
   return text;

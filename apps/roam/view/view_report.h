@@ -12,6 +12,7 @@
 #include "roam/route.h"
 #include "roam/scene_frame.h"
 #include "verify/piece_log.h"
+#include "view/measuring.h"
 #include "view/pose.h"
 
 namespace roam::app {
@@ -60,6 +61,7 @@ struct ViewReport {
   std::uint64_t missing_textures = 0;
   std::vector<std::string> missing_texture_files;
   std::uint64_t missing_pages = 0;
+  std::vector<Measurement> measurements;
   std::vector<std::string> written;  ///< files
   std::vector<Mesh> meshes;          ///< for --verify; none if the session began with a store
   verification::PieceLog pieces;     ///< for --verify

@@ -1,0 +1,176 @@
+#include "view/live_plan.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <functional>
+#include <glm/geometric.hpp>
+#include <iterator>
+#include <span>
+#include <string>
+
+#include "roam/error.h"
+#include "roam/pager.h"
+#include "roam/world.h"
+#include "store/meshes.h"
+#include "view/plan_scan.h"
+
+namespace roam::app {
+namespace {
+
+using graphics::PlanSize;
+
+constexpr double large_factor = 2.5;  // the large plan shows so much more
+constexpr double least_half = 2.0, largest_half = 200.0;
+constexpr double margin_factor = 1.4;  // of what is shown: cut, so that the body can go on
+constexpr double rays_across = 500.0;
+constexpr double least_spacing = 0.02;           // m
+constexpr double knee = 0.3;                     // m above the feet: the lower cut
+constexpr double storey = 0.25;                  // m: a change of height that needs a new cut
+constexpr double trail_spacing = 0.25;           // m
+constexpr std::size_t longest_trail = 4000;      // points
+constexpr std::size_t most_triangles = 500'000;  // of a store in one plan
+
+bool meets(const Box& box, const Triangle& triangle) {
+  for (int k = 0; k < 3; ++k) {
+    const auto [least, most] = std::minmax({triangle[0][k], triangle[1][k], triangle[2][k]});
+    if (most < box.lower[k] || least > box.upper[k]) return false;
+  }
+  return true;
+}
+
+/// The triangles of a store in a box, without those that cannot be read: the pager says which.
+World part_of(const Store& store, const Box& box, const std::function<bool()>& goes_on) {
+  Mesh mesh;
+  std::vector<Triangle> near;
+  const auto take = [&](std::span<const Triangle> triangles, std::span<const TriangleId>) {
+    if (!goes_on()) throw Cancelled();
+    near.clear();
+    std::copy_if(triangles.begin(), triangles.end(), std::back_inserter(near),
+                 [&](const Triangle& triangle) { return meets(box, triangle); });
+    if (mesh.triangles.size() + near.size() <= most_triangles) store::append(mesh, near);
+  };
+  store.for_each_triangle(box, take, [](const std::string&) {});
+  return World::build({&mesh, 1}, {.threads = 1});
+}
+
+glm::dvec2 seen_from_above(const Vec3& p) { return {p.x, p.y}; }
+
+}  // namespace
+
+LivePlan::~LivePlan() {
+  stops_ = true;
+  if (cutting_.valid()) cutting_.wait();
+}
+
+void LivePlan::cycle() {
+  size_ = size_ == PlanSize::none ? PlanSize::small : size_ == PlanSize::small ? PlanSize::large : PlanSize::none;
+}
+
+double LivePlan::half() const { return size_ == PlanSize::large ? large_factor * half_ : half_; }
+
+void LivePlan::zoom(double factor) { half_ = std::clamp(half_ * factor, least_half, largest_half); }
+
+/// The box between the two heights of the cut.
+Box LivePlan::box_of(const Wish& wish) {
+  const Vec3 reach(wish.half, wish.half, 0.0);
+  Box box{wish.centre - reach, wish.centre + reach};
+  box.lower.z = std::min(wish.low, wish.centre.z);
+  box.upper.z = std::max(wish.low, wish.centre.z);
+  return box;
+}
+
+LivePlan::Cut LivePlan::cut(const Wish& wish, const std::atomic<bool>& stops) {
+  const auto goes_on = [&] { return !stops; };
+  const Space* space = wish.space.get();
+  // A pager may only be queried between two frames. Its store may be read at any time.
+  World part;
+  if (const auto* const pager = dynamic_cast<const Pager*>(space)) {
+    part = part_of(pager->store(), box_of(wish), goes_on);
+    space = &part;
+  }
+  Cut made{wish, {.base = seen_from_above(wish.centre)}};
+  PlanArea area{wish.centre, wish.half, std::max(least_spacing, 2.0 * wish.half / rays_across)};
+  made.lines.walls = scan_plan(*space, area, goes_on);
+  area.centre.z = wish.low;
+  made.lines.below = scan_plan(*space, area, goes_on);
+  return made;
+}
+
+bool LivePlan::is_stale(const Wish& wish) const {
+  if (!shown_ || shown_->of.space != wish.space || shown_->of.half != wish.half) return true;
+  const Vec3 way = wish.centre - shown_->of.centre;
+  return std::abs(way.z) > storey || std::max(std::abs(way.x), std::abs(way.y)) > wish.half - half();
+}
+
+void LivePlan::receive() {
+  if (!cutting_.valid() || cutting_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return;
+  try {
+    shown_ = cutting_.get();
+  } catch (const Cancelled&) {
+    return;
+  } catch (const Error&) {
+    // The store cannot be read there: its pager says so.
+    return;
+  }
+  panel_.set_lines(shown_->lines);
+  trail_shown_ = 0;  // it has another base
+}
+
+void LivePlan::follow() {
+  const Vec3 feet = roamer_.walker()->feet();
+  if (!trail_.empty() && glm::distance(trail_.back(), feet) < trail_spacing) return;
+  trail_.push_back(feet);
+  if (trail_.size() <= longest_trail) return;
+  // Every other point, so that the trail keeps its length.
+  for (std::size_t i = 0; 2 * i < trail_.size(); ++i) trail_[i] = trail_[2 * i];
+  trail_.resize((trail_.size() + 1) / 2);
+}
+
+void LivePlan::update(bool visible) {
+  if (roamer_.walker() == nullptr) return;
+  follow();
+  graphics::PlanView view;
+  if (!visible || size_ == PlanSize::none) {
+    panel_.set_view(view);
+    return;
+  }
+  receive();
+  const Vec3 centre = roamer_.walker()->position();
+  const Wish wish{roamer_.space(), centre, roamer_.walker()->feet().z + knee, margin_factor * half()};
+  if (!cutting_.valid() && is_stale(wish)) {
+    cutting_ = std::async(std::launch::async, [wish, this] { return cut(wish, stops_); });
+  }
+  if (shown_ && trail_shown_ != trail_.size()) {
+    std::vector<glm::vec2> trail;
+    for (const Vec3& p : trail_) trail.emplace_back(seen_from_above(p) - shown_->lines.base);
+    panel_.set_trail(trail);
+    trail_shown_ = trail_.size();
+  }
+  view.size = size_;
+  view.centre = seen_from_above(centre);
+  view.half = half();
+  view.yaw = roamer_.yaw();
+  panel_.set_view(view);
+}
+
+bool LivePlan::go(double x, double y) {
+  const auto at = panel_.at(x, y);
+  if (!at || roamer_.walker() == nullptr) return false;
+  const Walker& walker = *roamer_.walker();
+  const Vec3 from(at->x, at->y, walker.position().z);
+  const double drop = walker.settings().height + walker.fall_limit();
+  const Impact floor = walker.space().ray(from, {0.0, 0.0, -drop});
+  if (!floor.hit || floor.unknown) return false;
+  roamer_.goTo(floor.point, floor.normal);
+  return true;
+}
+
+std::vector<glm::dvec2> LivePlan::walls() const {
+  std::vector<glm::dvec2> all;
+  if (!shown_) return all;
+  for (const glm::vec2& p : shown_->lines.walls) all.push_back(glm::dvec2(p) + shown_->lines.base);
+  return all;
+}
+
+}  // namespace roam::app

@@ -1,0 +1,70 @@
+#pragma once
+/// \file
+/// The live plan beside the picture.
+
+#include <atomic>
+#include <future>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "graphics/plan_panel.h"
+#include "osgRoam/Manipulator.h"
+
+namespace roam::app {
+
+/// Cuts the collision data at body height around the body, in a thread of its own, and shows the cut with the body and
+/// its trail. A store is read from disk for that, apart from its pager. Call all members from the thread that draws,
+/// between two frames.
+class LivePlan {
+ public:
+  LivePlan(graphics::Frame& frame, osgRoam::Manipulator& roamer) : panel_(frame), roamer_(roamer) {}
+  ~LivePlan();  ///< waits for the thread, some milliseconds
+  LivePlan(const LivePlan&) = delete;
+  LivePlan& operator=(const LivePlan&) = delete;
+
+  /// From none to small, large, and none again.
+  void cycle();
+  [[nodiscard]] graphics::PlanSize size() const { return size_; }
+  /// Call it in each frame. `visible` false: nothing is shown or cut.
+  void update(bool visible);
+  /// The metres at a point of the picture, x and y in [-1, 1]; none outside of the plan.
+  [[nodiscard]] std::optional<glm::dvec2> at(double x, double y) const { return panel_.at(x, y); }
+  /// Sends the body to the floor at a point of the plan, as a double click in the picture does. False if there is none.
+  bool go(double x, double y);
+  /// Shows more (> 1) or less.
+  void zoom(double factor);
+
+  /// The walls that are shown: pairs of points, metres in the scene seen from above.
+  [[nodiscard]] std::vector<glm::dvec2> walls() const;
+
+ private:
+  struct Wish {
+    std::shared_ptr<const Space> space;
+    Vec3 centre{0.0};   ///< at the height of the cut
+    double low = 0.0;   ///< height of the lower cut
+    double half = 0.0;  ///< m
+  };
+  struct Cut {
+    Wish of;
+    graphics::PlanLines lines;
+  };
+  [[nodiscard]] static Box box_of(const Wish& wish);
+  [[nodiscard]] static Cut cut(const Wish& wish, const std::atomic<bool>& stops);
+  [[nodiscard]] double half() const;
+  [[nodiscard]] bool is_stale(const Wish& wish) const;
+  void follow();
+  void receive();
+
+  graphics::PlanPanel panel_;
+  osgRoam::Manipulator& roamer_;
+  graphics::PlanSize size_ = graphics::PlanSize::none;
+  double half_ = 12.0;  ///< m, of the small plan
+  std::atomic<bool> stops_ = false;
+  std::future<Cut> cutting_;
+  std::optional<Cut> shown_;
+  std::vector<Vec3> trail_;
+  std::size_t trail_shown_ = 0;
+};
+
+}  // namespace roam::app

@@ -1,0 +1,95 @@
+#include "view/measuring.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
+
+#include "measure/room.h"
+#include "text/printable.h"
+
+namespace roam::app {
+namespace {
+
+/// "12.345, 5.600, 1.200, Door_12, slope 90°"
+std::string point_text(const Pick& pick) {
+  const Vec3& p = pick.point;
+  const std::string object = pick.object.empty() ? std::string() : printable(pick.object) + ", ";
+  return fmt::format("{:.3f}, {:.3f}, {:.3f}, {}slope {:.0f}\u00b0", p.x, p.y, p.z, object, slope_degrees(pick));
+}
+
+std::string span_text(const Span& span) {
+  return fmt::format("{:.3f} m: {:.3f} m level, {:.3f} m {}, slope {:.1f}\u00b0", span.distance, span.level,
+                     std::abs(span.height), span.height < 0.0 ? "down" : "up", std::abs(span.slope_degrees));
+}
+
+}  // namespace
+
+Span span_of(const Vec3& a, const Vec3& b) {
+  const Vec3 way = b - a;
+  const double level = std::hypot(way.x, way.y);
+  return {glm::length(way), level, way.z, glm::degrees(std::atan2(way.z, level))};
+}
+
+void Measuring::take(const Pick& pick) {
+  if (shown_ && !all_.empty() && !all_.back().b) {
+    all_.back().b = pick;
+  } else {
+    all_.push_back({pick, std::nullopt});
+  }
+  shown_ = true;
+  space_ = roamer_.space();
+}
+
+/// A pager's names are known some time after the click.
+void Measuring::name(Pick& pick) const {
+  const std::shared_ptr<const Space> space = roamer_.space();
+  if (pick.object.empty() && space != nullptr && space == space_.lock())
+    pick.object = space->object_name(pick.triangle);
+}
+
+void Measuring::fill(Status& status) {
+  if (roamer_.walker() != nullptr && roamer_.mode() != Mode::ghost) {
+    status.tool.push_back({"clear", room_text(roamer_)});
+  }
+  if (!shown_) return;
+  Measurement& last = all_.back();
+  name(last.a);
+  status.tool.push_back({"A", point_text(last.a)});
+  if (!last.b) return;
+  name(*last.b);
+  status.tool.push_back({"B", point_text(*last.b)});
+  status.tool.push_back({"A to B", span_text(span_of(last.a.point, last.b->point))});
+}
+
+void Measuring::add_to(graphics::Marks& marks, const Vec3& origin) const {
+  if (!shown_) return;
+  const Measurement& last = all_.back();
+  const Vec3 a = last.a.point - origin;
+  marks.points.push_back(a);
+  marks.labels.push_back({a, "A"});
+  if (!last.b) return;
+  const Vec3 b = last.b->point - origin;
+  marks.points.push_back(b);
+  marks.lines.push_back({a, b});
+  marks.labels.push_back({b, "B"});
+  marks.labels.push_back({0.5 * (a + b), fmt::format("{:.3f} m", glm::distance(a, b))});
+}
+
+std::string room_text(const osgRoam::Manipulator& roamer) {
+  const Walker& walker = *roamer.walker();
+  const WalkerSettings settings = walker.settings();
+  const measure::Room room(walker.space(), settings, walker.mode());
+  const Body body = walker.body();
+  const Vec3 right(std::sin(roamer.yaw()), -std::cos(roamer.yaw()), 0.0);
+  const measure::Free beside[] = {room.beside(body, walker.position(), right),
+                                  room.beside(body, walker.position(), -right)};
+  const measure::Free above = room.headroom(body, walker.position());
+  const double width = 2.0 * body.radius + beside[0].distance + beside[1].distance;
+  const auto at_least = [](bool bounded) { return bounded ? "" : "over "; };
+  return fmt::format("{}{:.2f} m wide, {}{:.2f} m high", at_least(beside[0].bounded && beside[1].bounded), width,
+                     at_least(above.bounded), above.distance);
+}
+
+}  // namespace roam::app

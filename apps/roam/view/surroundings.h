@@ -1,0 +1,29 @@
+#pragma once
+/// \file
+/// The surroundings of a body: the floor below, and the object that the eye looks at.
+
+#include <optional>
+#include <string>
+
+#include "osgRoam/Manipulator.h"
+
+namespace roam::app {
+
+/// Metres, in the scene's frame.
+struct Surroundings {
+  Vec3 feet{0.0};                     ///< the body's lowest point
+  std::optional<double> above_floor;  ///< height of the feet; none if no floor is known below
+  std::optional<double> ahead_m;      ///< from the eye to the surface in the middle of the picture; none: there is none
+  std::string ahead;                  ///< name of that surface's object; may be empty
+};
+
+/// Two rays. Needs a walker; its space must not change meanwhile.
+[[nodiscard]] Surroundings surroundings(const osgRoam::Manipulator& roamer);
+
+/// The unit vector of a gaze. Radians, as in osgRoam::Manipulator.
+[[nodiscard]] Vec3 gaze(double yaw, double pitch);
+
+/// A length that from `eye` reaches beyond everything in the space, m.
+[[nodiscard]] double sight(const Space& space, const Vec3& eye);
+
+}  // namespace roam::app

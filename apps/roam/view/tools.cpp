@@ -1,0 +1,110 @@
+#include "view/tools.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace roam::app {
+namespace {
+
+using Adapter = osgGA::GUIEventAdapter;
+
+// Of a click, as of osgRoam's double click.
+constexpr double longest_click = 0.4;    // s
+constexpr double click_distance = 0.02;  // of half the picture
+
+bool is_left(const Adapter& event) { return event.getButton() == Adapter::LEFT_MOUSE_BUTTON; }
+
+}  // namespace
+
+void Tools::add_to(Commands& commands) {
+  commands.add("measure", [this] { toggle_measuring(); });
+  commands.add("plan", [this] { plan_.cycle(); });
+}
+
+void Tools::toggle_measuring() {
+  constexpr double seconds = 4.0;
+  measures_ = !measures_;
+  measuring_.clear();
+  const std::string key = key_of(roamer_.controls(), "measure");
+  stage_.hint(measures_ ? fmt::format("Measuring: click two points; {} ends", key) : "Measuring has ended", seconds);
+}
+
+Tools::Point Tools::point_of(const Adapter& event) const {
+  if (roamer_.mouseGrab()) return {};
+  return {event.getXnormalized(), event.getYnormalized()};
+}
+
+bool Tools::handle(const Adapter& event, osgGA::GUIActionAdapter& /*action*/) {
+  if (event.getHandled() || stage_.hud().help_shown()) return false;
+  switch (event.getEventType()) {
+    case Adapter::PUSH:
+      return is_left(event) && press(event);
+    case Adapter::DOUBLECLICK:
+      return is_left(event) && (is_on_plan_ || measures_);
+    case Adapter::RELEASE:
+      if (is_left(event)) release(event);
+      return false;
+    case Adapter::SCROLL:
+      return scroll(event);
+    default:
+      return false;
+  }
+}
+
+bool Tools::scroll(const Adapter& event) {
+  constexpr double notch = 1.25;
+  const Point at = point_of(event);
+  const auto motion = event.getScrollingMotion();
+  const bool up = motion == Adapter::SCROLL_UP, down = motion == Adapter::SCROLL_DOWN;
+  if (!(up || down) || roamer_.mouseGrab() || !plan_.at(at.x, at.y)) return false;
+  plan_.zoom(up ? 1.0 / notch : notch);
+  return true;
+}
+
+/// Whether this is no beginning of a drag and nothing for the body.
+bool Tools::press(const Adapter& event) {
+  const Point at = point_of(event);
+  const bool again = event.getTime() - pressed_at_ <= longest_click &&
+                     std::hypot(at.x - pressed_.x, at.y - pressed_.y) <= click_distance;
+  pressed_ = at;
+  pressed_at_ = event.getTime();
+  is_down_ = !again;
+  is_on_plan_ = !roamer_.mouseGrab() && plan_.at(at.x, at.y).has_value();
+  return is_on_plan_ || (again && measures_);
+}
+
+void Tools::release(const Adapter& event) {
+  const Point at = point_of(event);
+  const bool is_click = is_down_ && event.getTime() - pressed_at_ <= longest_click &&
+                        std::hypot(at.x - pressed_.x, at.y - pressed_.y) <= click_distance;
+  is_down_ = false;
+  if (!is_click) return;
+  if (is_on_plan_) {
+    constexpr double seconds = 2.0;
+    if (!plan_.go(at.x, at.y)) stage_.hint("There is no floor there", seconds);
+  } else if (measures_) {
+    click(at);
+  }
+}
+
+void Tools::click(const Point& at) {
+  const osg::Camera& camera = *stage_.viewer().getCamera();
+  const auto found = pick(*roamer_.space(), camera.getViewMatrix(), camera.getProjectionMatrix(), origin_, at.x, at.y);
+  if (found) {
+    measuring_.take(*found);
+  } else {
+    constexpr double seconds = 2.0;
+    stage_.hint("There is no surface here", seconds);
+  }
+}
+
+void Tools::fill(Status& status) {
+  if (measures_) measuring_.fill(status);
+}
+
+void Tools::add_to(graphics::Marks& marks) const {
+  if (measures_) measuring_.add_to(marks, origin_);
+}
+
+}  // namespace roam::app

@@ -1,0 +1,69 @@
+#pragma once
+/// \file
+/// Tools for the mouse: whatever a click does besides leading the body.
+
+#include <osgGA/GUIEventHandler>
+
+#include "graphics/overlay.h"
+#include "osgRoam/Manipulator.h"
+#include "view/commands.h"
+#include "view/live_plan.h"
+#include "view/measuring.h"
+#include "view/stage.h"
+#include "view/view_report.h"
+
+namespace roam::app {
+
+/// Recognizes clicks of the left button: pressed and released at one place. Drags still look around. While a tool is
+/// on, clicks are its own, and a double click does not lead the body. With a grabbed mouse, a click is at the middle of
+/// the picture. A click on the plan leads the body there, and the wheel zooms it.
+///
+/// Call all members from the thread that draws, between two frames. add_to() needs a body in the scene.
+class Tools : public osgGA::GUIEventHandler {
+ public:
+  Tools(Stage& stage, osgRoam::Manipulator& roamer)
+      : stage_(stage), roamer_(roamer), measuring_(roamer), plan_(stage.frame(), roamer) {}
+
+  /// Adds "measure", which turns measuring on or off, and "plan", which shows the plan smaller, larger or not.
+  void add_to(Commands& commands);
+  /// Call it in each frame with a body.
+  void update() { plan_.update(stage_.hud().detail() != graphics::Detail::off); }
+  /// Sets the origin of the graph: the scene minus `origin`.
+  void set_origin(const Vec3& origin) { origin_ = origin; }
+
+  using osgGA::GUIEventHandler::handle;
+  bool handle(const osgGA::GUIEventAdapter& event, osgGA::GUIActionAdapter& action) override;
+
+  void fill(Status& status);
+  void fill(ViewReport& report) const { report.measurements = measuring_.all(); }
+  void add_to(graphics::Marks& marks) const;
+  [[nodiscard]] const LivePlan& plan() const { return plan_; }
+
+ protected:
+  ~Tools() override = default;
+
+ private:
+  /// A point of the picture, from -1 to 1.
+  struct Point {
+    double x = 0.0, y = 0.0;
+  };
+  [[nodiscard]] Point point_of(const osgGA::GUIEventAdapter& event) const;
+  bool press(const osgGA::GUIEventAdapter& event);
+  bool scroll(const osgGA::GUIEventAdapter& event);
+  void release(const osgGA::GUIEventAdapter& event);
+  void click(const Point& at);
+  void toggle_measuring();
+
+  Stage& stage_;
+  osgRoam::Manipulator& roamer_;
+  Measuring measuring_;
+  bool measures_ = false;
+  LivePlan plan_;
+  Vec3 origin_{0.0};
+  Point pressed_;
+  double pressed_at_ = -1e9;  ///< s
+  bool is_down_ = false;
+  bool is_on_plan_ = false;  ///< the present press is
+};
+
+}  // namespace roam::app

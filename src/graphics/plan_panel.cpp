@@ -1,0 +1,179 @@
+#include "graphics/plan_panel.h"
+
+#include <algorithm>
+#include <cmath>
+#include <osg/BlendFunc>
+#include <osg/Geometry>
+#include <osg/LineWidth>
+#include <osg/Scissor>
+#include <string>
+
+#include "graphics/hud_panels.h"
+#include "graphics/lettering.h"
+
+namespace roam::graphics {
+namespace {
+
+// The colours of the sheets that `roam walk --picture` draws, see draw/style.h.
+const osg::Vec4 paper(1.0f, 1.0f, 1.0f, 0.92f);
+const osg::Vec4 rim(0.36f, 0.39f, 0.45f, 1.0f);
+const osg::Vec4 wall(0.13f, 0.15f, 0.20f, 1.0f);
+const osg::Vec4 below(0.66f, 0.70f, 0.76f, 1.0f);
+const osg::Vec4 blue(0.10f, 0.38f, 0.72f, 1.0f);
+const osg::Vec4 ink(0.11f, 0.13f, 0.17f, 1.0f);
+
+constexpr float small_share = 0.34f, large_share = 0.86f;  ///< of the picture's height
+
+/// Null without points.
+osg::ref_ptr<osg::Geometry> strokes(const std::vector<glm::vec2>& points, GLenum type, const osg::Vec4& color) {
+  if (points.empty()) return nullptr;
+  osg::ref_ptr<osg::Vec3Array> corners = new osg::Vec3Array;
+  corners->reserve(points.size());
+  for (const glm::vec2& p : points) corners->push_back(osg::Vec3(p.x, p.y, 0.0f));
+  osg::ref_ptr<osg::Vec4Array> colors = new osg::Vec4Array;
+  colors->push_back(color);
+  osg::ref_ptr<osg::Geometry> geometry = new osg::Geometry;
+  geometry->setUseDisplayList(false);
+  geometry->setUseVertexBufferObjects(true);
+  geometry->setCullingActive(false);
+  geometry->setVertexArray(corners);
+  geometry->setColorArray(colors, osg::Array::BIND_OVERALL);
+  geometry->addPrimitiveSet(new osg::DrawArrays(type, 0, static_cast<GLsizei>(points.size())));
+  return geometry;
+}
+
+void show_only(osg::Group& group, std::initializer_list<osg::ref_ptr<osg::Node>> nodes) {
+  group.removeChildren(0, group.getNumChildren());
+  for (const auto& node : nodes) {
+    if (node) group.addChild(node);
+  }
+}
+
+/// The largest of 1, 2, 5, 10, ... and 0.5, 0.2, ... that is at most `limit` (> 0).
+double round_length(double limit) {
+  const double power = std::pow(10.0, std::floor(std::log10(limit)));
+  for (const double digit : {5.0, 2.0}) {
+    if (digit * power <= limit) return digit * power;
+  }
+  return power;
+}
+
+/// "5 m", "0.5 m"
+std::string metres(double length) {
+  std::string text =
+      length < 1.0 ? "0." + std::to_string(std::lround(10.0 * length)) : std::to_string(std::lround(length));
+  return text + " m";
+}
+
+}  // namespace
+
+PlanPanel::PlanPanel(Frame& frame)
+    : frame_(frame),
+      parent_(frame.flat()),
+      group_(new osg::Group),
+      frame_parts_(new osg::Group),
+      map_(new osg::MatrixTransform),
+      body_(new osg::MatrixTransform),
+      lines_(new osg::Group),
+      trail_(new osg::Group) {
+  group_->setName("plan");
+  osg::StateSet& state = *group_->getOrCreateStateSet();
+  state.setRenderBinDetails(0, "TraversalOrderBin", osg::StateSet::OVERRIDE_RENDERBIN_DETAILS);
+  state.setAttributeAndModes(new osg::BlendFunc);
+  state.setMode(GL_DEPTH_TEST, osg::StateAttribute::OFF | osg::StateAttribute::OVERRIDE);
+  map_->addChild(lines_);
+  map_->addChild(trail_);
+  map_->getOrCreateStateSet()->setMode(GL_LINE_SMOOTH, osg::StateAttribute::ON);
+  for (osg::Node* node : {static_cast<osg::Node*>(frame_parts_.get()), static_cast<osg::Node*>(map_.get()),
+                          static_cast<osg::Node*>(body_.get())}) {
+    group_->addChild(node);
+  }
+  group_->setNodeMask(0u);
+  // Below the head-up display, which was added before.
+  parent_->insertChild(0, group_);
+}
+
+PlanPanel::~PlanPanel() { parent_->removeChild(group_); }
+
+void PlanPanel::set_lines(const PlanLines& lines) {
+  base_ = lines.base;
+  show_only(*lines_, {strokes(lines.below, GL_LINES, below), strokes(lines.walls, GL_LINES, wall)});
+}
+
+void PlanPanel::set_trail(const std::vector<glm::vec2>& trail) {
+  show_only(*trail_, {strokes(trail, GL_LINE_STRIP, blue)});
+}
+
+Rectangle PlanPanel::place() const {
+  const auto width = static_cast<float>(frame_.width()), height = static_cast<float>(frame_.height());
+  const Page page = Page::of(width, height);
+  const float share = view_.size == PlanSize::large ? large_share : small_share;
+  const float side = std::round(std::min(share * height, 0.6f * width));
+  // A line below the upper edge stays free for the mark of a recording.
+  const float top =
+      view_.size == PlanSize::large ? 0.5f * (height + side) : height - 2.0f * page.margin - 2.0f * page.line;
+  return {std::round(width - page.margin - side), std::round(std::max(top - side, page.margin)), side, side};
+}
+
+void PlanPanel::lay_out() {
+  width_ = frame_.width();
+  height_ = frame_.height();
+  laid_half_ = view_.half;
+  laid_size_ = view_.size;
+  const Rectangle r = place();
+  const Page page = Page::of(static_cast<float>(width_), static_cast<float>(height_));
+  const osg::ref_ptr<osg::StateSet> plates = plate_state();
+  const auto plate = [&](const Rectangle& where, const osg::Vec4& color) {
+    osg::ref_ptr<osg::Geometry> made = make_plate(where, 0.0f, color);
+    made->setStateSet(plates);
+    return made;
+  };
+  // The scale, at the lower left.
+  const double length = round_length(0.5 * view_.half);
+  const float pixels = static_cast<float>(length / view_.half) * 0.5f * r.width, pad = 0.6f * page.margin;
+  const float thick = std::max(2.0f, std::round(0.12f * static_cast<float>(page.letter)));
+  const Look look{page.letter, false, ink};
+  const Rectangle bar{r.x + pad, r.y + pad, std::round(pixels), thick};
+  show_only(*frame_parts_, {plate({r.x - 1, r.y - 1, r.width + 2, r.height + 2}, rim), plate(r, paper), plate(bar, ink),
+                            make_text(metres(length), look, bar.x, std::round(bar.y + 2.0f * thick)),
+                            make_text("N", look, std::round(r.x + r.width - 1.6f * static_cast<float>(page.letter)),
+                                      std::round(r.y + r.height - 1.3f * static_cast<float>(page.letter)))});
+  osg::StateSet& map_state = *map_->getOrCreateStateSet();
+  map_state.setAttributeAndModes(new osg::Scissor(static_cast<int>(r.x), static_cast<int>(r.y),
+                                                  static_cast<int>(r.width), static_cast<int>(r.height)));
+  const float line = std::max(1.2f, 0.1f * static_cast<float>(page.letter));
+  map_state.setAttribute(new osg::LineWidth(line));
+  trail_->getOrCreateStateSet()->setAttribute(new osg::LineWidth(2.0f * line));
+  // The body: an arrow along its gaze, whose size does not depend on the scale.
+  const float arm = 0.75f * static_cast<float>(page.letter);
+  body_->removeChildren(0, body_->getNumChildren());
+  body_->addChild(strokes({{arm, 0.0f}, {-0.7f * arm, 0.6f * arm}, {-0.35f * arm, 0.0f}, {-0.7f * arm, -0.6f * arm}},
+                          GL_TRIANGLE_FAN, blue));
+}
+
+void PlanPanel::set_view(const PlanView& view) {
+  view_ = view;
+  group_->setNodeMask(view.size == PlanSize::none ? 0u : ~0u);
+  if (view.size == PlanSize::none) return;
+  if (width_ != frame_.width() || height_ != frame_.height() || laid_half_ != view.half || laid_size_ != view.size) {
+    lay_out();
+  }
+  const Rectangle r = place();
+  const double scale = 0.5 * static_cast<double>(r.width) / view.half;  // pixels in a metre
+  const glm::dvec2 middle(r.x + 0.5f * r.width, r.y + 0.5f * r.height), from = base_ - view.centre;
+  map_->setMatrix(osg::Matrixd::scale(scale, scale, 1.0) *
+                  osg::Matrixd::translate(middle.x + scale * from.x, middle.y + scale * from.y, 0.0));
+  body_->setMatrix(osg::Matrixd::rotate(view.yaw, osg::Vec3d(0.0, 0.0, 1.0)) *
+                   osg::Matrixd::translate(middle.x, middle.y, 0.0));
+}
+
+std::optional<glm::dvec2> PlanPanel::at(double x, double y) const {
+  if (view_.size == PlanSize::none) return std::nullopt;
+  const Rectangle r = place();
+  const glm::dvec2 pixel(0.5 * (1.0 + x) * frame_.width(), 0.5 * (1.0 + y) * frame_.height());
+  const glm::dvec2 share((pixel.x - r.x) / r.width, (pixel.y - r.y) / r.height);
+  if (!(share.x >= 0.0 && share.x <= 1.0 && share.y >= 0.0 && share.y <= 1.0)) return std::nullopt;
+  return view_.centre + view_.half * (2.0 * share - 1.0);
+}
+
+}  // namespace roam::graphics

@@ -1,0 +1,72 @@
+#pragma once
+/// \file
+/// A plan beside the picture: lines seen from above, the body with its gaze, and its trail. North (+y) is up.
+///
+///     PlanPanel plan(frame);
+///     plan.set_lines({.base = {4e6, 5e6}, .walls = {...}});
+///     plan.set_view({.size = PlanSize::small, .centre = {4e6 + 3, 5e6}, .half = 12.0, .yaw = 0.0});
+///
+/// The panel is at the right edge and scales with the window. Use it between frames, from the thread that calls
+/// viewer.frame().
+
+#include <cstdint>
+#include <glm/vec2.hpp>
+#include <optional>
+#include <osg/Group>
+#include <osg/MatrixTransform>
+#include <osg/ref_ptr>
+#include <osgText/Text>
+#include <vector>
+
+#include "graphics/frame.h"
+#include "graphics/plate.h"
+
+namespace roam::graphics {
+
+/// none: it is not drawn.
+enum class PlanSize : std::uint8_t { none, small, large };
+
+/// A new cut. Points in pairs, metres from `base`.
+struct PlanLines {
+  glm::dvec2 base{0.0};
+  std::vector<glm::vec2> walls{}, below{};  ///< at body height; lower
+};
+
+/// What is shown of it, in each frame.
+struct PlanView {
+  PlanSize size = PlanSize::none;
+  glm::dvec2 centre{0.0};  ///< of the panel, where the body is; metres
+  double half = 12.0;      ///< metres from the centre to the panel's edge, > 0
+  double yaw = 0.0;        ///< radians, see osgRoam::Manipulator
+};
+
+class PlanPanel {
+ public:
+  explicit PlanPanel(Frame& frame);
+  ~PlanPanel();  ///< removes it from the picture
+  PlanPanel(const PlanPanel&) = delete;
+  PlanPanel& operator=(const PlanPanel&) = delete;
+
+  void set_lines(const PlanLines& lines);
+  /// Metres, from the base of the lines.
+  void set_trail(const std::vector<glm::vec2>& trail);
+  void set_view(const PlanView& view);
+  /// The metres at a point of the picture, x and y in [-1, 1]; none outside of the panel.
+  [[nodiscard]] std::optional<glm::dvec2> at(double x, double y) const;
+
+ private:
+  [[nodiscard]] Rectangle place() const;
+  void lay_out();
+
+  Frame& frame_;
+  PlanView view_;
+  glm::dvec2 base_{0.0};
+  int width_ = 0, height_ = 0;  ///< pixels that it is laid out for
+  double laid_half_ = 0.0;
+  PlanSize laid_size_ = PlanSize::none;
+  osg::ref_ptr<osg::Group> parent_, group_, frame_parts_;
+  osg::ref_ptr<osg::MatrixTransform> map_, body_;
+  osg::ref_ptr<osg::Group> lines_, trail_;
+};
+
+}  // namespace roam::graphics

@@ -1,0 +1,214 @@
+// The tools of roam view: measuring, the plan.
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
+
+#include "roam/error.h"
+#include "view/plan_scan.h"
+#include "view_stores.h"
+
+namespace {
+
+using namespace roam;
+using namespace roam::app;
+
+/// A body in a room of 20 m x 4 m x 3 m, at (10, 0), looking along +x.
+class Tooled : public view_stores::Driven {
+ public:
+  explicit Tooled(bool has_store = false) {
+    write_scene();
+    options.size = "640x360";  // the panel of the status leaves room for the plan
+    options.at = {10, 0, 0.95, 0};
+    if (has_store) build();
+    begin();
+    run(0.5);
+    EXPECT_EQ(on_store(), has_store);
+  }
+  /// At a point of the picture, from -1 to 1.
+  void click(double x, double y, int times = 1) {
+    session->stage().draw();  // one clicks on what one sees
+    const osgGA::GUIEventAdapter& now = *events().getCurrentEventState();
+    const float across = 0.5f * (1 + static_cast<float>(x)) * (now.getXmax() - now.getXmin()) + now.getXmin();
+    const bool upwards = now.getMouseYOrientation() == osgGA::GUIEventAdapter::Y_INCREASING_UPWARDS;
+    const float height = static_cast<float>(upwards ? y : -y);
+    const float up = 0.5f * (1 + height) * (now.getYmax() - now.getYmin()) + now.getYmin();
+    for (int i = 0; i < times; ++i) {
+      events().mouseButtonPress(across, up, 1);
+      events().mouseButtonRelease(across, up, 1);
+    }
+    run(1.0 / 60.0);
+  }
+  [[nodiscard]] std::vector<Measurement> measured() { return session->finish().measurements; }
+};
+
+TEST(Tools, MeasureBetweenClickedPoints) {
+  for (const bool on_store : {false, true}) {
+    Tooled d(on_store);
+    d.tap('t');
+    EXPECT_TRUE(contains(d.hud(), "Measuring: click two points; T ends")) << d.hud();
+    EXPECT_TRUE(contains(d.hud(), "clear: 4.00 m wide, 3.00 m high")) << d.hud();
+    d.click(0, 0);
+    ASSERT_TRUE(d.until([&] { return contains(d.hud(), ", front, slope 90"); })) << d.hud();
+    d.click(0, -0.9);
+    ASSERT_TRUE(d.until([&] { return contains(d.hud(), ", floor, slope 0"); })) << d.hud();
+    EXPECT_TRUE(contains(d.hud(), "A to B: ")) << d.hud();
+    const std::vector<Measurement> all = d.measured();
+    ASSERT_EQ(all.size(), 1u);
+    const Pick &a = all[0].a, &b = *all[0].b;
+    EXPECT_NEAR(a.point.x, 20.0, 2e-3);
+    EXPECT_NEAR(a.point.y, 0.0, 1e-3);
+    EXPECT_NEAR(a.point.z, 1.5, 0.05) << "the height of the eye";
+    EXPECT_NEAR(a.normal.x, -1.0, 1e-3);
+    EXPECT_NEAR(b.point.z, 0.0, 2e-3);
+    // The eye looks down by the angle of that point.
+    const double down = std::atan(0.9 * std::tan(glm::radians(32.5)));
+    EXPECT_NEAR(b.point.x, 10.0 + a.point.z / std::tan(down), 0.05);
+    const Span span = span_of(a.point, b.point);
+    EXPECT_NEAR(span.distance, glm::distance(a.point, b.point), 1e-9);
+    EXPECT_NEAR(span.height, b.point.z - a.point.z, 1e-9);
+    EXPECT_LT(span.slope_degrees, 0.0);
+  }
+}
+
+TEST(Tools, GiveMeasurementsInTheReport) {
+  Tooled d;
+  d.tap('t');
+  d.click(0, 0);
+  d.click(0.5, 0);
+  d.click(0, 0);
+  const Json json = json_report(d.session->finish());
+  ASSERT_EQ(json["measurements"].size(), 2u);
+  const Json& first = json["measurements"][0];
+  EXPECT_EQ(first["a"]["object"], "front");
+  EXPECT_NEAR(first["a"]["point"][0], 20.0, 2e-3);
+  EXPECT_GT(first["distance_m"], 0.1);
+  EXPECT_TRUE(json["measurements"][1]["b"].is_null());
+}
+
+TEST(Tools, LeaveTheBodyWhereItIsWhileMeasuring) {
+  Tooled d;
+  const Vec3 before = d.place();
+  d.tap('t');
+  d.click(0, 0, 2);
+  d.run(2.0);
+  EXPECT_LT(glm::distance(d.place(), before), 1e-3);
+  d.tap('t');
+  d.run(1.0);
+  d.click(0, 0, 2);
+  d.run(2.0);
+  EXPECT_GT(glm::distance(d.place(), before), 1.0) << "without the tool a double click goes there";
+  EXPECT_EQ(d.measured().size(), 1u);
+}
+
+TEST(Tools, DrawTheMeasuredLine) {
+  Tooled d;
+  d.tap('t');
+  d.click(-0.5, -0.5);
+  d.click(0.5, -0.5);
+  const std::string shot = d.folder.file("line.png");
+  d.session->stage().draw_picture(shot);
+  const Shot picture(shot);
+  int purple = 0;
+  for (int y = 0; y < picture.height(); ++y) {
+    for (int x = 0; x < picture.width(); ++x) {
+      const osg::Vec4 c = picture.at(x, y);
+      purple += c.r() > c.g() + 0.25f && c.b() > c.g() + 0.15f;
+    }
+  }
+  EXPECT_GT(purple, 50);
+}
+
+// ----------------------------------------------------------------------------------------------------------- plan
+
+/// Length of all pieces, m.
+double length_of(const std::vector<glm::vec2>& pieces) {
+  double length = 0.0;
+  for (std::size_t i = 0; i + 1 < pieces.size(); i += 2) length += glm::distance(pieces[i], pieces[i + 1]);
+  return length;
+}
+
+TEST(PlanScan, FindsTheWallsOnEverySide) {
+  // A box of 4 m x 2 m and a wall at 30 degrees, 3 m long, behind it.
+  Mesh mesh{"walls",
+            {{-2, -1, -1}, {2, -1, -1}, {2, 1, -1}, {-2, 1, -1}, {-2, -1, 1}, {2, -1, 1}, {2, 1, 1}, {-2, 1, 1}},
+            {}};
+  for (std::uint32_t i = 0; i < 4; ++i) {
+    const std::uint32_t j = (i + 1) % 4;
+    mesh.triangles.push_back({i, j, j + 4});
+    mesh.triangles.push_back({i, j + 4, i + 4});
+  }
+  const double c = 3.0 * std::cos(glm::radians(30.0)), s = 1.5;
+  mesh.vertices.insert(mesh.vertices.end(), {{0, 3, -1}, {c, 3 + s, -1}, {c, 3 + s, 1}, {0, 3, 1}});
+  mesh.triangles.push_back({8, 9, 10});
+  mesh.triangles.push_back({8, 10, 11});
+  const World world = World::build({&mesh, 1});
+  const auto pieces = scan_plan(world, {Vec3(0.0), 6.0, 0.02}, [] { return true; });
+  EXPECT_NEAR(length_of(pieces), 12.0 + 3.0, 0.3);
+  const double across = std::cos(glm::radians(30.0)), up = 0.5;
+  for (const glm::vec2& p : pieces) {
+    const bool on_box = std::abs(std::max(std::abs(p.x) - 2.0, std::abs(p.y) - 1.0)) < 0.02;
+    const bool on_wall = std::abs(-up * p.x + across * (p.y - 3.0)) < 0.005;
+    EXPECT_TRUE(on_box || on_wall) << p.x << " " << p.y;
+  }
+  EXPECT_TRUE(scan_plan(world, {Vec3(0, 0, 1.5), 6.0, 0.1}, [] { return true; }).empty()) << "above all walls";
+  EXPECT_THROW(static_cast<void>(scan_plan(world, {}, [] { return false; })), Cancelled);
+}
+
+TEST(Tools, ShowThePlanOfAStoreAsOfItsScene) {
+  for (const bool on_store : {false, true}) {
+    Tooled d(on_store);
+    d.tap('l');
+    ASSERT_TRUE(d.until([&] { return !d.session->tools().plan().walls().empty(); }));
+    Box box;
+    for (const glm::dvec2& p : d.session->tools().plan().walls()) box.include({p.x, p.y, 0.0});
+    EXPECT_NEAR(box.lower.x, 0.0, 0.1);
+    EXPECT_NEAR(box.upper.x, 20.0, 0.1);
+    EXPECT_NEAR(box.lower.y, -2.0, 0.1);
+    EXPECT_NEAR(box.upper.y, 2.0, 0.1);
+  }
+}
+
+TEST(Tools, GoToWhatIsClickedOnThePlan) {
+  Tooled d;
+  d.tap('l');
+  d.tap('l');
+  ASSERT_EQ(d.session->tools().plan().size(), graphics::PlanSize::large);
+  d.run(0.1);
+  // 5 m ahead: the point of the picture that the plan shows there.
+  bool clicked = false;
+  for (double x = -1.0; x < 1.0 && !clicked; x += 0.01) {
+    const auto at = d.session->tools().plan().at(x, 0.0);
+    if (!at || std::abs(at->x - (d.place().x + 5.0)) > 0.5) continue;
+    d.click(x, 0.0);
+    clicked = true;
+  }
+  ASSERT_TRUE(clicked);
+  const double before = d.place().x;
+  d.run(3.0);
+  EXPECT_NEAR(d.place().x, before + 5.0, 1.0);
+  d.tap('l');
+  EXPECT_EQ(d.session->tools().plan().size(), graphics::PlanSize::none);
+  EXPECT_FALSE(d.session->tools().plan().at(0.9, 0.0));
+}
+
+TEST(Tools, DrawThePlanBesideThePictureOnly) {
+  Tooled d;
+  d.tap('l');
+  ASSERT_TRUE(d.until([&] { return !d.session->tools().plan().walls().empty(); }));
+  d.run(0.1);
+  const std::string with = d.folder.file("with.png"), without = d.folder.file("without.png");
+  d.session->stage().draw_picture(with, true);
+  d.session->stage().draw_picture(without);
+  const auto white = [](const Shot& shot) {
+    int count = 0;
+    for (int y = 0; y < shot.height(); ++y) {
+      for (int x = 0; x < shot.width(); ++x) {
+        const osg::Vec4 c = shot.at(x, y);
+        count += c.r() > 0.9f && c.g() > 0.9f && c.b() > 0.9f;
+      }
+    }
+    return count;
+  };
+  EXPECT_GT(white(Shot(with)), white(Shot(without)) + 300);
+}
+
+}  // namespace
