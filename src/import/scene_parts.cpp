@@ -5,9 +5,9 @@
 #include <set>
 #include <system_error>
 
+#include "files/escaped.h"
 #include "import/find_reader.h"
 #include "import/read_all.h"
-#include "import/reader/file_names.h"
 #include "math/floating_point.h"
 #include "roam/import.h"
 
@@ -73,7 +73,7 @@ class Names {
  public:
   std::string unique(const std::string& file_name) {
     // File names may have any bytes, but names of parts are text.
-    const std::string wished = reader::escaped(file_name, [](char32_t) { return true; });
+    const std::string wished = files::escaped(file_name, [](char32_t) { return true; });
     std::string name = wished;
     for (int i = 2; !taken_.insert(name).second; ++i) name = fmt::format("{} ({})", wished, i);
     return name;

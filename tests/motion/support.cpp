@@ -1,5 +1,7 @@
 // The foot that carries a body over cracks, at any speed.
 
+#include "roam/support.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -8,7 +10,6 @@
 #include <numbers>
 
 #include "roam/error.h"
-#include "roam/support.h"
 #include "support_scenes.h"
 
 namespace {

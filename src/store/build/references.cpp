@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <ranges>
 
-#include "import/reader/file_names.h"
+#include "files/escaped.h"
 #include "text/printable.h"
 
 namespace roam::store {
@@ -19,7 +19,7 @@ constexpr std::uint64_t name_cost = 16;
 constexpr std::uint64_t look_up_cost = 256;
 
 std::string escaped(const std::string& path) {
-  return reader::escaped(path, [](char32_t code) { return !is_control(code) && code != U'%'; });
+  return files::escaped(path, [](char32_t code) { return !is_control(code) && code != U'%'; });
 }
 
 /// The path below a folder; empty if it lies elsewhere.
@@ -44,7 +44,7 @@ std::optional<std::string> reference_name(const fs::path& file, const reader::Sc
 }
 
 std::optional<fs::path> reference_file(const std::string& name, const reader::SceneScope& scope) {
-  const std::string text = reader::unescaped(name);
+  const std::string text = files::unescaped(name);
   if (text.find('\0') != std::string::npos) return std::nullopt;
   fs::path file(text);
   if (file.is_relative()) file = scope.scene.parent_path() / file;

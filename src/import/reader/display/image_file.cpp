@@ -13,6 +13,7 @@
 #include <system_error>
 #include <vector>
 
+#include "files/escaped.h"
 #include "import/reader/file_names.h"
 #include "import/reader/format_table.h"
 
@@ -102,7 +103,7 @@ fs::path find_image_file(SceneFiles& files, const fs::path& folder, const std::s
   // A name that is still an address refers to a network.
   if (name.empty() || name.find("://") != std::string::npos) return {};
   std::vector<std::string> spellings{name};
-  if (const std::string plain = unescaped(name); plain != name) spellings.push_back(plain);
+  if (const std::string plain = files::unescaped(name); plain != name) spellings.push_back(plain);
   for (const std::string& spelling : spellings) {
     if (fs::path file = existing(files, folder, spelling); !file.empty()) return file;
     const fs::path last = fs::path(spelling).filename();
