@@ -2,6 +2,8 @@
 
 #include "graphics/plan_panel.h"
 
+#include <glm/geometric.hpp>
+
 #include "graphics_stage.h"
 
 namespace roam::test {
