@@ -104,9 +104,7 @@ bool wishes(const Vec3& wish) { return glm::dot(wish, wish) > 0.0; }
 
 SizeLearner::SizeLearner(Profile known, const LearnLimits& limits) : profile_(std::move(known)), limits_(limits) {
   const DefaultFloatingPoint guard;
-  if (!(profile_.radius > 0.0))
-    throw Error(fmt::format("learning begins with a body: the profile's radius is {:g} m; it must be greater than 0",
-                            profile_.radius));
+  check(apply(profile_, WalkerSettings()));
   if (!(limits.radius_min > 0.0 && limits.radius_min <= Space::reach_limit))
     throw Error(
         fmt::format("the smallest radius that may be learned is {:g} m; it must be greater than 0 and at most {:g} m",

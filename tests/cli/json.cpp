@@ -54,7 +54,7 @@ TEST(Json, HasTheLinesOfTheReportForPeople) {
   const std::string scene = folder.write("room.obj", room_obj());
   const std::string path = folder.write("way.path", "2 0 0.9\n18 0 0.9\n");
   for (const Arguments& arguments :
-       std::vector<Arguments>{{"info", scene, "--stats"},
+       std::vector<Arguments>{{"info", scene},
                               {"walk", scene, "--path", path, "--height", "1.8"},
                               {"probe", scene, "--from", "2,0,1", "--to", "8,0,1", "--radius", "0.3"},
                               {"probe", scene, "--from", "2,0,1", "--to", "8,0,1", "--matrix", "0.3,0.4x1.8"},

@@ -149,14 +149,15 @@ TEST(Walker, AGhostThatWouldLeaveAllSpaceStaysWhereItIs) {
 
 TEST(Walker, AStepOfManyEventsKeepsWhatEndsIt) {
   const Mesh m = floor_mesh();
-  Walk w(m, {}, Mode::walk, {-20.0, 0.0, 0.95});
+  const World world = build(m);
+  Walker w(world, {}, Mode::walk, {-20.0, 0.0, 0.95});
   std::vector<roam::SizeRegion> regions;
   for (int i = 0; i < 30; ++i) {
     const double x = -19.0 + i;
     regions.push_back({{Vec3(x, -1.0, -1.0), Vec3(x + 0.3, 1.0, 3.0)}, 0.2, 0.0, ""});
   }
-  w.walker.set_regions(regions);
-  const StepReport& r = w.step({1.4, 0.0, 0.0}, 1e6);
+  w.set_regions(regions);
+  const StepReport& r = w.step({.velocity = {1.4, 0.0, 0.0}}, 1e6);
   EXPECT_EQ(r.events.total(), r.events.size()) << "nothing is lost beyond what motion may note";
   EXPECT_EQ(r.has(EventKind::throttled), r.elapsed < 1e6);
 }
