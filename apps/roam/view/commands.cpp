@@ -23,6 +23,7 @@ constexpr Line lines[] = {
     {"help", "H", "shows or hides this help"},
     {"hud", "F1", "all of the display, the least of it, none"},
     {"marks", "V", "shows the body, what it touches and the nearest triangles"},
+    {"edges", "L", "draws thin lines along edges, or not"},
     {"fullscreen", "F", "fills the screen, or leaves it"},
     {"bookmark", "B", "keeps this place as a bookmark"},
     {"next_bookmark", "Tab", "goes to the next bookmark; with Shift to the one before"},

@@ -229,6 +229,9 @@ void ViewOptions::add_to(CLI::App& verb) {
   verb.add_option("--hud", hud, "Display: full, minimal or off (default: full)")
       ->check(one_of({"full", "minimal", "off"}))
       ->type_name("MODE");
+  verb.add_option("--quality", quality, "Drawing: auto, full, light or plain (default: auto, plain without a graphics card)")
+      ->check(one_of({quality_names.begin(), quality_names.end()}))
+      ->type_name("Q");
   verb.add_flag("--headless", headless, "Draw without a screen");
   verb.add_option("--time", time_limit, "End after S seconds of roaming")
       ->excludes(replay)
@@ -273,6 +276,8 @@ ViewPlan make_plan(const ViewOptions& options, const ViewSettings& settings,
   plan.sensitivity = settings.sensitivity.value_or(plan.sensitivity);
   plan.invert_y = settings.invert_y.value_or(plan.invert_y);
   plan.hud = options.hud ? parse_hud_mode(*options.hud).value_or(plan.hud) : settings.hud.value_or(plan.hud);
+  plan.quality = options.quality.value_or(settings.quality.value_or(plan.quality));
+  plan.edges = settings.edges.value_or(plan.edges);
   const auto [width, height] = parse_size(options.size);
   plan.width = width;
   plan.height = height;

@@ -34,7 +34,7 @@ struct ViewOptions {
   std::filesystem::path path;
   double dt = 1.0 / 60.0;
   std::filesystem::path screenshot, record, record_path, trace, settings;
-  std::optional<std::string> hud;
+  std::optional<std::string> hud, quality;
   double time_limit = 0.0;  ///< seconds after the body's arrival; 0: no limit
   bool headless = false;
   bool verify = false;
@@ -57,6 +57,8 @@ struct ViewPlan {
   double sensitivity = 1.0;
   bool invert_y = false;
   HudMode hud = HudMode::full;
+  std::string quality = "auto";  ///< one of quality_names
+  bool edges = true;
   int width = 0, height = 0;   ///< pixels
   std::vector<Waypoint> path;  ///< of --path; make_plan leaves it empty
   std::optional<Pose> at;

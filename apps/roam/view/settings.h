@@ -10,9 +10,12 @@
 ///       "body": {"radius": 0.25, "height": 1.7, "eye": 1.5, "step": 0.3, "slope": 45},
 ///       "speed": 1.4,
 ///       "fov": 65,
-///       "hud": "full"
+///       "hud": "full",
+///       "quality": "auto",
+///       "edges": true
 ///     }
 
+#include <array>
 #include <filesystem>
 #include <map>
 #include <optional>
@@ -39,7 +42,12 @@ struct ViewSettings {
   std::optional<double> speed;                           ///< metres per second
   std::optional<double> fov;                             ///< degrees, vertical
   std::optional<HudMode> hud;
+  std::optional<std::string> quality;  ///< see quality_names
+  std::optional<bool> edges;           ///< thin lines along outlines
 };
+
+/// The qualities of drawing. auto: light without a graphics card, else full. The others as graphics::Quality.
+inline constexpr std::array<const char*, 4> quality_names{"auto", "full", "light", "plain"};
 
 /// Range of the field of view, degrees.
 inline constexpr double least_fov = 10.0;

@@ -114,6 +114,7 @@ std::vector<StatusText> status_lines(const Status& status) {
     frame += fmt::format("{}collision {:.0f} \u00b5s", frame.empty() ? "" : ", ", status.collision_us);
   }
   if (!frame.empty()) lines.push_back({"frame", frame, false});
+  if (!status.quality.empty()) lines.push_back({"drawing", status.quality, false});
   if (!status.recording.empty()) lines.push_back({"recording", status.recording, true});
   for (const auto& [what, state] : {std::pair("scene", &status.display), std::pair("collision", &status.collision)}) {
     const bool failed = state->phase == Phase::failed;
