@@ -6,11 +6,11 @@
 # Checked are README.md, SECURITY.md, CONTRIBUTING.md, CHANGELOG.md and docs/**/*.md:
 #   - a relative link leads to a file or folder, and its #anchor to a heading, by GitHub's rules for anchors;
 #   - docs/NAME.md in code, tests and CMake files exists, and so does the heading in: docs/NAME.md, "Heading";
-#   - README.md and docs have at most 28,000 words together;
+#   - README.md and docs have at most 34,000 words together;
 #   - a line has at most 120 columns, without the targets of its links, unless it is code or a table.
 set -euo pipefail
 export LC_ALL=C  # awk counts bytes then, whichever awk it is
-most_words=28000
+most_words=34000
 
 # documents: their names, one a line.
 documents() {
