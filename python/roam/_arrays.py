@@ -14,8 +14,13 @@ Progress = Optional[Callable[[float], object]]
 Floats = NDArray[np.float64]
 
 
+_LITTLE = 64 << 20  # bytes that need no question
+
+
 def check_memory(wanted: int, name: str) -> None:
     """Raises MemoryError if so many bytes are not free: the system would end a process later."""
+    if wanted < _LITTLE:
+        return
     free = free_memory()
     if free is not None and wanted > free:
         raise MemoryError(f"{name} would take {wanted / 1e9:.1f} GB, and {free / 1e9:.1f} GB are free; "

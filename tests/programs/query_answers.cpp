@@ -1,7 +1,7 @@
 // query_answers IN OUT: queries of C++ for tests of other languages.
 //
-// IN: three uint64 (vertices, triangles, queries), then packed arrays: vertices (3 doubles), triangles (3 uint32), radii,
-// half heights, positions and motions. OUT: a Row a query.
+// IN: three uint64 (vertices, triangles, queries), then packed arrays: vertices (3 doubles), triangles (3 uint32),
+// radii, half heights, positions and motions. OUT: a Row a query.
 #include <cstdint>
 #include <cstring>
 #include <fstream>
