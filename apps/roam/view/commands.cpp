@@ -34,7 +34,7 @@ constexpr Line lines[] = {
     {"store", "O", "builds the scene's collision store in the background, after a question, or stops that"},
     {"turn", "U", "turns the scene by 90 degrees, first as its floors suggest; SCENE.roam.json keeps it"},
     {"adapt", "Y", "takes the size of the body that would get on here"},
-    {"quit", "F10, Ctrl+Q", "ends at once; so does Escape, pressed twice"},
+    {"quit", "F10", "ends at once; so does Escape, pressed twice"},
 };
 
 /// Headings of the help, each with the first command below it.
