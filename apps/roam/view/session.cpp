@@ -232,8 +232,8 @@ ViewReport Session::finish() {
   records_.fill(report);
   report.written = news_.files();
   log_.fill(report);
-  stage_.fill(report);
   stage_.finish();
+  stage_.fill(report);
   log_.finish();
   return report;
 }

@@ -251,7 +251,10 @@ void Stage::fill(ViewReport& report) const {
 }
 
 void Stage::finish() {
-  for (graphics::Screenshot& picture : pictures_) picture.finish();
+  for (graphics::Screenshot& picture : pictures_) {
+    picture.finish();
+    written_.push_back(picture.path().string());
+  }
   pictures_.clear();
   if (!film_) return;
   film_->finish();
