@@ -58,13 +58,11 @@ Json import_report(const ImportReport& report) {
   return json;
 }
 
-Json json_report(const SceneOptions& options, const LoadedScene& scene) {
+Json json_report(const SceneOptions& options, const LoadedScene& scene, const measure::Edges& edges) {
   const WorldStats& stats = scene.world.stats();
-  const measure::Edges edges = measure::count_edges(scene.meshes);
-  const std::optional<UpAxis> up = doubted_up(options, scene.meshes);
   return {{"scene", options.names()},
           {"frame", to_json(frame_of(options))},
-          {"likely_up", up ? Json(to_string(*up)) : Json(nullptr)},
+          {"likely_up", scene.likely_up ? Json(to_string(*scene.likely_up)) : Json(nullptr)},
           {"format", "scene"},
           {"triangles", stats.triangles},
           {"objects", stats.objects},
@@ -73,7 +71,7 @@ Json json_report(const SceneOptions& options, const LoadedScene& scene) {
           {"bytes", stats.bytes},
           {"bytes_per_triangle", static_cast<double>(stats.bytes) / static_cast<double>(stats.triangles)},
           {"largest_error_m", stats.largest_error},
-          {"hash", identity_of(scene.meshes).hash},
+          {"hash", scene.identity.hash},
           {"read_s", scene.read_seconds},
           {"build_s", scene.build_seconds},
           {"edges", {{"all", edges.all}, {"open", edges.open}, {"hole", edges.hole ? to_json(*edges.hole) : nullptr}}},
@@ -119,14 +117,14 @@ std::string left_out_words(const ImportReport& report) {
   return text.empty() ? "nothing" : text;
 }
 
-std::string text_report(const SceneOptions& options, const LoadedScene& scene) {
+std::string text_report(const SceneOptions& options, const LoadedScene& scene, const measure::Edges& edges) {
   const WorldStats& stats = scene.world.stats();
   words::Lines lines(printable_part(options.names()) + ": " + size_words(scene.bounds, stats.triangles, stats.objects));
   lines.add("from", words::exactly_at(scene.bounds.lower));
   lines.add("to", words::exactly_at(scene.bounds.upper));
   lines.add("up", up_words(options));
   lines.add("unit", unit_words(options));
-  lines.add("closed", closed_words(measure::count_edges(scene.meshes)));
+  lines.add("closed", closed_words(edges));
   lines.add("left out", left_out_words(scene.report));
   std::error_code none;
   if (const auto profile = profile_path(options.scenes);
@@ -148,7 +146,7 @@ std::string stats_report(const LoadedScene& scene) {
   line("largest error", fmt::format("{:.3g} m between a vertex and its place in the index", stats.largest_error));
   line("time",
        fmt::format("read in {}, indexed in {}", short_time(scene.read_seconds), short_time(scene.build_seconds)));
-  line("hash", identity_of(scene.meshes).hash);
+  line("hash", scene.identity.hash);
   return text;
 }
 
@@ -217,8 +215,11 @@ ExitStatus info(SceneOptions options, bool json, bool stats) {
     if (Store::is_store(scene)) return store_info(options, json, stats);
   }
   take_kept_frame(options);
+  options.identify = true;
   const LoadedScene scene = load(options, Source::keep);
-  print_report(json, json_report(options, scene), text_report(options, scene) + (stats ? stats_report(scene) : ""));
+  const measure::Edges edges = measure::count_edges(scene.meshes);
+  print_report(json, json_report(options, scene, edges),
+               text_report(options, scene, edges) + (stats ? stats_report(scene) : ""));
   return done;
 }
 

@@ -166,16 +166,20 @@ ImportedScene read_scene(const SceneOptions& options) {
     scene = import_scene(options.scenes, how);
   }
   for (const std::string& note : scene.report.notes) tell("note: " + note);
-  if (const auto up = doubted_up(options, scene.meshes)) {
-    tell("note: " + words::likely_up(printable_part(options.file_names()), *up));
-  }
   return scene;
+}
+
+std::optional<UpAxis> tell_doubted_up(const SceneOptions& options, std::span<const Mesh> meshes) {
+  const std::optional<UpAxis> up = doubted_up(options, meshes);
+  if (up) tell("note: " + words::likely_up(printable_part(options.file_names()), *up));
+  return up;
 }
 
 LoadedScene load(const SceneOptions& options, Source source) {
   const auto start = std::chrono::steady_clock::now();
   ImportedScene scene = read_scene(options);
   LoadedScene loaded;
+  loaded.likely_up = tell_doubted_up(options, scene.meshes);
   loaded.read_seconds = seconds_since(start);
   stop_if_interrupted();
 

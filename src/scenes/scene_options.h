@@ -61,9 +61,10 @@ struct LoadedScene {
   World world;
   std::vector<Mesh> meshes;  ///< the triangles as read; empty after Source::release
   ImportReport report;
-  SceneIdentity identity;    ///< set if SceneOptions::identify
-  Box bounds;                ///< of the triangles as read
-  std::vector<Vec3> floors;  ///< see floor_samples
+  SceneIdentity identity;           ///< set if SceneOptions::identify
+  Box bounds;                       ///< of the triangles as read
+  std::vector<Vec3> floors;         ///< see floor_samples
+  std::optional<UpAxis> likely_up;  ///< see doubted_up
   double read_seconds = 0.0;
   double build_seconds = 0.0;
 };
@@ -74,6 +75,9 @@ enum class Source : std::uint8_t { keep, release };
 /// The axis that the surface makes likely to be up instead of z; see roam::likely_up. None if an option or the format
 /// states one.
 [[nodiscard]] std::optional<UpAxis> doubted_up(const SceneOptions& options, std::span<const Mesh> meshes);
+
+/// The same, with a note on standard error.
+std::optional<UpAxis> tell_doubted_up(const SceneOptions& options, std::span<const Mesh> meshes);
 
 /// Reads, with progress and the import's notes on standard error. Throws what import_scene throws.
 [[nodiscard]] ImportedScene read_scene(const SceneOptions& options);

@@ -90,6 +90,7 @@ Surveyed survey_scene(const SceneOptions& options, double slope_degrees) {
     meshes = read_store(*store, numbers);
   } else {
     meshes = read_scene(options).meshes;
+    tell_doubted_up(options, meshes);
     identity = identity_of(meshes);
   }
   stop_if_interrupted();
