@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "draw/page.h"
+#include "math/round_length.h"
 
 namespace roam::draw {
 namespace {

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "draw/picture_file.h"
+#include "math/round_length.h"
 
 namespace roam::draw {
 namespace {

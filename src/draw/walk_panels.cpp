@@ -5,6 +5,8 @@
 #include <glm/geometric.hpp>
 #include <set>
 
+#include "math/round_length.h"
+
 namespace roam::draw {
 namespace {
 

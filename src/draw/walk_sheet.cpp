@@ -12,6 +12,7 @@
 #include "draw/frames.h"
 #include "draw/page.h"
 #include "draw/walk_panels.h"
+#include "math/round_length.h"
 
 namespace roam::draw {
 namespace {

@@ -64,7 +64,7 @@ class Hud::Panels : public osg::NodeCallback {
     if (page != page_) change_all();
     page_ = page;
     if (hint_changed) {
-      show_only(*hint_, hint.empty() ? nullptr : make_hint(page_, hint, hint_opacity, plates_.get()));
+      show_only(*hint_, {hint.empty() ? nullptr : make_hint(page_, hint, hint_opacity, plates_.get())});
       hint_changed = false;
     }
     if (detail != Detail::off) lay_out();
@@ -72,23 +72,18 @@ class Hud::Panels : public osg::NodeCallback {
   }
 
  private:
-  static void show_only(osg::Group& group, const osg::ref_ptr<osg::Node>& node) {
-    group.removeChildren(0, group.getNumChildren());
-    if (node) group.addChild(node);
-  }
-
   void lay_out() {
     osg::StateSet* plates = plates_.get();
     if (status_changed) status_panel_.lay_out(page_, status_shown());
     if (message_changed) {
       const bool any = !message.empty() || progress;
-      show_only(*message_, any ? make_message(page_, message, tone, progress, plates) : nullptr);
+      show_only(*message_, {any ? make_message(page_, message, tone, progress, plates) : nullptr});
     }
-    if (help_changed) show_only(*help_, help_shown ? make_help(page_, help, plates) : nullptr);
-    if (crosshair_changed) show_only(*crosshair_, crosshair && !help_shown ? make_crosshair(page_, plates) : nullptr);
-    if (labels_changed) show_only(*labels_, help_shown ? nullptr : make_labels(page_, labels, plates));
+    if (help_changed) show_only(*help_, {help_shown ? make_help(page_, help, plates) : nullptr});
+    if (crosshair_changed) show_only(*crosshair_, {crosshair && !help_shown ? make_crosshair(page_, plates) : nullptr});
+    if (labels_changed) show_only(*labels_, {help_shown ? nullptr : make_labels(page_, labels, plates)});
     if (recording_changed) {
-      show_only(*recording_, recording.empty() ? nullptr : make_recording(page_, recording, plates));
+      show_only(*recording_, {recording.empty() ? nullptr : make_recording(page_, recording, plates)});
     }
     status_changed = message_changed = help_changed = crosshair_changed = recording_changed = false;
     labels_changed = false;

@@ -278,4 +278,11 @@ osg::ref_ptr<osg::Node> make_crosshair(const Page& page, osg::StateSet* plates) 
   return group;
 }
 
+void show_only(osg::Group& group, std::initializer_list<osg::ref_ptr<osg::Node>> nodes) {
+  group.removeChildren(0, group.getNumChildren());
+  for (const auto& node : nodes) {
+    if (node) group.addChild(node);
+  }
+}
+
 }  // namespace roam::graphics

@@ -2,6 +2,7 @@
 /// \file
 /// Layout and drawing of the parts of the head-up display.
 
+#include <initializer_list>
 #include <optional>
 #include <osg/Group>
 #include <osg/StateSet>
@@ -83,5 +84,8 @@ class StatusPanel {
 
 /// The small cross in the middle: light with a dark rim.
 [[nodiscard]] osg::ref_ptr<osg::Node> make_crosshair(const Page& page, osg::StateSet* plates);
+
+/// Replaces the children of a group. Null nodes are left out.
+void show_only(osg::Group& group, std::initializer_list<osg::ref_ptr<osg::Node>> nodes);
 
 }  // namespace roam::graphics

@@ -10,6 +10,7 @@
 
 #include "graphics/hud_panels.h"
 #include "graphics/lettering.h"
+#include "math/round_length.h"
 
 namespace roam::graphics {
 namespace {
@@ -40,22 +41,6 @@ osg::ref_ptr<osg::Geometry> strokes(const std::vector<glm::vec2>& points, GLenum
   geometry->setColorArray(colors, osg::Array::BIND_OVERALL);
   geometry->addPrimitiveSet(new osg::DrawArrays(type, 0, static_cast<GLsizei>(points.size())));
   return geometry;
-}
-
-void show_only(osg::Group& group, std::initializer_list<osg::ref_ptr<osg::Node>> nodes) {
-  group.removeChildren(0, group.getNumChildren());
-  for (const auto& node : nodes) {
-    if (node) group.addChild(node);
-  }
-}
-
-/// The largest of 1, 2, 5, 10, ... and 0.5, 0.2, ... that is at most `limit` (> 0).
-double round_length(double limit) {
-  const double power = std::pow(10.0, std::floor(std::log10(limit)));
-  for (const double digit : {5.0, 2.0}) {
-    if (digit * power <= limit) return digit * power;
-  }
-  return power;
 }
 
 /// "5 m", "0.5 m"

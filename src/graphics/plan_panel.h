@@ -32,7 +32,7 @@ struct PlanLines {
   std::vector<glm::vec2> walls{}, below{};  ///< at body height; lower
 };
 
-/// What is shown of it, in each frame.
+/// The part that is shown. It may change in each frame.
 struct PlanView {
   PlanSize size = PlanSize::none;
   glm::dvec2 centre{0.0};  ///< of the panel, where the body is; metres

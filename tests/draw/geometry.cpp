@@ -11,12 +11,14 @@
 #include "draw/lines.h"
 #include "draw/stations.h"
 #include "draw/way.h"
+#include "math/round_length.h"
 #include "walker_scenes.h"
 
 namespace {
 
 using namespace roam::draw;
 using roam::Mesh;
+using roam::round_length;
 using roam::Vec3;
 using scenes::Random;
 
