@@ -11,7 +11,7 @@
 
 #include "cracks/shared_edges.h"
 #include "cracks/voids.h"
-#include "math/parallel_floating_point.h"
+#include "math/threads.h"
 
 namespace roam::cracks {
 namespace {

@@ -5,7 +5,9 @@
 #include <glm/geometric.hpp>
 #include <string>
 
+#include "math/finite.h"
 #include "math/floating_point.h"
+#include "motion/demand.h"
 #include "motion/pace.h"
 #include "roam/error.h"
 #include "roam/opening.h"
@@ -28,10 +30,6 @@ constexpr double tall_person = 2.0;
 
 /// Cosine of a turn of less than half a degree, for which a limited body does not slow down.
 constexpr double straight_on = 0.99997;
-
-bool within_limit(const Vec3& v) {  // false for NaN
-  return std::abs(v.x) <= coordinate_limit && std::abs(v.y) <= coordinate_limit && std::abs(v.z) <= coordinate_limit;
-}
 
 /// Whether a body is in a box, or at most its own size outside.
 bool inside(const Vec3& p, const Box& box, const Body& body) {
@@ -72,21 +70,13 @@ bool counts_as_reached(const Vec3& waypoint, const Walker& walker) {
 }  // namespace
 
 void check(const RouteOptions& options, std::span<const Vec3> waypoints, const Walker& walker) {
-  const auto positive = [](const char* what, double value, const char* unit) {
-    if (!(value > 0.0) || !std::isfinite(value)) {
-      throw Error(std::string("the route's ") + what + " is " + number_text(value) + " " + unit +
-                  "; it must be more than 0");
-    }
-  };
-  positive("speed", options.speed, "m/s");
-  if (options.speed > Route::highest_speed) {
-    throw Error("the route's speed is " + number_text(options.speed) + " m/s; it must be at most 1e4 m/s");
-  }
-  positive("time step", options.dt, "s");
+  constexpr const char* whose = "the route's";
+  demand(whose, "speed", options.speed, "m/s", {0.0, Route::highest_speed, true});
+  demand(whose, "time step", options.dt, "s", positive);
   if (options.dt < Route::shortest_step) {
     throw Error("the route's time step is shorter than a microsecond; it would take for ever");
   }
-  positive("patience", options.patience, "s");
+  demand(whose, "patience", options.patience, "s", positive);
   if (!(options.acceleration > 0.0 && options.braking > 0.0)) {
     throw Error("the route accelerates by at most " + number_text(options.acceleration) +
                 " m/s^2 and brakes by at most " + number_text(options.braking) + " m/s^2; both must be more than 0");
@@ -96,7 +86,7 @@ void check(const RouteOptions& options, std::span<const Vec3> waypoints, const W
   }
   if (waypoints.empty()) throw Error("the route has no waypoint; give at least the place to start from");
   for (std::size_t i = 0; i < waypoints.size(); ++i) {
-    if (!within_limit(waypoints[i])) {
+    if (!is_within_limit(waypoints[i])) {
       throw Error("waypoint " + std::to_string(i + 1) + " of the route is not a point within 1e9 m of the origin");
     }
   }

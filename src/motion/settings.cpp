@@ -4,6 +4,7 @@
 
 #include "math/finite.h"
 #include "math/floating_point.h"
+#include "motion/demand.h"
 #include "motion/sizes.h"
 #include "roam/error.h"
 #include "roam/walker.h"
@@ -22,40 +23,36 @@ constexpr double gravity_limit = 1e3;
 constexpr double jump_limit = 100.0;
 constexpr double slope_limit = 89.0;
 
-struct Range {
-  double lower, upper;
-  bool open;  ///< the lower end itself is refused
-};
+}  // namespace
 
-void demand(const char* what, double value, const char* unit, const Range& range, const char* hint) {
+void demand(const char* whose, const char* what, double value, const char* unit, const Range& range, const char* hint) {
   const bool above = range.open ? value > range.lower : value >= range.lower;
   if (above && value <= range.upper) return;  // written so that NaN fails
-  std::string text = std::string("the walker's ") + what + " is " + number_text(value) + " " + unit + "; it must be " +
-                     (range.open ? "more than " : "at least ") + number_text(range.lower) + " and at most " +
-                     number_text(range.upper) + " " + unit;
+  std::string text = std::string(whose) + " " + what + " is " + number_text(value) + " " + unit + "; it must be " +
+                     (range.open ? "more than " : "at least ") + number_text(range.lower);
+  if (range.upper < positive.upper) text += " and at most " + number_text(range.upper) + " " + unit;
   if (*hint) text += std::string(": ") + hint;
   throw Error(text);
 }
 
-}  // namespace
-
 void check(const WalkerSettings& s) {
   const DefaultFloatingPoint guard;
-  demand("radius", s.radius, "m", {0.0, length_limit, true}, "");
-  demand("support radius", s.support_radius, "m", {0.0, length_limit, false}, "0 is no foot of its own");
-  demand("height", s.height, "m", {2.0 * s.radius, length_limit, false},
+  constexpr const char* whose = "the walker's";
+  demand(whose, "radius", s.radius, "m", {0.0, length_limit, true});
+  demand(whose, "support radius", s.support_radius, "m", {0.0, length_limit, false}, "0 is no support disc");
+  demand(whose, "height", s.height, "m", {2.0 * s.radius, length_limit, false},
          "a body is at least two radii high, and then a sphere");
-  demand("eye height", s.eye, "m", {0.0, s.height, false},
+  demand(whose, "eye height", s.eye, "m", {0.0, s.height, false},
          "the eye is in the body; set it with the height, as WalkerSettings::person does");
-  demand("step height", s.step, "m", {0.0, 0.5 * s.height, false},
+  demand(whose, "step height", s.step, "m", {0.0, 0.5 * s.height, false},
          "what is higher is climbed, not stepped on; WalkerSettings::person fits it to the height");
-  demand("slope limit", s.slope_degrees, "degrees", {0.0, slope_limit, false}, "");
-  demand("speed", s.speed, "m/s", {0.0, speed_limit, true}, "");
-  demand("fast factor", s.fast_factor, "times", {1.0, factor_limit, false}, "");
-  demand("gravity", s.gravity, "m/s^2", {0.0, gravity_limit, false}, "");
-  demand("jump height", s.jump_height, "m", {0.0, jump_limit, false}, "");
-  demand("crouched height", s.crouch_height, "m", {0.0, length_limit, true}, "");
-  demand("clearance reach", s.clearance_reach, "m", {0.0, Space::reach_limit, false}, "");
+  demand(whose, "slope limit", s.slope_degrees, "degrees", {0.0, slope_limit, false});
+  demand(whose, "speed", s.speed, "m/s", {0.0, speed_limit, true});
+  demand(whose, "fast factor", s.fast_factor, "times", {1.0, factor_limit, false});
+  demand(whose, "gravity", s.gravity, "m/s^2", {0.0, gravity_limit, false});
+  demand(whose, "jump height", s.jump_height, "m", {0.0, jump_limit, false});
+  demand(whose, "crouched height", s.crouch_height, "m", {0.0, length_limit, true});
+  demand(whose, "clearance reach", s.clearance_reach, "m", {0.0, Space::reach_limit, false});
 }
 
 void check(std::span<const SizeRegion> regions, const WalkerSettings& settings) {

@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "math/finite.h"
-#include "math/largest.h"
 #include "motion/crouch.h"
 #include "motion/ground.h"
 #include "motion/pace.h"
@@ -221,8 +220,7 @@ const StepReport& Walker::State::step(const WalkerInput& wish, double dt) {
     if (dt > 0.0) input.velocity = change->mean(dt);
   }
   const Vec3 ghost_way = input.velocity * dt;
-  if (mode_ == Mode::ghost &&
-      !(is_finite(at_.place + ghost_way) && largest(at_.place + ghost_way) <= coordinate_limit)) {
+  if (mode_ == Mode::ghost && !is_within_limit(at_.place + ghost_way)) {
     throw Error("the ghost would leave the space that a body may be in: 1e9 m from the origin in each axis");
   }
   begin();

@@ -9,6 +9,7 @@
 
 #include "math/floating_point.h"
 #include "math/slope.h"
+#include "motion/demand.h"
 #include "roam/error.h"
 #include "text/number.h"
 
@@ -129,12 +130,6 @@ std::optional<double> drop_from(const Space& space, const Vec3& place, double de
   return std::nullopt;
 }
 
-void demand_positive(const char* what, double value, const char* unit) {
-  if (value > 0.0 && std::isfinite(value)) return;
-  throw Error(std::string("the wandering's ") + what + " is " + number_text(value) + " " + unit +
-              "; it must be more than 0");
-}
-
 }  // namespace
 
 std::optional<WanderStart> wander_start(const Space& space, const WalkerSettings& settings, Mode mode,
@@ -174,10 +169,9 @@ std::optional<WanderStart> wander_start(const Space& space, const WalkerSettings
 
 Wander::Wander(Walker& walker, const WanderOptions& options) : walker_(&walker), options_(options) {
   const DefaultFloatingPoint guard;
-  demand_positive("speed", options.speed, "m/s");
-  if (options.speed > Route::highest_speed)
-    throw Error("the wandering's speed is " + number_text(options.speed) + " m/s; it must be at most 1e4 m/s");
-  demand_positive("time", options.seconds, "s");
+  constexpr const char* whose = "the wandering's";
+  demand(whose, "speed", options.speed, "m/s", {0.0, Route::highest_speed, true});
+  demand(whose, "time", options.seconds, "s", positive);
   if (!(options.dt >= Route::shortest_step && std::isfinite(options.dt)))
     throw Error("the wandering's time step is " + number_text(options.dt) + " s; it must be at least 1e-6 s");
   if (walker.mode() == Mode::ghost) throw Error("a ghost meets nothing that could turn it; wander in fly or walk mode");

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "math/finite.h"
 #include "osg_triangles/primitives.h"
 
 namespace roam::osg_triangles {
@@ -37,7 +38,7 @@ class Collector {
     if (index == unseen) {
       const osg::Vec3d v = vertices_[i] * to_world_;
       const Vec3 vertex{v.x(), v.y(), v.z()};
-      if (is_usable(vertex)) {
+      if (is_within_limit(vertex)) {
         index = static_cast<std::uint32_t>(mesh_.vertices.size());
         mesh_.vertices.push_back(vertex);
       } else {
@@ -55,12 +56,6 @@ class Collector {
 };
 
 }  // namespace
-
-bool is_usable(const Vec3& vertex) {
-  // False for a NaN too.
-  return std::abs(vertex.x) <= coordinate_limit && std::abs(vertex.y) <= coordinate_limit &&
-         std::abs(vertex.z) <= coordinate_limit;
-}
 
 Mesh mesh_of(const osg::Geometry& geometry, const osg::Matrixd& to_world, std::uint64_t& left_out) {
   Mesh mesh;

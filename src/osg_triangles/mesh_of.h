@@ -16,9 +16,6 @@ namespace roam::osg_triangles {
 /// counted in `left_out`, if World::build would refuse one of its vertices or if an index is out of range.
 [[nodiscard]] Mesh mesh_of(const osg::Geometry& geometry, const osg::Matrixd& to_world, std::uint64_t& left_out);
 
-/// Whether World::build accepts this vertex.
-[[nodiscard]] bool is_usable(const Vec3& vertex);
-
 /// The innermost name that is not empty; `names` are outermost first.
 [[nodiscard]] std::string innermost(const std::vector<std::string>& names);
 

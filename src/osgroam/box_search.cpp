@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "affine.h"
+#include "math/finite.h"
 #include "osg_triangles/mesh_of.h"
 #include "vectors.h"
 
@@ -106,7 +107,7 @@ void BoxIntersector::Search::offer(const Corners& corners) {
   for (int i = 0; i < 3; ++i) {
     const osg::Vec3d v = vertices_[index[i]];
     triangle[i] = to_roam(below_._identity ? v : v * below_._matrix);
-    if (!roam::osg_triangles::is_usable(triangle[i])) return;
+    if (!roam::is_within_limit(triangle[i])) return;
   }
   for (int k = 0; k < 3; ++k) {
     const auto [least, most] = std::minmax({triangle[0][k], triangle[1][k], triangle[2][k]});

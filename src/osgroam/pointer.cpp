@@ -15,10 +15,6 @@ constexpr double leash = 0.25;
 /// Pixels: distance from the centre at which a warped pointer may arrive, because windows round positions.
 constexpr double rounding = 2.0;
 
-/// The most seconds and heights of the window between the two clicks of a double click.
-constexpr double double_click_time = 0.4;
-constexpr double double_click_distance = 0.01;
-
 double ratio(double value, double least, double greatest) {
   return greatest != least ? (value - least) / (greatest - least) : 0.5;
 }

@@ -12,6 +12,9 @@ namespace osgRoam {
 
 class Controls;
 
+/// The most seconds and heights of the window between the two clicks of a double click.
+inline constexpr double double_click_time = 0.4, double_click_distance = 0.01;
+
 class Pointer {
  public:
   /// Left and up, in heights of the window.

@@ -1,11 +1,10 @@
-// The parts of roam view that need no window: options, settings, bookmarks, what the display says.
+// The parts of roam view that need no window: options, settings, bookmarks.
 #include <gtest/gtest.h>
 
 #include <CLI/CLI.hpp>
 #include <cstdlib>
 
 #include "cli/exit_status.h"
-#include "cli/histogram.h"
 #include "messages.h"
 #include "program.h"
 #include "roam/error.h"
@@ -13,9 +12,6 @@
 #include "view/commands.h"
 #include "view/options.h"
 #include "view/settings.h"
-#include "view/status.h"
-#include "view/store_choice.h"
-#include "view/twice.h"
 
 namespace {
 
@@ -318,135 +314,6 @@ TEST(Bookmarks, NeverWriteOverAFileThatTheyDoNotUnderstand) {
   const std::string what = error_of([&] { Bookmarks(file, {"mine.obj"}, {}); });
   EXPECT_TRUE(contains(what, file) && contains(what, "list of scenes")) << what;
   EXPECT_EQ(folder.read("b.json"), "{\"mine\": 1}");
-}
-
-// -------------------------------------------------------------------------------------------------- times, display
-
-TEST(Histogram, TellsQuantilesToAPercent) {
-  Histogram times;
-  EXPECT_EQ(times.quantile(0.5), 0.0);
-  for (int i = 1; i <= 10000; ++i) times.add(100.0 * i);
-  EXPECT_NEAR(times.quantile(0.5), 5e5, 6e3);
-  EXPECT_NEAR(times.quantile(0.99), 9.9e5, 1.2e4);
-  EXPECT_EQ(times.largest(), 1e6);
-}
-
-TEST(Status, TellsHowLoadingGoesOn) {
-  LoadState state;
-  state.phase = LoadState::Phase::indexing;
-  state.share = 0.6;
-  state.triangles = 1'200'000;
-  state.seconds_left = 8.0;
-  EXPECT_EQ(load_text("collision", state), "collision 81 %: 1.20 M triangles, 8.0 s left");
-  state.phase = LoadState::Phase::failed;
-  state.error = Error("mine.dae", "is no Collada");
-  EXPECT_EQ(load_text("collision", state), "collision failed: mine.dae: is no Collada");
-  state.phase = LoadState::Phase::done;
-  EXPECT_EQ(load_text("collision", state), "");
-}
-
-TEST(Status, HoldsTheBodyUntilThereIsSomethingToCollideWith) {
-  Status status;
-  EXPECT_TRUE(contains(status_message(status).text, "Loading the walls; then you can walk."));
-  EXPECT_GE(load_share(status.display, status.collision), 0.0);
-  status.collision.phase = LoadState::Phase::failed;
-  EXPECT_TRUE(contains(status_message(status).text, "passes through walls"));
-  status.display.phase = LoadState::Phase::done;
-  EXPECT_LT(load_share(status.display, status.collision), 0.0);
-}
-
-TEST(Status, TellsNewsInFullBelowWhatHolds) {
-  Status status;
-  status.mode = Mode::walk;
-  status.hold = {"blocked by a wall", false};
-  status.news = {{"written: a.png", false}, {std::string(200, 'x'), true}};
-  const Told message = status_message(status);
-  EXPECT_EQ(message.text, "blocked by a wall\nwritten: a.png\n" + std::string(200, 'x'));
-  EXPECT_TRUE(message.warning);
-}
-
-TEST(Status, GivesBearingsFromNorth) {
-  EXPECT_EQ(heading_text(90.0, 0.2), "0\u00b0 N, level");
-  EXPECT_EQ(heading_text(0.0, -0.2), "90\u00b0 E, level");
-  EXPECT_EQ(heading_text(-122.0, -10.0), "212\u00b0 SW, 10\u00b0 down");
-  EXPECT_EQ(heading_text(90.4, 90.0), "0\u00b0 N, 90\u00b0 up");
-  EXPECT_EQ(heading_text(180.0, 0.0), "270\u00b0 W, level");
-  EXPECT_EQ(heading_text(-180.0, 0.0), "270\u00b0 W, level");
-  EXPECT_EQ(heading_text(112.6, 0.0), "337\u00b0 NW, level");
-}
-
-TEST(Status, SaysModeSpeedBodyAndPlace) {
-  Status status;
-  status.mode = Mode::walk;
-  status.grounded = true;
-  status.speed = 1.4;
-  status.around.feet = {1.0, 2.0, 3.456};
-  status.triangles = 1'970'000;
-  std::string text;
-  for (const StatusText& line : status_lines(status)) text += line.label + ": " + line.value + "\n";
-  EXPECT_FALSE(contains(text, "ms")) << text;  // no frame yet
-  for (const char* part : {"walk  1.4 m/s", "radius 0.30 m, height 1.80 m", "1.00, 2.00, 3.46", "1.97 M"}) {
-    EXPECT_TRUE(contains(text, part)) << part << " in\n" << text;
-  }
-}
-
-TEST(Status, LeavesFiguresForProgrammersToTheFullDisplay) {
-  Status status;
-  status.mode = Mode::walk;
-  status.triangles = 12;
-  status.frame_ms = 16.0;
-  status.paging.emplace();
-  std::string plain;
-  for (const StatusText& line : status_lines(status)) plain += line.figures ? "" : line.label + "\n";
-  for (const char* label : {"keys", "triangles", "memory", "collision", "frame"}) {
-    EXPECT_FALSE(contains(plain, label)) << label;
-  }
-  status.paging->failed = 1;
-  plain.clear();
-  for (const StatusText& line : status_lines(status)) plain += line.figures ? "" : line.label + "\n";
-  EXPECT_TRUE(contains(plain, "collision")) << "a warning";
-}
-
-TEST(Keys, BeginWithAHint) {
-  osg::ref_ptr<osgRoam::Manipulator> roamer = new osgRoam::Manipulator;
-  set_up(roamer->controls(), {});
-  EXPECT_EQ(first_hint(roamer->controls()), "H: help     W A S D: walk     drag: look");
-  roamer->controls().rebind("help =\nforward = Z\nleft = Q\ndown =\n");
-  EXPECT_EQ(first_hint(roamer->controls()), "Z Q S D: walk     drag: look");
-}
-
-TEST(Twice, ConfirmsWithTheSecondOrderInTime) {
-  Twice twice(3.0);
-  EXPECT_FALSE(twice.confirms(10.0));
-  EXPECT_TRUE(twice.confirms(12.9));
-  EXPECT_FALSE(twice.confirms(13.0)) << "a new question";
-  EXPECT_FALSE(twice.confirms(16.1)) << "too late";
-  EXPECT_TRUE(twice.confirms(16.2));
-}
-
-TEST(Stores, AreOfferedForLargeScenes) {
-  EXPECT_FALSE(is_large(900'000'000, 10'000'000));
-  EXPECT_TRUE(is_large(1'100'000'000, 0));
-  EXPECT_TRUE(is_large(0, 21'000'000));
-}
-
-TEST(Status, SaysHowTheStoreIs) {
-  Status status;
-  status.mode = Mode::walk;
-  status.paging.emplace();
-  status.paging->memory = 64u << 20;
-  status.paging->tiles = 512;
-  status.paging->ready_radius = 35.2;
-  status.paging->failed = 3;
-  std::string text;
-  for (const StatusText& line : status_lines(status)) text += line.label + ": " + line.value + "\n";
-  EXPECT_TRUE(contains(text, "collision: 64 MiB, 512 tiles, ready 35 m, 3 failed\n")) << text;
-  status.building.emplace();
-  status.building->phase = LoadState::Phase::reading;
-  status.building->share = 0.5;
-  text.clear();
-  for (const StatusText& line : status_lines(status)) text += line.value + "\n";
-  EXPECT_TRUE(contains(text, "store 30 %")) << text;
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include <span>
 #include <string>
 
+#include "math/boxes.h"
 #include "roam/error.h"
 #include "roam/pager.h"
 #include "roam/world.h"
@@ -31,14 +32,6 @@ constexpr double trail_spacing = 0.25;           // m
 constexpr std::size_t longest_trail = 4000;      // points
 constexpr std::size_t most_triangles = 500'000;  // of a store in one plan
 
-bool meets(const Box& box, const Triangle& triangle) {
-  for (int k = 0; k < 3; ++k) {
-    const auto [least, most] = std::minmax({triangle[0][k], triangle[1][k], triangle[2][k]});
-    if (most < box.lower[k] || least > box.upper[k]) return false;
-  }
-  return true;
-}
-
 /// The triangles of a store in a box, without those that cannot be read: the pager says which.
 World part_of(const Store& store, const Box& box, const std::function<bool()>& goes_on) {
   Mesh mesh;
@@ -47,7 +40,7 @@ World part_of(const Store& store, const Box& box, const std::function<bool()>& g
     if (!goes_on()) throw Cancelled();
     near.clear();
     std::copy_if(triangles.begin(), triangles.end(), std::back_inserter(near),
-                 [&](const Triangle& triangle) { return meets(box, triangle); });
+                 [&](const Triangle& triangle) { return meet(box, box_around(triangle)); });
     if (mesh.triangles.size() + near.size() <= most_triangles) store::append(mesh, near);
   };
   store.for_each_triangle(box, take, [](const std::string&) {});

@@ -36,7 +36,7 @@ void StoreBuilding::ask(std::uint64_t triangles) {
   constexpr double most_bytes = 3.5;  // a triangle, in a large store; docs/stores.md
   constexpr std::uint64_t small = 1'000'000;
   const auto bytes = static_cast<std::uint64_t>(most_bytes * static_cast<double>(triangles));
-  const std::string size = triangles == 0  ? "3.5 bytes a triangle"
+  const std::string size = triangles == 0  ? fmt::format("{} bytes a triangle", most_bytes)
                            : bytes < small ? "less than 1 MB"
                                            : "up to " + byte_text(bytes);
   news_.tell_as_is(fmt::format("{} again builds the collision store {} ({})", key(),

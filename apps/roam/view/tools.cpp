@@ -4,14 +4,16 @@
 
 #include <cmath>
 
+#include "osgroam/pointer.h"
+
 namespace roam::app {
 namespace {
 
 using Adapter = osgGA::GUIEventAdapter;
 
-// Of a click, as of osgRoam's double click.
-constexpr double longest_click = 0.4;    // s
-constexpr double click_distance = 0.02;  // of half the picture
+// A click is as short and still as the two of a double click are near each other.
+constexpr double longest_click = osgRoam::double_click_time;             // s
+constexpr double click_distance = 2.0 * osgRoam::double_click_distance;  // of half the picture
 
 bool is_left(const Adapter& event) { return event.getButton() == Adapter::LEFT_MOUSE_BUTTON; }
 

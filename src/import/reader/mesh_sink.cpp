@@ -8,7 +8,9 @@
 #include <limits>
 #include <utility>
 
+#include "math/finite.h"
 #include "roam/mesh.h"
+#include "roam/scene_frame.h"
 
 namespace roam::reader {
 namespace {
@@ -31,17 +33,10 @@ bool same_unit(double stated, double metres) {
 
 /// The command line's name of a unit of this length; empty if it has none.
 std::string_view unit_of(double metres) {
-  constexpr std::pair<std::string_view, double> units[] = {
-      {"m", 1.0}, {"cm", 0.01}, {"mm", 0.001}, {"ft", 0.3048}, {"in", 0.0254}};
-  for (const auto& [name, length] : units) {
-    if (same_unit(metres, length)) return name;
+  for (const char* const name : length_unit_names) {
+    if (same_unit(metres, metres_per(parse_length_unit(name)))) return name;
   }
   return {};
-}
-
-bool good(const Vec3& v) {
-  // False for a NaN.
-  return std::abs(v.x) <= coordinate_limit && std::abs(v.y) <= coordinate_limit && std::abs(v.z) <= coordinate_limit;
 }
 
 }  // namespace
@@ -155,7 +150,7 @@ bool MeshSink::count_vertex(const Vec3& vertex, Vec3& place) {
   const std::uint32_t index = vertex_count_++;
   if (ignored_ && !vertices_are_shared_) return false;
   place = placed(vertex);
-  if (good(place)) return true;
+  if (is_within_limit(place)) return true;
   bad_.push_back(index);
   return false;
 }

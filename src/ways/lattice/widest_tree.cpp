@@ -2,7 +2,7 @@
 #include <limits>
 #include <queue>
 
-#include "math/parallel_floating_point.h"
+#include "math/threads.h"
 #include "ways/lattice/graph.h"
 
 namespace roam::ways {
