@@ -20,7 +20,7 @@ namespace roam::app {
 /// The reason why `--mode fly` of a search demands --sphere.
 inline constexpr const char* flight_is_for_spheres = "ways through the air are found for spheres; add --sphere";
 
-/// What is known of a body. Lengths in m, the slope in degrees.
+/// The known sizes of a body: lengths in m, the slope in degrees.
 struct BodySizes {
   std::optional<double> radius, height, eye, step, slope, support_radius;
 };

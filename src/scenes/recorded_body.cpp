@@ -4,6 +4,8 @@
 
 #include <locale>
 #include <sstream>
+#include <string_view>
+#include <vector>
 
 #include "cli/standard_streams.h"
 #include "scenes/frame.h"
@@ -12,7 +14,7 @@
 namespace roam::app {
 namespace {
 
-constexpr const char* mark = "# roam: mode ";
+constexpr const char* mode_mark = "# roam: mode ";
 constexpr const char* frame_mark = "# roam: frame ";
 
 std::optional<Mode> parse_mode(const std::string& text) {
@@ -27,13 +29,29 @@ std::string describe(double radius, double height) {
                                : fmt::format("a sphere of radius {:g} m", radius);
 }
 
-std::optional<RecordedBody> recorded_body(const std::string& text, const std::string& name_of_file) {
+/// A line of a path file that begins with a mark.
+struct MarkedLine {
+  std::string text;   ///< all of it
+  std::string words;  ///< behind the mark
+  std::string place;  ///< "FILE:LINE"
+};
+
+std::vector<MarkedLine> marked_lines(const std::string& text, const std::string& name_of_file, std::string_view mark) {
+  std::vector<MarkedLine> lines;
   std::istringstream in(text);
-  std::optional<RecordedBody> body;
   std::string line;
   for (int number = 1; std::getline(in, line); ++number) {
-    if (!line.starts_with(mark)) continue;
-    std::istringstream words(line.substr(std::string(mark).size()));
+    if (line.starts_with(mark)) {
+      lines.push_back({line, line.substr(mark.size()), fmt::format("{}:{}", name_of_file, number)});
+    }
+  }
+  return lines;
+}
+
+std::optional<RecordedBody> recorded_body(const std::string& text, const std::string& name_of_file) {
+  std::optional<RecordedBody> body;
+  for (const MarkedLine& line : marked_lines(text, name_of_file, mode_mark)) {
+    std::istringstream words(line.words);
     words.imbue(std::locale::classic());
     std::string word;
     words >> word;
@@ -52,16 +70,14 @@ std::optional<RecordedBody> recorded_body(const std::string& text, const std::st
       good = value != nullptr && words >> *value;
     }
     if (!good) {
-      throw Error(fmt::format("{}:{}", name_of_file, number),
-                  fmt::format("'{}' does not say a body as in '{}'; correct or remove the line", printable(line),
-                              body_line({}, Mode::walk)));
+      throw Error(line.place, fmt::format("'{}' does not say a body as in '{}'; correct or remove the line",
+                                          printable(line.text), body_line({}, Mode::walk)));
     }
     if (!body) {
       try {
         check(s);
       } catch (const Error& error) {
-        throw Error(fmt::format("{}:{}", name_of_file, number),
-                    fmt::format("{}; correct or remove the line", error.what()));
+        throw Error(line.place, fmt::format("{}; correct or remove the line", error.what()));
       }
       body = read;
       body->mode = *mode;
@@ -74,16 +90,13 @@ std::optional<RecordedBody> recorded_body(const std::string& text, const std::st
 }
 
 std::optional<SceneFrame> recorded_frame(const std::string& text, const std::string& name_of_file) {
-  std::istringstream in(text);
   std::optional<SceneFrame> frame;
-  std::string line;
-  for (int number = 1; std::getline(in, line); ++number) {
-    if (!line.starts_with(frame_mark)) continue;
+  for (const MarkedLine& line : marked_lines(text, name_of_file, frame_mark)) {
     const auto refuse = [&](const std::string& why) {
-      throw Error(fmt::format("{}:{}", name_of_file, number),
-                  fmt::format("'{}' {}; correct or remove the line", printable(line, longest_excerpt), why));
+      throw Error(line.place,
+                  fmt::format("'{}' {}; correct or remove the line", printable(line.text, longest_excerpt), why));
     };
-    std::istringstream words(line.substr(std::string(frame_mark).size()));
+    std::istringstream words(line.words);
     std::string up, axis, unit, length, more;
     words >> up >> axis >> unit >> length;
     SceneFrame read;
@@ -118,7 +131,7 @@ void demand_frame(const RecordedPath& path, const std::optional<SceneFrame>& fra
                                 there, here, there));
 }
 
-std::string mode_line(Mode mode) { return fmt::format("{}{}", mark, to_string(mode)); }
+std::string mode_line(Mode mode) { return fmt::format("{}{}", mode_mark, to_string(mode)); }
 
 RecordedPath load_recorded_path(const std::filesystem::path& file) {
   RecordedPath path;

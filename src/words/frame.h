@@ -8,7 +8,8 @@
 
 namespace roam::words {
 
-/// The note on ImportReport::likely_up, with the option that applies it. `scene`: the file names, printable.
+/// The note that an axis other than z is likely up, with the option that applies it. `scene`: the file names,
+/// printable.
 [[nodiscard]] std::string likely_up(const std::string& scene, UpAxis axis);
 
 }  // namespace roam::words
