@@ -86,6 +86,7 @@ TEST(StoreDivision, CoversEveryTriangleOnceInShardsThatAreSmallEnough) {
       ASSERT_TRUE(std::any_of(s.cells.begin(), s.cells.end(),
                               [&](const CurveCell& c) { return c.key <= all[at] && all[at] <= c.last(); }));
     }
+    if (s.cells.front().bits == 0) continue;  // see ShardsOfOneSmallestCell...
     for (std::uint32_t p = 0; p < 2; ++p) {
       const bool has = std::any_of(parts[p].begin(), parts[p].end(), [&](CurveKey key) {
         return s.cells.front().key <= key && key <= s.cells.back().last();
@@ -111,6 +112,41 @@ TEST(StoreDivision, DoesNotDependOnHowFinelyTrianglesAreCounted) {
       EXPECT_EQ(coarse[i].parts, fine[i].parts);
     }
   }
+}
+
+TEST(StoreDivision, ShardsOfOneSmallestCellNameThePartsOfTheirOwnTriangles) {
+  clutter::Random random(4);
+  const ShardLimits limits{100, 400};
+  std::vector<PartCell> cells;
+  std::vector<std::uint32_t> all;  // the part of each triangle
+  for (std::uint32_t part = 0; part < 200; ++part) {
+    const std::uint64_t triangles = part % 6 == 0 ? 350 : 1 + static_cast<std::uint64_t>(random.between(0.0, 60.0));
+    cells.push_back({7, triangles, part, 0});
+    all.insert(all.end(), triangles, part);
+  }
+  std::size_t at = 0;
+  for (const Stretch& s : divide(cells, {}, limits)) {
+    ASSERT_EQ(s.cells, (std::vector<CurveCell>{{7, 0}}));
+    // The triangles of its parts, by part and number.
+    std::vector<std::uint32_t> own;
+    for (const std::uint32_t part : s.parts)
+      own.insert(own.end(), static_cast<std::size_t>(cells[part].triangles), part);
+    ASSERT_LE(s.skip + s.triangles, own.size());
+    for (std::uint64_t i = s.skip; i < s.skip + s.triangles; ++i) EXPECT_EQ(own[i], all.at(at++));
+    EXPECT_LT(s.skip, cells[s.parts.front()].triangles) << "a part without triangles here";
+    EXPECT_GT(s.skip + s.triangles, own.size() - cells[s.parts.back()].triangles) << "a part without triangles here";
+  }
+  EXPECT_EQ(at, all.size());
+}
+
+// A stranger's parts may claim any number of triangles.
+TEST(StoreDivision, OfAnyCountsOfOneCellTakesMemoryForItsPartsAndShards) {
+  std::vector<PartCell> cells;
+  for (std::uint32_t part = 0; part < 1100; ++part) cells.push_back({7, (1ULL << 38) / 1100, part, 0});
+  std::size_t parts = 0;
+  const std::vector<Stretch> stretches = divide(cells, {});
+  for (const Stretch& s : stretches) parts += s.parts.size();
+  EXPECT_LE(parts, cells.size() + stretches.size());
 }
 
 TEST(StoreDivision, BordersLieOnlyWhereMoreThanAShardIsDivided) {

@@ -91,31 +91,34 @@ class Divider {
     open_.cells.push_back(cell);
     open_.triangles += total;
     for (const PartCell& c : cells) open_.parts.push_back(c.part);
-    tidy(open_.parts);
   }
 
-  /// Shards of one smallest cell.
+  /// Shards of one smallest cell, each with the parts of its own triangles. `cells` has one for each part.
   void slice(const CurveCell& cell, std::uint64_t total, std::span<const PartCell> cells) {
     flush();
-    for (std::uint64_t skip = 0; skip < total; skip += limits_.shard) {
+    auto first = cells.begin();
+    std::uint64_t before_first = 0;  // triangles
+    for (std::uint64_t begin = 0; begin < total; begin += limits_.shard) {
+      const std::uint64_t end = begin + std::min(limits_.shard, total - begin);
+      while (before_first + first->triangles <= begin) before_first += first++->triangles;
       Stretch s;
       s.cells = {cell};
-      s.skip = skip;
-      s.triangles = std::min(limits_.shard, total - skip);
-      for (const PartCell& c : cells) s.parts.push_back(c.part);
-      tidy(s.parts);
+      s.skip = begin - before_first;
+      s.triangles = end - begin;
+      std::uint64_t before = before_first;
+      for (auto c = first; before < end; before += c++->triangles) s.parts.push_back(c->part);
       out_.push_back(std::move(s));
     }
   }
 
   void flush() {
-    if (open_.triangles > 0) out_.push_back(std::move(open_));
+    if (open_.triangles > 0) {
+      std::vector<std::uint32_t>& parts = open_.parts;
+      std::sort(parts.begin(), parts.end());
+      parts.erase(std::unique(parts.begin(), parts.end()), parts.end());
+      out_.push_back(std::move(open_));
+    }
     open_ = {};
-  }
-
-  static void tidy(std::vector<std::uint32_t>& parts) {
-    std::sort(parts.begin(), parts.end());
-    parts.erase(std::unique(parts.begin(), parts.end()), parts.end());
   }
 
   const Refine& refine_;

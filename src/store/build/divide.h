@@ -31,8 +31,8 @@ struct PartCell {
 /// cell around two of them holds more triangles than a tile.
 struct Stretch {
   std::vector<CurveCell> cells;
-  /// If a single smallest cell holds more triangles than a shard: the triangles from `skip` on, by part and number,
-  /// belong to this stretch. 0 otherwise.
+  /// If a single smallest cell holds more triangles than a shard: of the triangles of `parts` in it, by part and
+  /// number, those from `skip` on belong to this stretch. 0 otherwise.
   std::uint64_t skip = 0;
   std::uint64_t triangles = 0;
   std::vector<std::uint32_t> parts;  ///< with triangles here, ascending
