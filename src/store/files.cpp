@@ -33,10 +33,17 @@ constexpr std::size_t piece_bytes = 1 << 20;
 
 }  // namespace
 
-std::string sha256_of_file(const Folder& store, const std::string& name,
-                           const std::function<void(std::uint64_t)>& tick) {
-  const Descriptor file = open_file(store, name, O_RDONLY);
+namespace {
+
+/// Throws FileError.
+Descriptor opened_to_read(const Folder& store, const std::string& name) {
+  Descriptor file = open_file(store, name, O_RDONLY);
   if (!file.is_open()) fail("read", store, name, errno);
+  return file;
+}
+
+std::string sha256_of(const Descriptor& file, const Folder& store, const std::string& name,
+                      const std::function<void(std::uint64_t)>& tick) {
   if (files::is_mostly_holes(file.number())) {
     const std::string path = (store / name).string();
     throw Error::at(path, fmt::format("cannot read {}: {}", path, mostly_holes));
@@ -50,6 +57,37 @@ std::string sha256_of_file(const Folder& store, const std::string& name,
     hash.add({piece.data(), static_cast<std::size_t>(got)});
     if (tick) tick(static_cast<std::uint64_t>(got));
   }
+}
+
+}  // namespace
+
+std::string sha256_of_file(const Folder& store, const std::string& name,
+                           const std::function<void(std::uint64_t)>& tick) {
+  return sha256_of(opened_to_read(store, name), store, name, tick);
+}
+
+std::string FileHashes::sha256(const std::string& name, const std::function<void(std::uint64_t)>& tick) {
+  const Descriptor file = opened_to_read(store_, name);
+  struct stat status {};
+  if (::fstat(file.number(), &status) != 0) fail("read", store_, name, errno);
+  std::promise<std::string> mine;
+  std::shared_future<std::string> hash;
+  bool is_first = false;
+  {
+    const std::lock_guard lock(mutex_);
+    const auto [place, added] = hashes_.try_emplace({status.st_dev, status.st_ino});
+    is_first = added;
+    if (is_first) place->second = mine.get_future().share();
+    hash = place->second;
+  }
+  if (is_first) {
+    try {
+      mine.set_value(sha256_of(file, store_, name, tick));
+    } catch (...) {
+      mine.set_exception(std::current_exception());
+    }
+  }
+  return hash.get();
 }
 
 // --------------------------------------------------------------------------------------------------------- new files

@@ -6,10 +6,14 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <future>
+#include <map>
 #include <memory>
+#include <mutex>
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "files/whole_file.h"
 #include "roam/store.h"
@@ -27,6 +31,20 @@ using files::sync_folder;
 /// SHA-256 of a file's content. `tick` is called with the size of each piece read, and may throw.
 [[nodiscard]] std::string sha256_of_file(const Folder& store, const std::string& name,
                                          const std::function<void(std::uint64_t)>& tick = {});
+/// The same of many files that do not change meanwhile. A file with several names (hard links) is hashed once.
+/// Thread-safe.
+class FileHashes {
+ public:
+  explicit FileHashes(Folder store) : store_(std::move(store)) {}
+  [[nodiscard]] std::string sha256(const std::string& name, const std::function<void(std::uint64_t)>& tick = {});
+
+ private:
+  using Number = std::pair<std::uint64_t, std::uint64_t>;  ///< device and inode
+
+  Folder store_;
+  std::mutex mutex_;
+  std::map<Number, std::shared_future<std::string>> hashes_;
+};
 [[nodiscard]] std::uint64_t xxh3(std::span<const std::byte> bytes);
 
 /// A file of a store being built: a WholeFile that is hashed while it is written. Throws FileError.
@@ -56,7 +74,8 @@ void write_file(const Folder& store, const std::string& name, std::string_view t
 [[nodiscard]] std::vector<std::byte> read_file(const Folder& store, const std::string& name, std::uint64_t limit);
 
 /// Why a file is refused that has ranges without space on the disk.
-inline constexpr const char* mostly_holes = "most of it is holes, which take no space on the disk and which no store has";
+inline constexpr const char* mostly_holes =
+    "most of it is holes, which take no space on the disk and which no store has";
 
 // Names of files in a store.
 inline constexpr const char* current_file = "CURRENT";

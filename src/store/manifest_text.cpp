@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <string_view>
@@ -187,6 +188,13 @@ class ManifestText : public JsonReader {
       std::set<std::string_view> packs;
       for (const ShardInfo& shard : manifest.shards) {
         if (!packs.insert(shard.pack).second) refuse("two shards have the same pack");
+      }
+      std::map<std::string_view, const PartInfo*> files;
+      for (const PartInfo& part : manifest.parts) {
+        const PartInfo& other = *files.emplace(part.file, &part).first->second;
+        if (part.bytes != other.bytes || part.triangles != other.triangles || part.objects != other.objects) {
+          refuse("two parts have the same file, but not the same counts");
+        }
       }
       if (manifest.shards.empty()) members.bad("shards");
       if (triangles_ != shard_triangles_) {

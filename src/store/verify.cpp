@@ -22,7 +22,7 @@ namespace {
 class Verifier {
  public:
   Verifier(const Folder& folder, const std::function<bool(std::uint64_t, std::uint64_t)>& progress)
-      : folder_(folder), store_(open_store(folder)), state_(store_->state()), progress_(progress) {}
+      : folder_(folder), hashes_(folder), store_(open_store(folder)), state_(store_->state()), progress_(progress) {}
 
   StoreVerification run() {
     check_files();
@@ -54,9 +54,9 @@ class Verifier {
   /// Sums up the sizes of all files that the manifest names; every byte of them is hashed. Parts of the same content
   /// share a file, which is checked once.
   void check_files() {
-    std::set<std::tuple<std::string_view, std::uint64_t, std::uint64_t>> seen;
+    std::set<std::string_view> seen;
     for (const PartInfo& part : state_.manifest.parts) {
-      if (!seen.insert({part.file, part.triangles, part.objects}).second) continue;
+      if (!seen.insert(part.file).second) continue;
       parts_.push_back(&part);
       total_ += size_in(part_file(part.file));
     }
@@ -91,7 +91,7 @@ class Verifier {
     const std::string file = spare_file(hash);
     try {
       if (!size_of(folder_, file)) return;
-      const std::string found = sha256_of_file(folder_, file, [&](std::uint64_t) { tick(0); });
+      const std::string found = hashes_.sha256(file, [&](std::uint64_t) { tick(0); });
       if (found != hash) damage({file, "its SHA-256 is not its name", Box{}});
     } catch (const Error& error) {
       damage({file, error.what(), Box{}});
@@ -101,7 +101,7 @@ class Verifier {
   void check_part(const PartInfo& part) {
     const std::string file = part_file(part.file);
     try {
-      if (sha256_of_file(folder_, file, [&](std::uint64_t bytes) { tick(bytes); }) != part.file) {
+      if (hashes_.sha256(file, [&](std::uint64_t bytes) { tick(bytes); }) != part.file) {
         throw Error("its SHA-256 is not its name");
       }
       PartVisitor visitor;
@@ -119,7 +119,7 @@ class Verifier {
     const std::string file = pack_file(shard.pack);
     bool whole = false;
     try {
-      whole = sha256_of_file(folder_, file, [&](std::uint64_t bytes) { tick(bytes); }) == shard.pack;
+      whole = hashes_.sha256(file, [&](std::uint64_t bytes) { tick(bytes); }) == shard.pack;
       if (!whole) damage({file, "its SHA-256 is not its name", shard.bounds});
     } catch (const Error& error) {
       damage({file, error.what(), shard.bounds});
@@ -204,6 +204,7 @@ class Verifier {
   }
 
   const Folder folder_;
+  FileHashes hashes_;
   const std::shared_ptr<const Store> store_;
   const Store::State& state_;
   const std::function<bool(std::uint64_t, std::uint64_t)>& progress_;

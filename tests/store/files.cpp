@@ -1,11 +1,14 @@
 // A store's files: whole or absent; packs; the build lock.
 #include "store/files.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
+#include <tbb/parallel_for.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <csignal>
 #include <random>
 
@@ -72,6 +75,30 @@ TEST(NewFile, IsNamedByItsContent) {
   EXPECT_EQ(hash, sha256(bytes_of("abc")));
   EXPECT_EQ(text_of(folder.path() / (hash + ".pack")), "abc");
   EXPECT_EQ(sha256_of_file(folder.path(), hash + ".pack"), hash);
+}
+
+TEST(FileHashes, ReadAFileWithManyNamesOnce) {
+  const TemporaryFolder folder;
+  const fs::path path = folder.write("0.pack", "abc");
+  for (int i = 1; i < 50; ++i) fs::create_hard_link(path, folder.path() / fmt::format("{}.pack", i));
+  folder.write("other.pack", "ab");
+  FileHashes hashes(folder.path());
+  std::atomic<std::uint64_t> bytes{0};
+  tbb::parallel_for(0, 50, [&](int i) {
+    EXPECT_EQ(hashes.sha256(fmt::format("{}.pack", i), [&](std::uint64_t read) { bytes += read; }),
+              sha256(bytes_of("abc")));
+  });
+  EXPECT_EQ(bytes, 3U);
+  EXPECT_EQ(hashes.sha256("other.pack"), sha256(bytes_of("ab")));
+  EXPECT_NE(error_of([&] { static_cast<void>(hashes.sha256("none.pack")); }).find("none.pack"), std::string::npos);
+}
+
+TEST(FileHashes, EndWhenTheCallerDoes) {
+  const TemporaryFolder folder;
+  folder.write("a.pack", "abc");
+  FileHashes hashes(folder.path());
+  EXPECT_THROW(static_cast<void>(hashes.sha256("a.pack", [](std::uint64_t) { throw roam::Cancelled(); })),
+               roam::Cancelled);
 }
 
 TEST(StoreFiles, AreRefusedIfMostOfThemIsHoles) {

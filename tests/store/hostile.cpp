@@ -84,6 +84,10 @@ TEST_F(HostileStore, PagesAndPacksAreNamedOnce) {
   m.shards.push_back(m.shards[0]);
   m.parts.push_back(m.parts[0]);
   EXPECT_NE(refusal(m).find("the same pack"), std::string::npos);
+  m = good;
+  m.parts.push_back(m.parts[0]);
+  ++m.parts[1].objects;
+  EXPECT_NE(refusal(m).find("not the same counts"), std::string::npos);
   EXPECT_EQ(refusal(good), "");
 }
 

@@ -44,14 +44,14 @@ std::vector<ShardInfo> collect(Work& work, const Plan& plan) {
     }
     shards[i] = old->second;
   }
+  FileHashes hashes(work.store);
   work.arena.execute([&] {
     tbb::parallel_for(std::size_t{0}, built.size(), [&](std::size_t b) {
       const PlannedShard& planned = plan.shards[built[b]];
       const auto shard = built_shard(work, planned.key);
       if (!shard) {
         wrong[b] = "missing";
-      } else if (sha256_of_file(work.store, pack_file(shard->pack), [&](std::uint64_t) { work.tick(); }) !=
-                 shard->pack) {
+      } else if (hashes.sha256(pack_file(shard->pack), [&](std::uint64_t) { work.tick(); }) != shard->pack) {
         remove_file(work.store, shard_file(planned.key));
         wrong[b] = "damaged";
       } else {

@@ -241,28 +241,36 @@ class Planner {
   /// Decides the shards as far as the parts' runs allow. `missing_` gets the parts that must be read first.
   void lay_out() {
     missing_.clear();
+    std::map<std::string, std::vector<std::uint32_t>> parts_of;  // by file
+    for (std::size_t i = 0; i < plan_.parts.size(); ++i) {
+      parts_of[plan_.parts[i].info.file].push_back(static_cast<std::uint32_t>(i));
+    }
     std::vector<PartCell> cells;
     std::uint64_t triangles = 0;
-    for (std::size_t i = 0; i < plan_.parts.size(); ++i) {
-      const std::string file = part_file(plan_.parts[i].info.file);
+    for (const auto& [hash, parts] : parts_of) {
+      const std::string file = part_file(hash);
       int bits = 0;
       PartVisitor visitor;
-      visitor.counts = [&](const PartCounts& counts) {
+      visitor.counts = [&, &parts = parts](const PartCounts& counts) {
         bits = counts.cell_bits;
-        if (counts.triangles > most_triangles - triangles) {
+        if (counts.triangles > (most_triangles - triangles) / parts.size()) {
           throw Error::at((work_.store / file).string(),
                           fmt::format("{} counts more triangles than any scene has: verify the store, and repair it",
                                       (work_.store / file).string()));
         }
-        triangles += counts.triangles;
-        if (counts.cells > most_cells_of_plan() - std::min(most_cells_of_plan(), cells.size())) {
+        triangles += counts.triangles * parts.size();
+        if (counts.cells > (most_cells_of_plan() - std::min(most_cells_of_plan(), cells.size())) / parts.size()) {
           throw Error::at(work_.store.string(),
                           fmt::format("the parts of {} take more memory than there is to plan in; give --memory more",
                                       work_.store.string()));
         }
       };
-      visitor.cell = [&](const Cell& cell) {
-        cells.push_back({cell.key, cell.triangles, static_cast<std::uint32_t>(i), bits});
+      visitor.cell = [&, &parts = parts](const Cell& cell) {
+        for (const std::uint32_t part : parts) cells.push_back({cell.key, cell.triangles, part, bits});
+      };
+      visitor.enough = [&] {
+        work_.tick();
+        return false;
       };
       const Descriptor opened = open_file(work_.store, file, O_RDONLY);
       if (!opened.is_open()) fail("read", work_.store, file, errno);
@@ -273,7 +281,6 @@ class Planner {
             return static_cast<std::size_t>(got);
           },
           size_of(work_.store, file).value_or(0), file, visitor);
-      work_.tick();
     }
     if (cells.empty()) {
       remove_results();
@@ -290,6 +297,7 @@ class Planner {
     }
     for (Stretch& stretch : stretches) {
       PlannedShard shard;
+      work_.tick();
       shard.key = key_of(stretch, plan_);
       shard.stretch = std::move(stretch);
       const auto old = before.find(shard.key);
