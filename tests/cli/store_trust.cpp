@@ -131,6 +131,35 @@ TEST_F(StoreTrust, AStoreThatCameWithTheSceneIsNeitherUpToDateNorDestroyed) {
   EXPECT_TRUE(contains(json::parse(own.out)["store"].dump(), "scene.obj.roam")) << own.err;
 }
 
+TEST_F(StoreTrust, AStrangersDamagedStoreIsNeitherRepairedNorReplaced) {
+  give_store();
+  const std::string current = store() + "/CURRENT";
+  std::ofstream(current) << "nothing\n";
+  auto before = content(store());
+  const auto expect_refused = [&] {
+    const ProgramResult built = run({"build", scene()});
+    EXPECT_EQ(built.status, 1) << built.out;
+    EXPECT_TRUE(contains(built.err, "code of your key") && contains(built.err, "--adopt")) << built.err;
+    EXPECT_TRUE(content(store()) == before);
+  };
+  expect_refused();
+  fs::remove_all(store() + "/manifests");
+  fs::remove_all(store() + "/spare");
+  before = content(store());
+  expect_refused();
+  const ProgramResult adopted = run({"build", scene(), "--adopt"});
+  EXPECT_EQ(adopted.status, 0) << adopted.err;
+  EXPECT_EQ(Store::open(store())->info().triangles, 12U);
+}
+
+TEST_F(StoreTrust, OnesOwnDamagedStoreIsRepaired) {
+  ASSERT_EQ(run({"build", scene()}).status, 0);
+  std::ofstream(store() + "/CURRENT") << "nothing\n";
+  const ProgramResult built = run({"build", scene()});
+  EXPECT_EQ(built.status, 0) << built.err;
+  EXPECT_TRUE(contains(built.out + built.err, "a copy of its manifest was whole")) << built.out << built.err;
+}
+
 TEST_F(StoreTrust, VerifyingSaysWhoWroteIt) {
   give_store();
   const ProgramResult foreign = run({"verify", store()});

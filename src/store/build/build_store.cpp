@@ -79,12 +79,22 @@ void note(StoreBuildReport& report, std::string sentence) {
 StoreInfo info_of(const Folder& store) { return Store::open(files_of(store), store.string())->info(); }
 
 /// Repairs the root of the store before planning, or removes it. Returns the damage as a sentence for the user.
-std::string mend_or_remove_root(const Folder& store) {
-  const RootMending mending = mend_root(store);
+/// Throws NotAuthentic, without any change, if nothing shows that the store was built with the key.
+std::string mend_or_remove_root(Work& work) {
+  const std::string store = work.store.string();
+  const std::optional<StoreKey> key = work.options.adopt ? std::nullopt : work.options.key;
+  const RootMending mending = mend_root(work.store, key, [&] { work.tick(); });
   if (mending.wrong.empty()) return "";
-  std::string sentence = fmt::format("{} was damaged: {}; ", store.string(), mending.wrong);
+  if (!mending.mended && key) {
+    throw NotAuthentic(store,
+                       fmt::format("its {}, and no copy of its manifest has the code of your key, so nothing shows "
+                                   "that you built it; --adopt builds all of it again; else remove it, or choose "
+                                   "another output",
+                                   mending.wrong));
+  }
+  std::string sentence = fmt::format("{} was damaged: {}; ", store, mending.wrong);
   if (mending.mended) return sentence + "a copy of its manifest was whole, and what that names is kept";
-  remove_file(store, current_file);
+  remove_file(work.store, current_file);
   return sentence + "no copy of its manifest was whole, so all of it is built again";
 }
 
@@ -105,7 +115,7 @@ void demand_authentic(const Work& work) {
 
 /// Returns no plan if the store is up to date.
 std::optional<Plan> plan_locked(Work& work, const std::set<std::string>& damaged, StoreBuildReport& report) {
-  std::string mended = mend_or_remove_root(work.store);
+  std::string mended = mend_or_remove_root(work);
   const double read_before = report.read_seconds;
   std::optional<Plan> plan;
   {
@@ -264,19 +274,21 @@ StoreBuildReport repair_store(const StoreBuildOptions& options) {
   if (!Store::is_store(options.output) && !holds_store(options.output)) refuse_to_open(options.output);
   const Folder store = Folder::held(options.output, options.through_link);
   const auto lock = locked(store, options.progress);
-  const RootMending root = mend_root(store);
+  StoreBuildOptions as_built = options;
+  Work work(as_built);
+  work.store = store;
+  const RootMending root = mend_root(store, std::nullopt, [&] { work.tick(); });
   if (!root.wrong.empty() && !root.mended) {
     // A repair must restore the same store, but nothing records how it was built.
     throw Error::at(
         options.output.string(),
         fmt::format("{0} cannot be repaired: {1}, and no copy of the manifest is whole, so nothing tells how "
-                    "it was built; `roam build` with its scene, `-o {0}`, and the --up, --unit, --ignore and "
+                    "it was built; `roam build` with its scene, `-o {0}`, --adopt, and the --up, --unit, --ignore and "
                     "--lossless that it was built with, builds it again",
                     options.output.string(), root.wrong));
   }
   if (!is_file(store, current_file)) refuse_to_open(options.output);
   const Manifest manifest = *manifest_in_force(store);
-  StoreBuildOptions as_built = options;
   as_built.lossless = manifest.lossless;
   read_as(manifest.options, as_built.import);
   if (options.key && !Store::open(files_of(store), store.string())->is_authentic(*options.key)) {
@@ -284,13 +296,12 @@ StoreBuildReport repair_store(const StoreBuildOptions& options) {
     as_built.key.reset();
     remove_scratch(store);
   }
-  Work work(as_built);
-  work.store = store;
+  FileHashes hashes(work.store);
   std::set<std::string> damaged;
   std::set<std::string> checked;
   const auto check = [&](const std::string& hash, const std::string& file) {
     if (!checked.insert(file).second) return;
-    if (!size_of(work.store, file) || sha256_of_file(work.store, file, [&](std::uint64_t) { work.tick(); }) != hash) {
+    if (!size_of(work.store, file) || hashes.sha256(file, [&](std::uint64_t) { work.tick(); }) != hash) {
       damaged.insert(hash);
     }
   };

@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "store/authentic.h"
 #include "store/files.h"
 
 namespace roam::store {
@@ -13,13 +14,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Manifests that match their hash, the newest first.
-std::vector<std::string> whole_manifests(const Folder& store) {
+/// Files that may hold a manifest, the newest first.
+std::vector<std::string> copies_of_manifests(const Folder& store) {
   std::vector<std::pair<fs::file_time_type, std::string>> found;
   std::error_code error;
   for (const char* folder : {"manifests", "spare"}) {
     for (std::string& file : files_in(store, folder)) {
-      if (!is_named_by_hash(file, ".json") || sha256_of_file(store, file) != fs::path(file).stem().string()) continue;
+      if (!is_named_by_hash(file, ".json") || size_of(store, file) > Store::usual_memory) continue;
       found.emplace_back(fs::last_write_time(store / file, error), std::move(file));
     }
   }
@@ -64,7 +65,7 @@ std::string keep_spare(const Folder& store, const Manifest& manifest) {
   return hash;
 }
 
-RootMending mend_root(const Folder& store) {
+RootMending mend_root(const Folder& store, const std::optional<StoreKey>& key, const std::function<void()>& tick) {
   RootMending mending;
   if (!has_root(store)) return mending;
   mending.wrong = wrong_with_root(store);
@@ -74,7 +75,11 @@ RootMending mend_root(const Folder& store) {
         store.string(),
         fmt::format("{} is no store: its file CURRENT is none of a store; choose another output", store.string()));
   }
-  for (const std::string& copy : whole_manifests(store)) {
+  FileHashes hashes(store);
+  for (const std::string& copy : copies_of_manifests(store)) {
+    const std::string hash = fs::path(copy).stem().string();
+    if (key && !has_code(*files_of(store), hash, *key)) continue;
+    if (hashes.sha256(copy, [&](std::uint64_t) { tick(); }) != hash) continue;
     const std::vector<std::byte> bytes = read_file(store, copy, Store::usual_memory);
     std::optional<Manifest> manifest;
     try {

@@ -3,8 +3,11 @@
 /// The root of a store: CURRENT and the manifest that it names. Keeps a copy, and repairs the root if it is damaged.
 
 #include <filesystem>
+#include <functional>
+#include <optional>
 #include <string>
 
+#include "roam/store.h"
 #include "store/manifest.h"
 
 namespace roam::store {
@@ -15,12 +18,14 @@ std::string keep_spare(const Folder& store, const Manifest& manifest);
 /// Result of mend_root.
 struct RootMending {
   std::string wrong;    ///< "CURRENT: it is not there"; empty when all is well
-  bool mended = false;  ///< if `wrong`: the root is repaired; else no manifest has a whole copy, and nothing changed
+  bool mended = false;  ///< if `wrong`: the root is repaired; else nothing changed, because no copy can be used
 };
 
-/// If CURRENT or the manifest cannot be used, puts a manifest with an undamaged copy in force again. The store must be
-/// locked. Throws roam::Error for a store of a newer format, for a CURRENT of another program, and if a file cannot be
-/// read or written.
-[[nodiscard]] RootMending mend_root(const Folder& store);
+/// If CURRENT or the manifest cannot be used, puts the newest undamaged copy of a manifest in force again. With a key,
+/// uses only copies that have a code of it. The store must be locked. Calls `tick`, which may throw, for each MB read.
+/// Throws roam::Error for a store of a newer format, for a CURRENT of another program, and if a file cannot be read or
+/// written.
+[[nodiscard]] RootMending mend_root(const Folder& store, const std::optional<StoreKey>& key,
+                                    const std::function<void()>& tick);
 
 }  // namespace roam::store
