@@ -44,6 +44,7 @@ class Patchwork final : public LiveSpace {
  public:
   static constexpr double error_limit = 1e-3;  ///< largest error of a world that deliver() takes
   static constexpr double margin = 1.99e-3;    ///< extra distance from unknown boxes: room for a world that comes there
+  static constexpr int most_levels = 1000;     ///< of refinements, one below the other, that wait for their turn
 
   Patchwork();
   ~Patchwork() override;
@@ -56,8 +57,8 @@ class Patchwork final : public LiveSpace {
   ///
   /// Patches that refine the same one must cover it together. They replace it together, when each has come or is itself
   /// refined by patches that have; if one fails, the coarse patch stays. They may be delivered before that one. Call
-  /// expect() for all of them before you deliver the last. A patch that is announced after `refines` was replaced is
-  /// not part of the replacement: its box is unknown at first.
+  /// expect() for all of them before you deliver the last. A patch that is announced after `refines` was replaced, or
+  /// below most_levels, is not part of the replacement: its box is unknown at first.
   PatchId expect(const Box& where, PatchId refines = PatchId::none);
 
   /// Delivers an expected patch; an empty world means that nothing is there. Drops it if it has been replaced. Worlds

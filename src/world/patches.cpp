@@ -32,7 +32,7 @@ void Patches::expect(const Box& where, PatchId refines) {
   patch.where = where;
   patch.parent = refines == PatchId::none ? no_parent : index_of(refines);
   // A patch that has been replaced cannot be refined any more.
-  if (patch.parent != no_parent && is_replaced(patch.parent)) patch.parent = no_parent;
+  if (patch.parent != no_parent && (is_replaced(patch.parent) || !may_refine(patch.parent))) patch.parent = no_parent;
   if (patch.parent != no_parent) {
     patch.role = Patch::Role::finer;
     patches_[patch.parent].finer.push_back(self);
@@ -87,6 +87,14 @@ void Patches::forget(std::uint32_t index) {
   if (!shown) return;
   count_shown(patch, 1);
   changed_.push_back(index);
+}
+
+bool Patches::may_refine(std::uint32_t index) const {
+  for (int level = 1; level < Patchwork::most_levels; ++level) {
+    if (patches_[index].role != Patch::Role::finer) return true;
+    index = patches_[index].parent;
+  }
+  return false;
 }
 
 void Patches::touch(std::uint32_t index) {

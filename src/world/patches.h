@@ -91,6 +91,8 @@ class Patches {
   static constexpr std::uint32_t no_parent = UINT32_MAX;
   using Cut = std::vector<std::uint32_t>;
 
+  /// Whether a patch below this one is within the levels that recursion bears.
+  [[nodiscard]] bool may_refine(std::uint32_t index) const;
   [[nodiscard]] bool complete(std::uint32_t index) const;
   [[nodiscard]] bool refinable(std::uint32_t index) const;
   bool find_cut(std::uint32_t index, const Fits& fits, Cut& cut) const;

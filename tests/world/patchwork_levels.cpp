@@ -252,6 +252,19 @@ TEST(PatchworkLevels, WhatIsExpectedForAReplacedPatchStandsAlone) {
   EXPECT_NEAR(stopped_at(r.space, 0.2), 0.25, stored);
 }
 
+TEST(PatchworkLevels, AChainOfAnyLengthIsNoRecursionOfThatDepth) {
+  Patchwork space;
+  constexpr int length = 300'000;
+  PatchId patch = PatchId::none;
+  for (int i = 0; i < length; ++i) patch = space.expect(unit, patch);
+  space.deliver(patch, board(0.25));
+  space.update();
+  // All but the last, and those that it replaced, are unknown.
+  EXPECT_NEAR(stopped_at(space, 0.2), 1.0, stored);
+  EXPECT_EQ(space.stats().unknown, static_cast<std::uint64_t>((length - 1) / Patchwork::most_levels));
+  EXPECT_EQ(space.stats().patches, 1u);
+}
+
 TEST(PatchworkLevels, TheMemoryOfWhatWasReplacedIsFreedByTheNextDelivery) {
   Refined r;
   Mesh rich;
