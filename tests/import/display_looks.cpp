@@ -262,6 +262,20 @@ TEST(ImportDisplayLooks, ReadsImagesBesideFilesOfOpenSceneGraph) {
   EXPECT_EQ(without.report.missing_texture_files, (std::vector<std::string>{"gone.bmp"}));
 }
 
+TEST(ImportDisplayLooks, LeavesOutImagesWithGeneratedCoordinates) {
+  const TemporaryFolder folder;
+  folder.write("sky.bmp", bmp(two_texels));
+  const std::string state =
+      "StateSet {\ntextureUnit 0 {\nGL_TEXTURE_2D ON\nGL_TEXTURE_GEN_S ON\nGL_TEXTURE_GEN_T ON\nTexture2D {\nfile "
+      "\"sky.bmp\"\n}\nTexGen {\nmode SPHERE_MAP\n}\n}\n}\n";
+  const std::string two = "Group {\nnum_children 2\n" + square(state, "") + square(state, "") + "}\n";
+  const Shown shown = show({folder.write("a.osg", two)});
+  EXPECT_EQ(shown.triangles.at(0).image, nullptr);
+  EXPECT_EQ(shown.triangles[0].colours[0], (Colour{255, 255, 255, 255}));
+  ASSERT_EQ(shown.report.import.notes.size(), 1u);
+  EXPECT_TRUE(contains(shown.report.import.notes[0], "generated coordinates"));
+}
+
 TEST(ImportDisplayLooks, HalvesHugeImages) {
   const TemporaryFolder folder;
   Row row;

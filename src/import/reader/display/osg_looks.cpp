@@ -116,7 +116,11 @@ OsgLooks::OsgLooks(const osg::Geometry& geometry, const osg::NodePath& path, con
 void OsgLooks::take_state(const osg::StateSet& state, Textures& textures) {
   const auto* texture = dynamic_cast<const osg::Texture2D*>(state.getTextureAttribute(0, osg::StateAttribute::TEXTURE));
   const bool textured = texture != nullptr && is_on(state.getTextureMode(0, GL_TEXTURE_2D));
-  if (textured && coordinates_ != nullptr && texture->getImage() != nullptr && texture->getImage()->data() != nullptr) {
+  const bool has_image = textured && texture->getImage() != nullptr && texture->getImage()->data() != nullptr;
+  if (has_image &&
+      (is_on(state.getTextureMode(0, GL_TEXTURE_GEN_S)) || is_on(state.getTextureMode(0, GL_TEXTURE_GEN_T)))) {
+    textures.leave_out_generated();
+  } else if (has_image && coordinates_ != nullptr) {
     // The walk has the graph as const, but the image is only read.
     osg::Image& image = const_cast<osg::Image&>(*texture->getImage());
     look_.texture = textures.add_image(

@@ -43,6 +43,12 @@ TextureId Textures::add_image(osg::Image& image, Wrapping wrapping) {
   return add(key, {image.getFileName(), {}, &image, wrapping});
 }
 
+void Textures::leave_out_generated() {
+  if (std::exchange(left_out_generated_, true)) return;
+  frames_.send(FrameKind::note, PayloadWriter().add_text(
+                                    "Images with generated coordinates (TexGen), such as reflections, are not shown."));
+}
+
 osg::ref_ptr<osg::Image> Textures::load(TextureId id) {
   Source& source = sources_.at(id);
   osg::ref_ptr<osg::Image> image = source.decode ? source.decode() : source.image;

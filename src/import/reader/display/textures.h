@@ -40,6 +40,9 @@ class Textures {
   /// Adds a decoded image.
   TextureId add_image(osg::Image& image, Wrapping wrapping);
 
+  /// Notes, once, that images are left out whose coordinates only a graphics card computes.
+  void leave_out_generated();
+
   /// The image, decoded anew each time. Null if there is none, which is reported once.
   [[nodiscard]] osg::ref_ptr<osg::Image> load(TextureId texture);
   [[nodiscard]] Wrapping wrapping(TextureId texture) const { return sources_.at(texture).wrapping; }
@@ -71,7 +74,7 @@ class Textures {
   std::map<std::string, osg::ref_ptr<osg::Image>> found_;
   std::set<std::string> missing_;
   std::uint64_t read_ = 0;
-  bool reduced_ = false;
+  bool reduced_ = false, left_out_generated_ = false;
 };
 
 }  // namespace roam::reader
