@@ -95,7 +95,11 @@ TEST_F(StoreRoot, WithoutAnyCopyIsBuiltAgainButNotRepaired) {
   const ProgramResult repaired = run({"verify", bad, "--repair", scene()});
   EXPECT_EQ(repaired.status, 1) << repaired.out;
   EXPECT_TRUE(contains(repaired.err, "roam build") && contains(repaired.err, "--lossless")) << repaired.err;
-  const ProgramResult built = run({"build", scene(), "-o", bad});
+  // Nothing is left to show whose it was.
+  const ProgramResult refused = run({"build", scene(), "-o", bad});
+  EXPECT_EQ(refused.status, 1) << refused.out;
+  EXPECT_TRUE(contains(refused.err, "--adopt")) << refused.err;
+  const ProgramResult built = run({"build", scene(), "-o", bad, "--adopt"});
   EXPECT_EQ(built.status, 0) << built.err;
   EXPECT_TRUE(contains(built.err, "built again")) << built.err;
   store_builds::expect_same(bad, store());

@@ -85,7 +85,7 @@ std::string mend_or_remove_root(Work& work) {
   const std::optional<StoreKey> key = work.options.adopt ? std::nullopt : work.options.key;
   const RootMending mending = mend_root(work.store, key, [&] { work.tick(); });
   if (mending.wrong.empty()) return "";
-  if (!mending.mended && key) {
+  if (!mending.mended && key && holds_results(work.store)) {
     throw NotAuthentic(store,
                        fmt::format("its {}, and no copy of its manifest has the code of your key, so nothing shows "
                                    "that you built it; --adopt builds all of it again; else remove it, or choose "

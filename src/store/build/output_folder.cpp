@@ -24,18 +24,6 @@ bool is_ours(const std::string& name) {
   return ours.contains(name) || is_temporary_of_root(name);
 }
 
-/// Whether the folder holds finished results of read_part, build_shard or merge.
-bool holds_results(const Folder& store) {
-  const std::vector<std::string> names = names_in(store, "");
-  if (std::count(names.begin(), names.end(), current_file) > 0 || is_file(store, plan_file)) return true;
-  for (const char* folder : {"packs", "parts", "manifests", "spare", "scratch/parts", "scratch/shards"}) {
-    for (const std::string& name : names_in(store, folder)) {
-      if (!name.ends_with(files::temporary_suffix)) return true;
-    }
-  }
-  return false;
-}
-
 /// Throws if a folder is no store and holds something that no build creates. Other programs also have files named
 /// CURRENT.
 void demand_no_other_things(const Folder& store) {
@@ -49,6 +37,17 @@ void demand_no_other_things(const Folder& store) {
 }
 
 }  // namespace
+
+bool holds_results(const Folder& store) {
+  const std::vector<std::string> names = names_in(store, "");
+  if (std::count(names.begin(), names.end(), current_file) > 0 || is_file(store, plan_file)) return true;
+  for (const char* folder : {"packs", "parts", "manifests", "spare", "scratch/parts", "scratch/shards"}) {
+    for (const std::string& name : names_in(store, folder)) {
+      if (!name.ends_with(files::temporary_suffix)) return true;
+    }
+  }
+  return false;
+}
 
 std::unique_ptr<BuildLock> locked(const Folder& store, const BuildProgress& progress) {
   using Clock = std::chrono::steady_clock;
