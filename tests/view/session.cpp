@@ -136,11 +136,15 @@ TEST(Session, ForgetsAnEscapeThatNoOtherFollows) {
   EXPECT_TRUE(contains(d.hud(), "Escape again ends"));
 }
 
-TEST(Session, EndsAtOnceByCtrlQ) {
+TEST(Session, EndsAtOnceByF10AndByNoKeysThatMove) {
   Driven d(room_obj(), {10, 0, 0.95, 0});
   d.press(osgGA::GUIEventAdapter::KEY_Control_L);
-  d.press('q');
+  d.press('q');  // crouching and down
   d.release('q');
+  d.release(osgGA::GUIEventAdapter::KEY_Control_L);
+  EXPECT_TRUE(d.session->frame());
+  d.press(osgGA::GUIEventAdapter::KEY_F10);
+  d.release(osgGA::GUIEventAdapter::KEY_F10);
   EXPECT_FALSE(d.session->frame());
 }
 
