@@ -187,6 +187,10 @@ class Manipulator : public osgGA::CameraManipulator {
   /// On: moving the mouse forwards looks down.
   void setLookInverted(bool on);
   [[nodiscard]] bool lookInverted() const;
+  /// Seconds, >= 0, in which keys bring the body to full speed and to rest; default 0: at once. Walls stop it at once.
+  /// Pilots and goTo() are not eased. Throws roam::Error if it is negative or not finite.
+  void setEasing(double seconds);
+  [[nodiscard]] double easing() const;
 
   // --- watching
 

@@ -54,6 +54,7 @@ Manipulator::Manipulator(const Manipulator& other, const osg::CopyOp& copy)
   s.keys = from.keys;
   s.look_speed = from.look_speed;
   s.look_inverted = from.look_inverted;
+  s.easing = from.easing;
   s.make_walker(from.walker ? s.centre_above(from.walker->feet()) : s.centre_under(s.pose.eye));
 }
 
@@ -253,6 +254,14 @@ void Manipulator::setLookSpeed(double angle) {
 double Manipulator::lookSpeed() const { return _state->look_speed; }
 void Manipulator::setLookInverted(bool on) { _state->look_inverted = on; }
 bool Manipulator::lookInverted() const { return _state->look_inverted; }
+
+void Manipulator::setEasing(double seconds) {
+  demand_finite(seconds, "the time of easing");
+  if (seconds < 0.0) throw roam::Error("the time of easing is negative; take 0 for none");
+  _state->easing = seconds;
+}
+
+double Manipulator::easing() const { return _state->easing; }
 
 // --- callbacks
 

@@ -59,6 +59,8 @@ struct Manipulator::State {
   double jump_left = 0.0;  ///< seconds for which a requested jump may still begin
   double look_speed = 0.0;
   bool look_inverted = false;
+  double easing = 0.0;       ///< seconds; see Manipulator::setEasing
+  double eased_speed = 0.0;  ///< m/s, that is reached or left in this time; 0: keys have not moved the body
   std::optional<double> last_time;  ///< of the last frame, seconds
   bool continuous = false;          ///< continuous update has been requested from the viewer
   HeldCommands held_before;         ///< as of the last frame
@@ -116,6 +118,8 @@ struct Manipulator::State {
   void go(const roam::Vec3& point, const roam::Vec3& normal);
   void fly_pilot(double seconds);
   [[nodiscard]] roam::Vec3 wish(const HeldCommands& held) const;
+  /// Limits the acceleration of keys.
+  void ease(roam::WalkerInput& input, const HeldCommands& held);
   /// Whether the next frame will differ from this one without any event.
   [[nodiscard]] bool restless() const;
 

@@ -79,7 +79,7 @@ void Manipulator::State::tell_placed() {
   journey.end();
   problem.clear();
   stuck = false;
-  jump_left = 0.0;
+  jump_left = eased_speed = 0.0;
   if (walker) guarded([&] { call(on_step, walker->report(), 0.0); });
 }
 
@@ -211,8 +211,13 @@ void Manipulator::State::step(double seconds, const HeldCommands& held) {
   roam::WalkerInput input;
   input.crouch = held.crouch;
   input.jump = jumps;
-  input.velocity =
-      journey.under_way() ? journey.velocity(*walker, settings.speed * settings.fast_factor, seconds) : wish(held);
+  if (journey.under_way()) {
+    input.velocity = journey.velocity(*walker, settings.speed * settings.fast_factor, seconds);
+    eased_speed = 0.0;
+  } else {
+    input.velocity = wish(held);
+    ease(input, held);
+  }
 
   const SoftEye::Before before = SoftEye::before(*walker);
   const roam::StepReport& report = [&]() -> const roam::StepReport& {
@@ -268,6 +273,11 @@ roam::Vec3 Manipulator::State::wish(const HeldCommands& held) const {
                                roam::Vec3(0.0, 0.0, axis(held.up, held.down));
   const double factor = held.slow ? slow_factor : 1.0;
   return roam::wish_velocity(settings, direction, held.fast) * factor;
+}
+
+void Manipulator::State::ease(roam::WalkerInput& input, const HeldCommands& held) {
+  if (held.move()) eased_speed = std::max(glm::length(input.velocity), glm::length(walker->pace()));
+  if (easing > 0.0 && eased_speed > 0.0) input.acceleration = input.braking = eased_speed / easing;
 }
 
 bool Manipulator::State::restless() const {

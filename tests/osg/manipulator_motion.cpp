@@ -218,6 +218,71 @@ Jolts climb(Rig& r, double seconds) {
   return jolts;
 }
 
+/// Walks on a floor with a wall across it at x = 8.
+struct Eased : Rig {
+  Eased() : Rig(yard(), {}, roam::Mode::walk) {
+    manipulator->setFeet({0.0, 0.0, 0.0}, 0.0, 0.0);
+    manipulator->setEasing(0.2);
+    frames(0.5);
+  }
+  static Mesh yard() {
+    Mesh m = floor_mesh();
+    add_wall(m, 8.0, -10.0, 8.0, 10.0, 0.0, 5.0);
+    return m;
+  }
+  [[nodiscard]] Vec3 at() const { return manipulator->walker()->position(); }
+};
+
+TEST(ManipulatorEasing, KeysBringTheBodyToSpeedAndToRestInThisTime) {
+  Eased r;
+  const double v = r->speed();
+  r.down('w');
+  r.frames(0.1);
+  EXPECT_NEAR(r.at().x, v * 0.1 * 0.1 / (2.0 * 0.2), 1e-3);
+  r.frames(0.9);
+  EXPECT_NEAR(r.at().x, v * 0.9, 1e-3);
+  r.up('w');
+  r.frames(0.1);
+  EXPECT_NEAR(r.at().x, v * (0.9 + 0.075), 1e-3);
+  r.frames(0.5);
+  EXPECT_NEAR(r.at().x, v, 1e-3);
+  EXPECT_EQ(r.at().y, 0.0);
+  EXPECT_FALSE(r.viewer.continuous);
+  r->setEasing(0.0);
+  r.down('w');
+  r.frames(0.5);
+  r.up('w');
+  r.frames(0.5);
+  EXPECT_NEAR(r.at().x, v * 1.5, 1e-3);
+}
+
+TEST(ManipulatorEasing, DelaysNeitherWallsNorTheEndOfAWay) {
+  Eased r, plain;
+  plain->setEasing(0.0);
+  for (Eased* one : {&r, &plain}) {
+    (*one)->setSpeed(20.0);
+    one->down('w');
+    one->frames(2.0);
+    one->up('w');
+    one->frames(0.5);
+  }
+  EXPECT_NEAR(r.at().x, plain.at().x, 1e-3) << "at the wall";
+  for (Eased* one : {&r, &plain}) {
+    (*one)->goTo({2.0, 3.0, 0.0}, {0.0, 0.0, 1.0});
+    one->frames(3.0);
+  }
+  EXPECT_EQ(r->going(), false);
+  EXPECT_LT(glm::distance(r.at(), plain.at()), 1e-3);
+}
+
+TEST(ManipulatorEasing, IsAFiniteTime) {
+  const Rig r;
+  for (const double wrong : {-0.1, std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()}) {
+    EXPECT_THROW(r->setEasing(wrong), roam::Error);
+  }
+  EXPECT_EQ(r->easing(), 0.0);
+}
+
 TEST(ManipulatorMotion, TheEyeClimbsStairsSoftlyUpAndDown) {
   Rig r(stairs(), {}, roam::Mode::walk);
   r->setFeet({0.0, 0.0, 0.0}, 0.0, 0.0);

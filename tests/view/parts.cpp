@@ -26,7 +26,7 @@ TEST(ViewSettings, TakeEveryEntry) {
     // comments are allowed
     "keys": {"forward": ["Z", "Up"], "jump": "Space"}, "mouse": {"sensitivity": 2, "invert_y": true},
     "body": {"radius": 0.2, "height": 1.6, "eye": 1.4, "step": 0.2, "slope": 30},
-    "speed": 3, "fov": 80, "hud": "minimal"})"));
+    "speed": 3, "easing": 0, "fov": 80, "hud": "minimal"})"));
   EXPECT_EQ(s.keys.at("forward"), (std::vector<std::string>{"Z", "Up"}));
   EXPECT_EQ(s.keys.at("jump"), std::vector<std::string>{"Space"});
   EXPECT_EQ(s.sensitivity, 2.0);
@@ -37,6 +37,7 @@ TEST(ViewSettings, TakeEveryEntry) {
   EXPECT_EQ(s.step, 0.2);
   EXPECT_EQ(s.slope, 30.0);
   EXPECT_EQ(s.speed, 3.0);
+  EXPECT_EQ(s.easing, 0.0);
   EXPECT_EQ(s.fov, 80.0);
   EXPECT_EQ(s.hud, HudMode::minimal);
 }

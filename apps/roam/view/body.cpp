@@ -16,6 +16,7 @@ osgRoam::Manipulator* make_roamer(const ViewPlan& plan, const ViewSettings& sett
   roamer->setSpeed(plan.walker.speed);
   roamer->setLookSpeed(roamer->lookSpeed() * plan.sensitivity);
   roamer->setLookInverted(plan.invert_y);
+  roamer->setEasing(plan.easing);
   return roamer.release();
 }
 

@@ -225,6 +225,7 @@ ViewPlan make_plan(const ViewOptions& options, const ViewSettings& settings,
   plan.fov = options.fov.value_or(settings.fov.value_or(plan.fov));
   plan.sensitivity = settings.sensitivity.value_or(plan.sensitivity);
   plan.invert_y = settings.invert_y.value_or(plan.invert_y);
+  plan.easing = settings.easing.value_or(plan.easing);
   plan.hud = options.hud ? parse_hud_mode(*options.hud).value_or(plan.hud) : settings.hud.value_or(plan.hud);
   const auto [width, height] = parse_size(options.size);
   plan.width = width;

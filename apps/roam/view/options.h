@@ -57,6 +57,7 @@ struct ViewPlan {
   double fov = 65.0;  ///< degrees
   double sensitivity = 1.0;
   bool invert_y = false;
+  double easing = 0.15;  ///< seconds; see osgRoam::Manipulator::setEasing
   HudMode hud = HudMode::plain;
   int width = 0, height = 0;   ///< pixels
   std::vector<Waypoint> path;  ///< of --path; make_plan leaves it empty

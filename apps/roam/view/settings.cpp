@@ -146,6 +146,7 @@ ViewSettings read_settings(const std::filesystem::path& file) {
     body->end();
   }
   settings.speed = all.number("speed", least, 1e4);
+  settings.easing = all.number("easing", 0.0, 2.0);
   settings.fov = all.number("fov", least_fov, largest_fov);
   if (const auto hud = all.take("hud")) {
     settings.hud = hud->is_string() ? parse_hud_mode(hud->get<std::string>()) : std::nullopt;

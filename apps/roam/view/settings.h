@@ -9,6 +9,7 @@
 ///       "mouse": {"sensitivity": 1.5, "invert_y": true},
 ///       "body": {"radius": 0.25, "height": 1.7, "eye": 1.5, "step": 0.3, "slope": 45},
 ///       "speed": 1.4,
+///       "easing": 0.15,
 ///       "fov": 65,
 ///       "hud": "plain"
 ///     }
@@ -37,6 +38,7 @@ struct ViewSettings {
   std::optional<double> radius, height, eye, step;       ///< metres
   std::optional<double> slope;                           ///< degrees
   std::optional<double> speed;                           ///< metres per second
+  std::optional<double> easing;                          ///< seconds to full speed and to rest, >= 0
   std::optional<double> fov;                             ///< degrees, vertical
   std::optional<HudMode> hud;
 };
