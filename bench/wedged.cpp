@@ -74,7 +74,7 @@ int main(int argc, char** argv) {
   CLI::App app{"Times the steps of persons who push into the walls of a scene (microseconds of the thread's own time)"};
   app.add_option("scene", options.scene, "a scene file")->required();
   app.add_option("--up", options.up, "the axis that points up: x, y, z, -x, -y or -z")->capture_default_str();
-  app.add_option("--foot", options.foot, "radius of the support disc, metres")->capture_default_str();
+  app.add_option("--support-radius", options.foot, "radius of the support disc, metres")->capture_default_str();
   app.add_option("--radius", options.radius, "radius of the body, metres")->capture_default_str();
   app.add_option("--height", options.height, "height of the body, metres")->capture_default_str();
   app.add_option("--persons", options.persons, "number of persons")->capture_default_str();

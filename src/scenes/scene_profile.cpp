@@ -49,7 +49,7 @@ std::string describe(const SceneProfile& profile) {
   const Profile& p = profile.profile;
   std::string text = fmt::format("the body is that of {}: radius {:.3g} m, height {:.3g} m", profile.file.string(),
                                  p.radius, p.height);
-  if (p.support_radius > 0.0) text += fmt::format(", foot {:.3g} m", p.support_radius);
+  if (p.support_radius > 0.0) text += fmt::format(", support disc of radius {:.3g} m", p.support_radius);
   const WalkerSettings usual;
   if (p.mode == Mode::walk && p.step != usual.step) text += fmt::format(", step {:.3g} m", p.step);
   if (p.mode == Mode::walk && p.slope_degrees != usual.slope_degrees) {

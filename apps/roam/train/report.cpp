@@ -152,7 +152,7 @@ std::string stats_report(const TrainReport& report) {
   };
   std::string body =
       fmt::format("{}, radius {:.3f} m, height {:.3f} m", roam::to_string(report.options.mode), t.radius, t.height);
-  if (t.support_radius > 0.0) body += fmt::format(", foot {:.3f} m", t.support_radius);
+  if (t.support_radius > 0.0) body += fmt::format(", support disc of radius {:.3f} m", t.support_radius);
   line("body", body);
   if (!t.paths.empty()) {
     line("interval", fmt::format("{} to {}", t.smallest > 0.0 ? fmt::format("{:.4f} m", t.smallest) : "0",

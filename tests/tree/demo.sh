@@ -1,0 +1,25 @@
+#!/usr/bin/env bash
+# demo.sh SOURCE FOLDER PROGRAM: runs ./demo with a program that is built already.
+# Every walk ends as its text announces, and the page shows every picture that it names.
+set -euo pipefail
+source=$1 folder=$2 program=$3
+rm -rf "$folder"
+mkdir -p "$folder/cmake" "$folder/build"
+cp "$source/demo" "$folder"
+ln -s "$program" "$folder/build/roam"
+cat > "$folder/cmake/packages.sh" << 'END'
+program_packages=
+missing_of() { :; }
+configure() { :; }
+behind_line() { :; }
+END
+if ! "$folder/demo" > "$folder/log" 2>&1 < /dev/null; then
+  cat "$folder/log"
+  exit 1
+fi
+pictures=$(grep -o 'src="[^"]*"' "$folder/demo-out/index.html" | cut -d '"' -f 2)
+(($(wc -w <<< "$pictures") >= 12))
+for picture in $pictures; do
+  [[ -s $folder/demo-out/$picture ]] || { echo "$picture is not there" && exit 1; }
+done
+rm -rf "$folder/demo-out"
