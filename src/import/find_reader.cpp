@@ -55,6 +55,12 @@ fs::path find_reader(const fs::path& wanted) {
     places.push_back(folder / reader_name);
     places.push_back(folder.parent_path() / "libexec" / "roam" / reader_name);
   }
+  // Beside libroam.so of a build; from lib or lib/<architecture> of an installation.
+  if (const fs::path folder = process::library_folder(); !folder.empty()) {
+    places.push_back(folder / reader_name);
+    places.push_back(folder.parent_path() / "libexec" / "roam" / reader_name);
+    places.push_back(folder.parent_path().parent_path() / "libexec" / "roam" / reader_name);
+  }
   if (const char* of_package = package_reader) places.emplace_back(of_package);
   places.emplace_back(ROAM_READER_INSTALLED);
   // An installation elsewhere, whose program is in PATH.

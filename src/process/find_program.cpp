@@ -1,5 +1,6 @@
 #include "process/find_program.h"
 
+#include <dlfcn.h>
 #include <unistd.h>
 
 #include <cstdint>
@@ -41,6 +42,15 @@ fs::path own_program() {
   std::error_code none;
   return fs::read_symlink("/proc/self/exe", none);
 #endif
+}
+
+fs::path library_folder() {
+  Dl_info info;
+  if (dladdr(reinterpret_cast<const void*>(&library_folder), &info) == 0 || info.dli_fname == nullptr) return {};
+  const fs::path file(info.dli_fname);
+  // A relative path would depend on the current folder, which may belong to a stranger.
+  return file.is_absolute() && file.filename().string().find(".so") != std::string::npos ? file.parent_path()
+                                                                                         : fs::path();
 }
 
 fs::path own_folder() { return own_program().parent_path(); }

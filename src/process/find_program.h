@@ -13,6 +13,8 @@ namespace roam::process {
 [[nodiscard]] std::filesystem::path find_program(const std::string& name);
 /// The running program; empty if the system cannot say.
 [[nodiscard]] std::filesystem::path own_program();
+/// The folder of the shared library that this code is part of; empty if it is none, or if the system cannot say.
+[[nodiscard]] std::filesystem::path library_folder();
 /// The folder of the running program; empty if the system cannot say.
 [[nodiscard]] std::filesystem::path own_folder();
 

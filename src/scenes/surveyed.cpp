@@ -5,14 +5,13 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
-#include <fstream>
-#include <optional>
 
 #include "cli/exit_status.h"
 #include "cli/interrupt.h"
 #include "cli/progress.h"
 #include "cli/tell.h"
 #include "measure/room.h"
+#include "process/free_memory.h"
 #include "store/meshes.h"
 
 namespace roam::app {
@@ -22,22 +21,10 @@ namespace {
 /// construction.
 constexpr std::uint64_t bytes_a_triangle = 400;
 
-/// Free memory of the machine; none if it is unknown.
-std::optional<std::uint64_t> free_memory() {
-  std::ifstream in("/proc/meminfo");
-  std::string name, unit;
-  std::uint64_t kilobytes = 0;
-  while (in >> name >> kilobytes) {
-    std::getline(in, unit);
-    if (name == "MemAvailable:") return kilobytes << 10;
-  }
-  return std::nullopt;
-}
-
 std::vector<Mesh> read_store(const Store& store, std::vector<TriangleId>& numbers) {
   const StoreInfo& info = store.info();
   const std::uint64_t needed = info.triangles * bytes_a_triangle;
-  const auto free = free_memory();
+  const auto free = process::free_memory();
   if (free && needed > *free) {
     throw Error(
         store.name(),
