@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Whether every #include runs down the house that docs/architecture.md draws.
-#   include_order.sh SOURCE          fails for each include of src, include, apps, bench and baseline that runs up
+#   include_order.sh SOURCE          fails for each include of src, include, apps, bench, baseline and python that runs up
 #   include_order.sh SOURCE WORK     plants such includes into a copy and fails where they are not found
 #
 # The order is that of the picture: a folder may include from folders on lower lines. The table says of each public
@@ -13,8 +13,8 @@ check() {
   {
     sed -n '/^```$/,/^```$/p' docs/architecture.md | sed 's/^/picture /'
     grep '^| `' docs/architecture.md | sed 's/^/table /'
-    find apps bench baseline include src tests -type f -printf 'file %p\n'
-    grep -rnE --include='*.h' --include='*.cpp' '^ *#include "' apps bench baseline include src | sed 's/^/include /'
+    find apps bench baseline include python src tests -type f -printf 'file %p\n'
+    grep -rnE --include='*.h' --include='*.cpp' '^ *#include "' apps bench baseline include python src | sed 's/^/include /'
   } | awk '
     function fail(text) { print text; failed = 1 }
     # The folder of the picture that a file belongs to: the longest that it lies in.
@@ -45,7 +45,7 @@ check() {
     $1 == "picture" {
       if (/roam::roam, the core/) line = NR
       for (i = 2; i <= NF && $i !~ /^[a-z]/; ++i) {}
-      if ($i ~ /^(apps|bench|baseline|include|src)(\/|$)/) rank[$i] = NR
+      if ($i ~ /^(apps|bench|baseline|include|python|src)(\/|$)/) rank[$i] = NR
     }
     $1 == "table" {
       split($0, column, "|")
@@ -94,7 +94,7 @@ fi
 source=$1 work=$2
 rm -rf "$work"
 mkdir -p "$work"
-(cd "$source" && cp -r --parents docs/architecture.md apps bench baseline include src tests "$work")
+(cd "$source" && cp -r --parents docs/architecture.md apps bench baseline include python src tests "$work")
 
 # planted FILE INCLUDE: the same with one line more must fail, and name it.
 planted() {

@@ -1,5 +1,7 @@
 #!/usr/bin/env bash
 # What ctest runs against a fresh prefix into which roam was installed:
+#   install.sh c       SOURCE PREFIX WORK CXX   builds examples/walk_in_c with CMake and with pkg-config and runs it
+#   install.sh python  SOURCE PREFIX WORK CXX   imports the installed Python module and reads a file with it
 #   install.sh example SOURCE PREFIX WORK CXX   builds examples/sweep_a_sphere outside the tree and runs it
 #   install.sh moving  SOURCE PREFIX WORK CXX   builds examples/swinging_door and moving_platform and runs them
 #   install.sh import  SOURCE PREFIX WORK CXX   builds examples/walk_a_path outside the tree and walks with it
@@ -49,6 +51,26 @@ case $what in
   example)
     build sweep_a_sphere
     expect 'stops at x = 19.' "$work/build/sweep_a_sphere"
+    ;;
+  c)
+    build walk_in_c
+    expect 'stopped at x = 4.70 m' "$work/build/walk_in_c"
+    expect 'the wall is 5.00 m away' "$work/build/walk_in_c"
+    export PKG_CONFIG_PATH
+    PKG_CONFIG_PATH=$(dirname "$(find "$prefix" -name roam.pc)")
+    flags=$(pkg-config --cflags --libs roam)
+    cc -std=c99 -Wall -Wextra -Wpedantic -Werror "$work/example/walk_in_c.c" $flags -o "$work/walk_in_c"
+    expect 'stopped at x = 4.70 m' env LD_LIBRARY_PATH="$PKG_CONFIG_PATH/.." "$work/walk_in_c"
+    ;;
+  python)
+    printf 'v 0 0 0\nv 9 0 0\nv 9 9 0\nv 0 9 0\nf 1 2 3 4\n' > "$work/floor.obj"
+    export PYTHONPATH
+    PYTHONPATH=$(dirname "$(find "$prefix" -path '*/dist-packages/roam')")
+    # The reader of the package is found from its libroam.so.
+    expect '2 triangles, 2.7 m up' env -C "$work" /usr/bin/python3 -B -c "
+import roam
+world = roam.World.open('floor.obj')
+print(f'{world.triangles} triangles, {3 * world.sweep(0.3, [1, 1, 3], [0, 0, -3]).time:.1f} m up')"
     ;;
   moving)
     build swinging_door

@@ -1,0 +1,29 @@
+#pragma once
+/// \file
+/// Queries and their results as the structs of roam.h.
+
+#include <span>
+#include <vector>
+
+#include "c/space.h"
+#include "roam/roam.h"
+
+namespace roam::c {
+
+[[nodiscard]] roam_impact c_of(const Impact& impact);
+[[nodiscard]] roam_contact c_of(const Contact& contact);
+[[nodiscard]] roam_contact c_of(const Clearance& clearance);
+
+/// Writes into the caller's array, of which each element has its size.
+void put_contacts(std::span<const Contact> contacts, roam_contact* to, std::size_t* count);
+
+/// Throws Invalid unless ObjectFilter can search them.
+void check_ascending(std::span<const ObjectId> objects);
+
+/// Space::fits, with a filter.
+[[nodiscard]] inline bool fits_at(const Space& space, const Query& query) {
+  constexpr double least_gap = 1e-6;
+  return space.clearance({query.body, query.from, Vec3(0.0), query.ignored}, least_gap).distance >= least_gap;
+}
+
+}  // namespace roam::c
