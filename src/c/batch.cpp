@@ -117,12 +117,11 @@ void compute_all(const roam_batch& batch, const Compute& compute) {
     compute_some(0, batch.count);
   } else {
     in_default_floating_point([&] {
-      tbb::parallel_for(tbb::blocked_range<std::size_t>(0, batch.count, at_a_time),
-                        [&](const auto& some) {
-                          // TBB hands out as many as it likes.
-                          for (std::size_t i = some.begin(); i < some.end() && !cancelled; i += at_a_time)
-                            compute_some(i, std::min(i + at_a_time, some.end()));
-                        });
+      tbb::parallel_for(tbb::blocked_range<std::size_t>(0, batch.count, at_a_time), [&](const auto& some) {
+        // TBB hands out as many as it likes.
+        for (std::size_t i = some.begin(); i < some.end() && !cancelled; i += at_a_time)
+          compute_some(i, std::min(i + at_a_time, some.end()));
+      });
     });
   }
   if (cancelled) throw Cancelled();

@@ -1,8 +1,9 @@
 // Single queries.
+#include "c/query.h"
+
 #include <algorithm>
 #include <memory>
 
-#include "c/query.h"
 #include "c/structs.h"
 
 namespace roam::c {

@@ -166,7 +166,8 @@ roam_status roam_profile_load(const char* file, roam_profile** profile) {
 
 roam_status roam_profile_beside(const char* scene, roam_profile** profile) {
   std::string file;
-  const roam_status status = guarded([&] { file = roam::profile_path(std::filesystem::path(&needed(scene, "the path"))).string(); });
+  const roam_status status =
+      guarded([&] { file = roam::profile_path(std::filesystem::path(&needed(scene, "the path"))).string(); });
   return status == ROAM_OK ? roam_profile_load(file.c_str(), profile) : status;
 }
 
@@ -187,9 +188,8 @@ roam_status roam_profile_apply(const roam_profile* profile, roam_walker_settings
 }
 
 roam_status roam_walker_set_regions(roam_walker* walker, const roam_profile* profile) {
-  return guarded([&] {
-    needed(walker, "the walker").walker.set_regions(needed(profile, "the profile").profile.regions);
-  });
+  return guarded(
+      [&] { needed(walker, "the walker").walker.set_regions(needed(profile, "the profile").profile.regions); });
 }
 
 void roam_profile_free(roam_profile* profile) { delete profile; }

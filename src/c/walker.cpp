@@ -25,8 +25,17 @@ WalkerSettings settings_of(const roam_walker_settings& s) {
 }
 
 roam_walker_settings settings_of(const WalkerSettings& s) {
-  return {0,         s.radius,      s.height,        s.eye,            s.step, s.slope_degrees, s.support_radius,
-          s.gravity, s.jump_height, s.crouch_height, s.clearance_reach};
+  return {0,
+          s.radius,
+          s.height,
+          s.eye,
+          s.step,
+          s.slope_degrees,
+          s.support_radius,
+          s.gravity,
+          s.jump_height,
+          s.crouch_height,
+          s.clearance_reach};
 }
 
 int32_t number_of(Mode mode) { return mode == Mode::walk ? ROAM_WALK : mode == Mode::fly ? ROAM_FLY : ROAM_GHOST; }

@@ -76,8 +76,17 @@ TEST(CWorld, BatchesOfAnyLayoutGiveTheSameBits) {
   std::vector<Row> rows(scene.queries.size());
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const roam::Query& q = scene.queries[i];
-    rows[i] = {'x', q.body.radius, q.body.half_height, {q.from.x, q.from.y, q.from.z},
-               {q.motion.x, q.motion.y, q.motion.z}, {}, {}, 0, 0, 0, 0};
+    rows[i] = {'x',
+               q.body.radius,
+               q.body.half_height,
+               {q.from.x, q.from.y, q.from.z},
+               {q.motion.x, q.motion.y, q.motion.z},
+               {},
+               {},
+               0,
+               0,
+               0,
+               0};
   }
   char* const first = reinterpret_cast<char*>(rows.data());
   const auto at = [&](std::size_t offset) { return roam_output{first + offset, sizeof(Row)}; };
