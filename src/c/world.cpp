@@ -127,7 +127,7 @@ roam_status roam_space_get_facts(const roam_space* space, roam_space_facts* fact
       result.objects = of.store->pager.store().info().objects;
       result.bytes = stats.memory;
       result.failed = stats.failed;
-      result.ready = stats.ready_m;
+      result.ready = stats.ready_radius;
     }
     put(*facts, result);
   });
