@@ -7,6 +7,7 @@ program_packages="g++ cmake ninja-build ccache pkg-config
   libcli11-dev libfmt-dev nlohmann-json3-dev libcairo2-dev libzstd-dev libssl-dev libseccomp-dev
   libegl-dev libgl-dev libx11-dev libfontconfig-dev libgl1-mesa-dri fonts-dejavu-core"
 test_packages="libgtest-dev valgrind xvfb xdotool ffmpeg locales strace"
+python_packages="python3-numpy"  # what `import roam` needs, and nothing else
 bench_packages="libbullet-dev libembree-dev libfcl-dev libogre-1.12-dev"  # benchmarks do without those that are not there
 
 # missing_of PACKAGE...: those that are not installed.

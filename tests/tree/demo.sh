@@ -9,6 +9,7 @@ cp "$source/demo" "$folder"
 ln -s "$program" "$folder/build/roam"
 cat > "$folder/cmake/packages.sh" << 'END'
 program_packages=
+python_packages=
 missing_of() { :; }
 configure() { :; }
 behind_line() { :; }

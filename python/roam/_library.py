@@ -1,0 +1,140 @@
+"""libroam.so: calls without the GIL, which Ctrl-C and a progress function can end, and errors as exceptions."""
+
+import ctypes
+import pathlib
+import sysconfig
+import threading
+from typing import Any, Callable, Optional
+
+from ._structs import PROGRESS
+
+# The ROAM_INTERFACE of roam.h that this package is written for.
+_INTERFACE = 1
+# Seconds between two looks at signals.
+_BETWEEN_SIGNALS = 0.03
+
+_OK, _CANCELLED = 0, 5
+_EXCEPTIONS = {1: ValueError, 2: FileNotFoundError, 3: OSError, 4: MemoryError}
+
+
+def _load() -> ctypes.CDLL:
+    here = pathlib.Path(__file__).resolve().parent
+    name = "libroam.so.0"
+    # Of a build; of an installation, in lib or in lib/<architecture>; or wherever the system looks.
+    places = [here.parents[1] / name, here.parents[2] / name]
+    places.append(here.parents[2] / (sysconfig.get_config_var("MULTIARCH") or "") / name)
+    path = next((str(place) for place in places if place.is_file()), name)
+    try:
+        library = ctypes.CDLL(path)
+    except OSError as error:
+        raise ImportError(f"the module roam needs {name}, which is not in {', '.join(str(p.parent) for p in places)}, "
+                          f"nor where the system looks ({error}); build or install roam") from error
+    library.roam_interface.restype = ctypes.c_uint32
+    if library.roam_interface() < _INTERFACE:
+        raise ImportError(f"{path} is older than the module roam; install the two of one version")
+    for function in ("roam_version", "roam_error"):
+        getattr(library, function).restype = ctypes.c_char_p
+    for function in ("roam_space_free", "roam_walker_free", "roam_survey_free", "roam_profile_free", "roam_path_free"):
+        getattr(library, function).restype = None
+    library.roam_object_name.restype = ctypes.c_size_t
+    library.roam_path_points.restype = ctypes.c_void_p
+    return library
+
+
+library = _load()
+
+
+class Handle:
+    """A handle of the library, freed with the last reference to it."""
+
+    def __init__(self, kind: str) -> None:
+        self.value = ctypes.c_void_p()
+        self._free = getattr(library, f"roam_{kind}_free")
+
+    def __del__(self) -> None:
+        self._free(self.value)
+
+    @property
+    def address(self) -> Any:
+        """Where a function puts the handle."""
+        return ctypes.byref(self.value)
+
+
+def call(name: str, *arguments: Any) -> None:
+    """Calls a function that returns a roam_status; raises what it reports."""
+    status = getattr(library, name)(*arguments)
+    if status != _OK:
+        raise _error(status)
+
+
+def _error(status: int) -> Exception:
+    text = (library.roam_error() or b"").decode("utf-8", "replace")
+    return _EXCEPTIONS.get(status, RuntimeError)(text)
+
+
+def run(progress: Optional[Callable[[float], object]], work: Callable[[Any], None],
+        lock: Optional[threading.Lock] = None) -> None:
+    """Runs `work` in a thread of its own, with `lock` if given, and passes it a PROGRESS.
+
+    Meanwhile this thread takes signals and calls `progress` with the fraction done. An exception of either ends the
+    work and is raised.
+    """
+    state = {"done": 0.0}
+    cancelled, ended = threading.Event(), threading.Event()
+
+    @PROGRESS
+    def note(done: float, _data: Any) -> int:
+        state["done"] = done
+        return int(cancelled.is_set())
+
+    failure = []
+
+    def body() -> None:
+        try:
+            if lock is not None:
+                while not lock.acquire(timeout=_BETWEEN_SIGNALS):
+                    if cancelled.is_set():
+                        return
+            try:
+                work(note)
+            finally:
+                if lock is not None:
+                    lock.release()
+        except BaseException as error:
+            failure.append(error)
+        finally:
+            ended.set()
+
+    thread = threading.Thread(target=body, name="roam", daemon=True)
+    try:
+        thread.start()
+        while not ended.wait(_BETWEEN_SIGNALS):
+            if progress is not None:
+                progress(state["done"])
+    except BaseException:
+        cancelled.set()
+        if thread.ident is not None:
+            _join(ended)
+        raise
+    thread.join()
+    if failure:
+        raise failure[0]
+
+
+def _join(ended: threading.Event) -> None:
+    """Waits for work that was cancelled: its arguments must live as long. Another Ctrl-C does not shorten that."""
+    while True:
+        try:
+            ended.wait()
+            return
+        except BaseException:
+            continue
+
+
+def free_memory() -> Optional[int]:
+    """Bytes that are free; None if the system does not say."""
+    try:
+        with open("/proc/meminfo", encoding="ascii") as lines:
+            return next(int(line.split()[1]) << 10 for line in lines if line.startswith("MemAvailable:"))
+    except (OSError, StopIteration):
+        return None

@@ -1,0 +1,169 @@
+"""Bad input raises the right exception, which names what is wrong; it never ends the interpreter."""
+
+import os
+import pathlib
+import shutil
+import signal
+import threading
+import time
+
+import numpy as np
+import pytest
+
+import roam
+
+
+def raises(kind, *parts):
+    return pytest.raises(kind, match="(?s)" + ".*".join(parts))
+
+
+def test_shapes_and_types_are_named(room):
+    with raises(ValueError, r"from_", r"\(N, 3\)", r"\(4, 2\)"):
+        room.sweep(0.3, np.zeros((4, 2)), [1, 0, 0])
+    with raises(ValueError, r"motion has 3 rows", r"from_ has 4"):
+        room.sweep(0.3, np.zeros((4, 3)), np.zeros((3, 3)))
+    with raises(TypeError, "from_", "numbers", "<U1"):
+        room.sweep(0.3, ["a", "b", "c"], [1, 0, 0])
+    with raises(TypeError, "from_", "complex"):
+        room.sweep(0.3, np.zeros((4, 3), complex), [1, 0, 0])
+    with raises(TypeError, "from_", "object"):
+        room.sweep(0.3, [None, 1, 2], [1, 0, 0])
+    with raises(ValueError, "from_", "differ in length"):
+        room.sweep(0.3, [[1, 2, 3], [1, 2]], [1, 0, 0])
+    with raises(ValueError, "radius", r"\(2, 2\)"):
+        room.sweep(np.ones((2, 2)), [1, 0, 0], [1, 0, 0])
+    with raises(TypeError, "reach", "object"):
+        room.clearance(0.3, [1, 0, 0], object())
+    with raises(ValueError, "most", "0"):
+        room.contacts(0.3, [1, 0, 0], 1.0, most=0)
+
+
+def test_values_are_named(room):
+    from_ = np.zeros((1000, 3))
+    from_[700, 1] = np.nan
+    with raises(ValueError, "query 700", "not finite"):
+        room.sweep(0.3, from_, [1, 0, 0])
+    with raises(ValueError, "radius is -1 m"):
+        room.sweep(-1, [0, 0, 0], [1, 0, 0])
+    with raises(ValueError, "reach is 2000 m"):
+        room.clearance(0.3, [0, 0, 0], 2000)
+    with raises(ValueError, "ignored", "-1"):
+        room.sweep(0.3, [0, 0, 0], [1, 0, 0], ignored=[-1])
+
+
+def test_meshes_are_checked():
+    corners = np.eye(3)
+    with raises(ValueError, "triangle 1", "index 3", "3 vertices"):
+        roam.World.from_arrays(corners, [[0, 1, 2], [0, 1, 3]])
+    with raises(ValueError, "triangle 0", "index -1"):
+        roam.World.from_arrays(corners, [[0, 1, -1]])
+    with raises(TypeError, "triangles", "integers", "float64"):
+        roam.World.from_arrays(corners, [[0.0, 1, 2]])
+    with raises(ValueError, "vertices", r"\(3, 2\)"):
+        roam.World.from_arrays(corners[:, :2], [[0, 1, 2]])
+    with raises(ValueError, "finite"):
+        roam.World.from_arrays(corners * np.nan, [[0, 1, 2]])
+    with raises(TypeError, "tuple"):
+        roam.World.from_meshes([1])
+    with raises(TypeError, "World.from_arrays"):
+        roam.World(None)
+
+
+def test_more_than_the_memory_is_refused(room):
+    with raises(MemoryError, "the world"):
+        roam.World.from_arrays(np.eye(3), np.broadcast_to(np.array([0, 1, 2], np.uint32), (2**31, 3)))
+    with raises(MemoryError, "the results"):
+        room.sweep(0.3, np.broadcast_to(np.zeros(3), (2**40, 3)), [1, 0, 0])
+    with raises(MemoryError):
+        room.fits(0.3, np.broadcast_to(np.float32(0), (2**40, 3)))
+
+
+def test_files(tmp_path, room_file):
+    world = roam.World.open(room_file)
+    assert world.triangles == 4 and world.object_name(2) == "wall"
+    assert roam.World.open(str(room_file), unit="in").bounds[1, 0] == pytest.approx(9 * 0.0254)
+    assert roam.World.open(os.fsencode(room_file), up="-z").bounds[0, 2] == pytest.approx(-3, abs=1e-3)
+    with raises(FileNotFoundError, "none.obj"):
+        roam.World.open(tmp_path / "none.obj")
+    (tmp_path / "empty.obj").write_text("\n")
+    with raises(OSError, "empty.obj"):
+        roam.World.open(tmp_path / "empty.obj")
+    with raises(ValueError, "ell"):
+        roam.World.open(room_file, unit="ell")
+    with raises(ValueError, "null byte"):
+        roam.World.open("a\0b")
+    with pytest.raises(TypeError):
+        roam.World.open(5)
+    with raises(FileNotFoundError, "none.roam"):
+        roam.Store.open(tmp_path / "none.roam")
+    with raises(FileNotFoundError):
+        roam.Profile.beside(room_file)
+
+
+def test_a_store_answers_as_its_scene(room, store):
+    opened = roam.Store.open(store, memory="16M")
+    assert opened.triangles == 4
+    from_ = np.array([[1, y, 1.5] for y in np.linspace(-3, 4, 20)])
+    found = opened.sweep(0.3, from_, [8, 0, 0])
+    assert not found.unknown.any()
+    assert found.time == pytest.approx(room.sweep(0.3, from_, [8, 0, 0]).time, abs=1e-4)
+    assert opened.fits(0.3, from_).all()
+    walker = roam.Walker(opened, [1, 0, 0.95])
+    assert walker.follow([[1, 0, 0.9], [3, 1, 0.9]]).outcome == "reached"
+    assert walker.step([1, 0, 0]).grounded
+    for wrong in ("64X", "M", "", "-1M"):
+        with raises(ValueError, "memory"):
+            roam.Store.open(store, memory=wrong)
+    with raises(ValueError, "memory"):
+        roam.Store.open(store, memory="1M")
+
+
+def test_a_store_whose_files_are_cut_off(store):
+    opened = roam.Store.open(store)
+    for pack in pathlib.Path(store).glob("packs/*"):
+        os.chmod(pack, 0o644)
+        os.truncate(pack, 0)
+    with raises(OSError, "query 0", "cannot be read"):
+        opened.sweep(0.3, [[1, 0, 1.5]], [[8, 0, 0]])
+    shutil.rmtree(store)
+    with pytest.raises(OSError):
+        opened.sweep(0.3, [[1, 0, 1.5]], [[8, 0, 0]])
+    with pytest.raises(FileNotFoundError):
+        roam.Store.open(store)
+
+
+def interrupted(call):
+    """Seconds from Ctrl-C to the end of the call."""
+    sent = []
+
+    def press():
+        time.sleep(0.3)
+        sent.append(time.monotonic())
+        os.kill(os.getpid(), signal.SIGINT)
+
+    thread = threading.Thread(target=press)
+    thread.start()
+    with pytest.raises(KeyboardInterrupt):
+        call()
+    ended = time.monotonic()
+    thread.join()
+    return ended - sent[0]
+
+
+def test_ctrl_c_ends_a_batch(clutter_world):
+    from_ = np.broadcast_to(np.zeros(3), (2**25, 3))
+    # 0.1 s on an idle machine; the tests run beside others.
+    assert interrupted(lambda: clutter_world.fits(0.3, from_, 0.2)) < 5.0
+
+
+def test_an_exception_in_progress_ends_the_call(clutter, clutter_world):
+    seen = []
+
+    def progress(done):
+        seen.append(done)
+        if len(seen) == 2:
+            raise KeyError("enough")
+
+    with pytest.raises(KeyError, match="enough"):
+        clutter_world.fits(0.3, np.broadcast_to(np.zeros(3), (2**25, 3)), progress=progress)
+    assert len(seen) == 2 and all(0 <= done <= 1 for done in seen)

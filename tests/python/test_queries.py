@@ -1,0 +1,145 @@
+"""Queries: the results of C++ to the bit, any layout of arrays, and many threads."""
+
+import gc
+import os
+import subprocess
+import sys
+import threading
+
+import numpy as np
+import pytest
+
+import roam
+
+
+def test_results_are_those_of_cpp_to_the_bit(clutter, clutter_world, tmp_path):
+    n = len(clutter.from_)
+    with open(tmp_path / "in", "wb") as file:
+        np.array([len(clutter.vertices), len(clutter.triangles), n], np.uint64).tofile(file)
+        for array in (clutter.vertices, clutter.triangles, clutter.radius, clutter.half_height, clutter.from_,
+                      clutter.motion):
+            array.tofile(file)
+    subprocess.run([os.environ["ROAM_QUERY_ANSWERS"], tmp_path / "in", tmp_path / "out"], check=True)
+    expected = np.fromfile(tmp_path / "out", np.dtype([
+        ("hit", "?"), ("unknown", "?"), ("fits", "?"), ("found", "?"), ("object", "i4"), ("time", "f8"), ("gap", "f8"),
+        ("point", "f8", 3), ("normal", "f8", 3), ("triangle", "i8"), ("near_gap", "f8"), ("near_point", "f8", 3),
+        ("near_triangle", "i8"), ("count", "i8"), ("contacts", "i8", 4)]))
+    assert len(expected) == n
+
+    swept = clutter_world.sweep(clutter.radius, clutter.from_, clutter.motion, clutter.half_height)
+    hit = expected["hit"]
+    assert 0.2 < hit.mean() < 0.98
+    for name in ("hit", "triangle", "object", "unknown"):
+        assert (getattr(swept, name) == expected[name]).all(), name
+    for name in ("time", "gap", "point", "normal"):
+        assert getattr(swept, name)[hit].tobytes() == expected[name][hit].tobytes(), name
+        assert np.isnan(getattr(swept, name)[~hit]).all(), name
+
+    near = clutter_world.clearance(clutter.radius, clutter.from_, 1.5, clutter.half_height)
+    assert (near.found == expected["found"]).all()
+    assert near.gap.tobytes() == expected["near_gap"].tobytes()
+    assert near.point[near.found].tobytes() == expected["near_point"][near.found].tobytes()
+    assert (near.triangle == expected["near_triangle"]).all()
+    contacts = clutter_world.contacts(clutter.radius, clutter.from_, 1.5, clutter.half_height, most=4)
+    assert (contacts.count == expected["count"]).all()
+    assert (contacts.triangle == expected["contacts"]).all()
+    assert (np.isnan(contacts.gap) == (contacts.triangle == -1)).all()
+    fits = clutter_world.fits(clutter.radius, clutter.from_, clutter.half_height)
+    assert (fits == expected["fits"]).all()
+    assert 0.02 < fits.mean() < 0.98
+
+
+def test_a_single_position_gives_results_without_n(room):
+    hit = room.sweep(0.3, [1, 0, 1.5], (8, 0, 0))
+    assert bool(hit.hit) is True
+    assert hit.time.shape == () and hit.point.shape == (3,)
+    assert 8 * hit.time == pytest.approx(3.7, abs=0.003)
+    assert hit.normal == pytest.approx([-1, 0, 0])
+    assert room.object_name(hit.triangle) == "wall"
+    assert room.ray([1, 0, 1.5], [8, 0, 0]).time == pytest.approx(0.5, abs=1e-3)
+    assert room.clearance(0.3, [4, 0, 1.5], 5.0).gap == pytest.approx(0.7, abs=0.003)
+    assert room.fits(0.3, [4, 0, 1.5]) and not room.fits(1.3, [4, 0, 1.5])
+    miss = room.sweep(0.3, [1, 0, 1.5], (1, 0, 0))
+    assert not miss.hit and np.isnan(miss.time) and miss.triangle == -1 and miss.object == -1
+    assert room.object_name(miss.triangle) == ""
+
+
+def test_one_value_serves_all_queries(room):
+    from_ = np.array([[1, y, 1.5] for y in np.linspace(-3, 4, 50)])
+    all_rows = room.sweep(np.full(50, 0.3), from_, np.tile([8.0, 0, 0], (50, 1)), np.full(50, 0.2))
+    one = room.sweep(0.3, from_, [8, 0, 0], 0.2)
+    assert all_rows.time.tobytes() == one.time.tobytes()
+    assert (room.sweep(np.linspace(0, 1, 50), [1, 0, 1.5], [8, 0, 0]).time[1:] > 0).all()
+
+
+@pytest.mark.parametrize("change", [
+    lambda a: a[::-1][::-1], lambda a: np.asfortranarray(a), lambda a: np.repeat(a, 2, axis=0)[::2],
+    lambda a: a[:, ::-1].copy()[:, ::-1], lambda a: a.tolist(), lambda a: a.astype(">f8"),
+    lambda a: np.frombuffer(b"x" + a.tobytes(), np.float64, offset=1).reshape(a.shape)])
+def test_arrays_of_any_layout(clutter, clutter_world, change):
+    some = slice(0, 500)
+    expected = clutter_world.sweep(0.2, clutter.from_[some], clutter.motion[some])
+    got = clutter_world.sweep(0.2, change(clutter.from_[some]), change(clutter.motion[some]))
+    assert got.time.tobytes() == expected.time.tobytes()
+
+
+def test_read_only_and_other_types(clutter_world, clutter):
+    from_ = clutter.from_[:100].copy()
+    from_.flags.writeable = False
+    assert (clutter_world.sweep(0.2, from_, [1, 0, 0]).hit == clutter_world.sweep(0.2, from_, [1, 0, 0]).hit).all()
+    single = from_.astype(np.float32)
+    assert (clutter_world.fits(0.2, single) == clutter_world.fits(0.2, single.astype(float))).all()
+    assert clutter_world.sweep(np.float32(0.25), np.zeros((3, 3), int), np.ones((3, 3), np.int8)).hit.shape == (3,)
+
+
+def test_empty_arrays_and_worlds(room):
+    none = room.sweep(0.3, np.empty((0, 3)), [1, 0, 0])
+    assert none.time.shape == (0,) and none.point.shape == (0, 3)
+    assert room.contacts(0.3, np.empty((0, 3)), 1.0).gap.shape == (0, 16)
+    empty = roam.World.from_arrays([], [])
+    assert empty.triangles == 0 and np.isnan(empty.bounds).all()
+    assert not empty.sweep(0.3, [0, 0, 0], [9, 9, 9]).hit
+
+
+def test_ignored_objects(room):
+    assert room.ray([1, 0, 1], [8, 0, 0]).object == 1
+    assert not room.ray([1, 0, 1], [8, 0, 0], ignored=[1]).hit
+    open_room = room.without({1})
+    assert not open_room.ray([1, 0, 1], [8, 0, 0]).hit
+    assert open_room.ray([1, 0, 1], [0, 0, -8]).object == 0
+
+
+def test_many_threads_give_the_same_bits(clutter, clutter_world):
+    expected = clutter_world.sweep(clutter.radius, clutter.from_, clutter.motion).time.tobytes()
+    wrong = []
+
+    def work():
+        for _ in range(3):
+            if clutter_world.sweep(clutter.radius, clutter.from_, clutter.motion).time.tobytes() != expected:
+                wrong.append(1)
+
+    threads = [threading.Thread(target=work) for _ in range(4)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert not wrong
+
+
+def test_references_are_given_back(room):
+    from_, motion = np.zeros((300, 3)), np.ones((300, 3))
+    before = sys.getrefcount(from_), sys.getrefcount(motion)
+    for _ in range(50):
+        result = room.sweep(0.1, from_, motion)
+        with pytest.raises(ValueError):
+            room.sweep(-1.0, from_, motion)
+    gc.collect()  # of the exceptions
+    assert (sys.getrefcount(from_), sys.getrefcount(motion)) == before
+    count = sys.getrefcount(result.time)
+    assert count == 2  # that of `result`, and the argument
+
+
+def test_bounds_and_counts(room):
+    assert room.bounds == pytest.approx(np.array([[0, -4, 0], [9, 5, 3]]), abs=1e-3)
+    assert (room.triangles, room.objects) == (4, 2)
+    assert room.bytes > 0 and "4 triangles" in repr(room)
