@@ -94,7 +94,7 @@ Frame::Frame(osgViewer::Viewer& viewer, const Context& context, const FrameSetti
   check_vertical_fov(settings.vertical_fov);
   if (settings.samples < 0) throw Error("a pixel cannot have " + std::to_string(settings.samples) + " samples");
   pipeline_ = new Pipeline(settings.reversed_depth && context.abilities.reversed_depth,
-                           std::min(settings.samples, context.abilities.samples), context.headless);
+                           std::min(settings.samples, context.abilities.samples), settings.quality, context.headless);
 
   camera_->setGraphicsContext(context.window);
   camera_->setViewport(0, 0, context.width(), context.height());
@@ -125,6 +125,10 @@ int Frame::width() const { return static_cast<int>(camera_->getViewport()->width
 int Frame::height() const { return static_cast<int>(camera_->getViewport()->height()); }
 double Frame::near() const { return settings_.near; }
 double Frame::vertical_fov() const { return settings_.vertical_fov; }
+void Frame::set_quality(Quality quality) { pipeline_->set_quality(quality); }
+void Frame::set_edges(bool shown) { pipeline_->set_edges(shown); }
+Quality Frame::quality() const { return pipeline_->quality(); }
+bool Frame::edges() const { return pipeline_->edges(); }
 bool Frame::reversed_depth() const { return pipeline_->reversed_depth(); }
 
 void Frame::project() {
@@ -154,8 +158,8 @@ std::string Frame::describe() const {
 }
 
 void Frame::request_picture(bool with_hud, std::function<void(osg::ref_ptr<osg::Image>)> done,
-                            std::function<void(const std::string&)> failed) {
-  pipeline_->request(with_hud, std::move(done), std::move(failed));
+                            std::function<void(const std::string&)> failed, Finish finish) {
+  pipeline_->request(with_hud, finish, std::move(done), std::move(failed));
 }
 
 const char* depth_glsl() {

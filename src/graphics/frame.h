@@ -5,8 +5,8 @@
 /// The scene is drawn into a separate buffer with several samples a pixel and *reversed depth*, which stays precise
 /// from walls before the eye to the horizon. The vertex shader writes near / distance, which is 1 at the near plane and
 /// 0 at infinity, into 32-bit floats. Their exponent gives every distance the same relative precision (2^-24, that is
-/// 0.6 mm at 10 km). So the near plane can be a few centimetres, and there is no far plane. Then the head-up display is
-/// drawn over the scene, and the result goes to the window and to requested pictures.
+/// 0.6 mm at 10 km). So the near plane can be a few centimetres, and there is no far plane. Then the effects of the
+/// quality (quality.h) and the head-up display are added, and the result goes to the window and to requested pictures.
 ///
 ///     graph      root() ── space() ── sky, scene, overlay     own depth; shaders must use depth_glsl()
 ///                      └── flat()  ── head-up display         over the picture, no depth
@@ -15,6 +15,7 @@
 /// of detail and manipulators work as usual. Only fixed-function drawing below space() does not work, because its depth
 /// is not reversed. Give such a node a program that uses depth_glsl().
 
+#include <cstdint>
 #include <functional>
 #include <osg/Group>
 #include <osg/Image>
@@ -23,18 +24,22 @@
 #include <string>
 
 #include "graphics/context.h"
+#include "graphics/quality.h"
 #include "roam/math.h"
 
 namespace roam::graphics {
+
+/// How a requested picture is drawn: with the frame's quality, or fully (Quality::full) whatever that is.
+enum class Finish : std::uint8_t { as_shown, full };
 
 struct FrameSettings {
   double vertical_fov = 65.0;  ///< degrees, in [10, 150]
   /// Metres, in (0, 1000]. Nothing nearer is drawn. For a body of radius r to see every wall that it can touch, use
   /// near_limit(r, ...).
   double near = 0.05;
-  /// Samples a pixel. 0 or 1 gives jagged edges and the least work. Limited by the driver; 1 if it has no memory for
-  /// more.
+  /// Samples a pixel of Quality::full and plain. Limited by the driver; 1 if it has no memory for more.
   int samples = 4;
+  Quality quality = Quality::full;
   bool reversed_depth = true;  ///< false: an ordinary depth buffer even if the driver supports a reversed one
 };
 
@@ -66,6 +71,12 @@ class Frame {
   [[nodiscard]] double near() const;
   [[nodiscard]] double vertical_fov() const;
 
+  /// Take effect with the next frame.
+  void set_quality(Quality quality);
+  void set_edges(bool shown);
+  [[nodiscard]] Quality quality() const;
+  [[nodiscard]] bool edges() const;
+
   /// Whether the depth is reversed. If not, it is an ordinary 24-bit depth, with which distant surfaces flicker.
   [[nodiscard]] bool reversed_depth() const;
   /// One line: renderer, depth, samples, and missing abilities.
@@ -75,7 +86,7 @@ class Frame {
   /// includes flat(). Either `done` or `failed` is called, once, in the drawing thread. `failed` is called if the
   /// picture is too large for the driver; `reason` names a size that can be drawn.
   void request_picture(bool with_hud, std::function<void(osg::ref_ptr<osg::Image>)> done,
-                       std::function<void(const std::string& reason)> failed = {});
+                       std::function<void(const std::string& reason)> failed = {}, Finish finish = Finish::as_shown);
 
  private:
   class Pipeline;

@@ -69,14 +69,11 @@ void StatusPanel::lay_out(const Page& page, const std::vector<StatusLine>& lines
     moved = moved || count != row.lines;
     if (count != row.lines) row.shown = first_lines(i, count);
     row.lines = count;
-    change_text(*row.value, row.shown, color_of(lines[i].tone));
+    row.value->set(row.shown, color_of(lines[i].tone));
   }
   if (moved) place_rows();
   float widest = 0;
-  for (const Row& row : rows_) {
-    const osg::BoundingBox& box = row.value->getBoundingBox();
-    if (box.valid()) widest = std::max(widest, box.xMax());
-  }
+  for (std::size_t i = 0; i < rows_.size(); ++i) widest = std::max(widest, left_of(i) + rows_[i].value->width());
   // The width changes in steps and shrinks late, because a panel that follows each digit is restless.
   const float step = 3.0f * static_cast<float>(page.letter);
   const float wished = std::min(up_to(widest - page.margin, step), page.width - 2.8f * page.margin);
@@ -88,6 +85,10 @@ float StatusPanel::width_for(std::size_t row) const {
   // Less than half of the picture; more in small windows, where half would be a word a line.
   const float right = std::max(0.45f * page_.width, std::min(0.9f * page_.width, 30.0f * page_.margin));
   return right - (labels_[row].empty() ? 1.8f * page_.margin : value_left_);
+}
+
+float StatusPanel::left_of(std::size_t row) const {
+  return labels_[row].empty() ? std::round(1.8f * page_.margin) : value_left_;
 }
 
 void StatusPanel::break_value(std::size_t row, const std::string& words) {
@@ -137,8 +138,7 @@ void StatusPanel::rebuild(const std::vector<StatusLine>& lines) {
   for (const StatusLine& line : lines) {
     Row row;
     row.label = make_text(line.label, label_look, 0, 0);
-    row.value = make_text({}, {page_.letter, false, color_of(line.tone)}, 0, 0);
-    row.value->setLineSpacing(page_.line / static_cast<float>(page_.letter) - 1.0f);
+    row.value = make_text({}, {page_.letter, false, color_of(line.tone), page_.line}, 0, 0);
     group_->addChild(row.label);
     group_->addChild(row.value);
     rows_.push_back(row);
@@ -146,12 +146,11 @@ void StatusPanel::rebuild(const std::vector<StatusLine>& lines) {
 }
 
 void StatusPanel::place_rows() {
-  const float left = std::round(1.8f * page_.margin);
   lines_ = 0;
   float y = std::round(page_.height - 1.55f * page_.margin - static_cast<float>(page_.letter));
   for (std::size_t i = 0; i < rows_.size(); ++i) {
-    rows_[i].label->setPosition(osg::Vec3(left, y, 0));
-    rows_[i].value->setPosition(osg::Vec3(labels_[i].empty() ? left : value_left_, y, 0));
+    rows_[i].label->set_place(std::round(1.8f * page_.margin), y);
+    rows_[i].value->set_place(left_of(i), y);
     y -= page_.line * static_cast<float>(rows_[i].lines);
     lines_ += rows_[i].lines;
   }

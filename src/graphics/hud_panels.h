@@ -36,7 +36,7 @@ class StatusPanel {
 
  private:
   struct Row {
-    osg::ref_ptr<osgText::Text> label, value;
+    osg::ref_ptr<Text> label, value;
     std::string words;                // the unbroken value
     std::vector<std::string> broken;  // all its lines
     std::string shown;                // the lines that are shown
@@ -45,6 +45,8 @@ class StatusPanel {
   void rebuild(const std::vector<StatusLine>& lines);
   /// Width of a row's value, in pixels.
   [[nodiscard]] float width_for(std::size_t row) const;
+  /// Left edge of a row's value, in pixels.
+  [[nodiscard]] float left_of(std::size_t row) const;
   void break_value(std::size_t row, const std::string& words);
   [[nodiscard]] std::size_t lines_in_all(std::size_t most_lines) const;
   /// A row's first lines, with "…" if there are more.

@@ -1,78 +1,202 @@
 #include "graphics/lettering.h"
 
+#include <cairo-ft.h>
+#include <cairo.h>
 #include <fontconfig/fontconfig.h>
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
 #include <memory>
-#include <osgText/Font>
+#include <mutex>
+#include <osg/Image>
+#include <osg/StateSet>
+#include <osg/Texture2D>
 #include <sstream>
 #include <string_view>
+#include <utility>
 
 namespace roam::graphics {
 namespace {
 
-/// The file of DejaVu Sans, or of fontconfig's replacement for it; empty if there is none.
-std::string find_font(bool bold) {
-  const std::unique_ptr<FcConfig, void (*)(FcConfig*)> fonts(FcInitLoadConfigAndFonts(), FcConfigDestroy);
-  if (!fonts) return {};
-  const std::unique_ptr<FcPattern, void (*)(FcPattern*)> wish(
-      FcNameParse(reinterpret_cast<const FcChar8*>(bold ? "DejaVu Sans:bold" : "DejaVu Sans:book")), FcPatternDestroy);
-  FcConfigSubstitute(fonts.get(), wish.get(), FcMatchPattern);
+constexpr std::string_view ellipsis = "…";
+/// Pixels around a text, for letters that reach beyond their own width.
+constexpr int margin = 2;
+
+template <auto free>
+struct Freed {
+  template <class T>
+  void operator()(T* object) const {
+    free(object);
+  }
+};
+using Face = std::unique_ptr<cairo_font_face_t, Freed<cairo_font_face_destroy>>;
+using Font = std::unique_ptr<cairo_scaled_font_t, Freed<cairo_scaled_font_destroy>>;
+
+/// DejaVu Sans, or fontconfig's replacement for it. Null if there is none.
+Face find_face(bool bold) {
+  const auto name = reinterpret_cast<const FcChar8*>(bold ? "DejaVu Sans:bold" : "DejaVu Sans:book");
+  const std::unique_ptr<FcPattern, Freed<FcPatternDestroy>> wish(FcNameParse(name));
+  FcConfigSubstitute(nullptr, wish.get(), FcMatchPattern);
   FcDefaultSubstitute(wish.get());
   FcResult result = FcResultMatch;
-  const std::unique_ptr<FcPattern, void (*)(FcPattern*)> match(FcFontMatch(fonts.get(), wish.get(), &result),
-                                                               FcPatternDestroy);
+  const std::unique_ptr<FcPattern, Freed<FcPatternDestroy>> match(FcFontMatch(nullptr, wish.get(), &result));
   FcChar8* file = nullptr;
-  if (!match || FcPatternGetString(match.get(), FC_FILE, 0, &file) != FcResultMatch) return {};
-  return reinterpret_cast<const char*>(file);
+  if (!match || FcPatternGetString(match.get(), FC_FILE, 0, &file) != FcResultMatch) return nullptr;
+  // FreeType's own hinter puts stems on whole pixels in both directions; the fonts' instructions do so in one.
+  FcPatternDel(match.get(), FC_AUTOHINT);
+  FcPatternAddBool(match.get(), FC_AUTOHINT, FcTrue);
+  Face face(cairo_ft_font_face_create_for_pattern(match.get()));
+  return cairo_font_face_status(face.get()) == CAIRO_STATUS_SUCCESS ? std::move(face) : nullptr;
 }
 
-osg::ref_ptr<osgText::Font> load_font(bool bold) {
-  const std::string file = find_font(bold);
-  osg::ref_ptr<osgText::Font> font = file.empty() ? nullptr : osgText::readRefFontFile(file);
-  return font ? font : osgText::Font::getDefaultFont();
+Font load_font(int size, bool bold) {
+  Face face = find_face(bold);
+  if (!face) {
+    const auto weight = bold ? CAIRO_FONT_WEIGHT_BOLD : CAIRO_FONT_WEIGHT_NORMAL;
+    face.reset(cairo_toy_font_face_create("@cairo:", CAIRO_FONT_SLANT_NORMAL, weight));
+  }
+  const std::unique_ptr<cairo_font_options_t, Freed<cairo_font_options_destroy>> options(cairo_font_options_create());
+  cairo_font_options_set_antialias(options.get(), CAIRO_ANTIALIAS_GRAY);
+  cairo_font_options_set_hint_style(options.get(), CAIRO_HINT_STYLE_FULL);
+  cairo_font_options_set_hint_metrics(options.get(), CAIRO_HINT_METRICS_ON);
+  cairo_matrix_t scale, none;
+  cairo_matrix_init_scale(&scale, size, size);
+  cairo_matrix_init_identity(&none);
+  return Font(cairo_scaled_font_create(face.get(), &scale, &none, options.get()));
 }
 
-osgText::Font* font_for(bool bold) {
-  // Never freed: at the end of the program their textures would outlive OpenSceneGraph's texture manager.
-  static const auto& regular = *new osg::ref_ptr<osgText::Font>(load_font(false));
-  static const auto& heavy = *new osg::ref_ptr<osgText::Font>(load_font(true));
-  return bold ? heavy.get() : regular.get();
+/// The font of a style. Fonts are kept until the program ends.
+cairo_scaled_font_t* font_for(const Look& look) {
+  static std::mutex mutex;
+  static std::map<std::pair<int, bool>, Font> fonts;
+  const std::lock_guard lock(mutex);
+  Font& font = fonts[{look.size, look.bold}];
+  if (!font) font = load_font(look.size, look.bold);
+  return font.get();
 }
 
-constexpr std::string_view ellipsis = "…";
+std::vector<std::string> lines_of(const std::string& words) {
+  std::vector<std::string> lines;
+  std::istringstream stream(words);
+  for (std::string line; std::getline(stream, line);) lines.push_back(std::move(line));
+  return lines;
+}
+
+cairo_font_extents_t extents_of(const Look& look) {
+  cairo_font_extents_t extents;
+  cairo_scaled_font_extents(font_for(look), &extents);
+  return extents;
+}
+
+/// Coverage of each pixel, from the lowest row, with `above` rows from the top to the first base line.
+osg::ref_ptr<osg::Image> paint_lines(const std::vector<std::string>& lines, const Look& look, std::array<int, 2> size,
+                                     int above, int line) {
+  const auto [width, height] = size;
+  const std::unique_ptr<cairo_surface_t, Freed<cairo_surface_destroy>> surface(
+      cairo_image_surface_create(CAIRO_FORMAT_A8, width, height));
+  const std::unique_ptr<cairo_t, Freed<cairo_destroy>> pen(cairo_create(surface.get()));
+  cairo_set_scaled_font(pen.get(), font_for(look));
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    cairo_move_to(pen.get(), margin, above + line * static_cast<int>(i));
+    cairo_show_text(pen.get(), lines[i].c_str());
+  }
+  cairo_surface_flush(surface.get());
+  osg::ref_ptr<osg::Image> image = new osg::Image;
+  image->allocateImage(width, height, 1, GL_ALPHA, GL_UNSIGNED_BYTE, 1);
+  const unsigned char* const rows = cairo_image_surface_get_data(surface.get());
+  const int stride = cairo_image_surface_get_stride(surface.get());
+  for (int y = 0; y < height; ++y) {
+    const unsigned char* const row = rows + static_cast<std::ptrdiff_t>(height - 1 - y) * stride;
+    std::copy(row, row + width, image->data(0, static_cast<unsigned>(y)));
+  }
+  return image;
+}
 
 }  // namespace
 
-void load_fonts() { static_cast<void>(font_for(false)); }
-
-osg::ref_ptr<osgText::Text> make_text(const std::string& words, const Look& look, float x, float y) {
-  osg::ref_ptr<osgText::Text> text = new osgText::Text;
-  text->setDataVariance(osg::Object::DYNAMIC);
-  // Shaders of the other techniques need GLSL 1.30 and do not compile everywhere.
-  text->setShaderTechnique(osgText::GREYSCALE);
-  text->setFont(font_for(look.bold));
-  // Two texels a pixel. One would be sharper on whole pixels, but OpenSceneGraph does not align letters to them.
-  text->setFontResolution(2 * static_cast<unsigned>(look.size), 2 * static_cast<unsigned>(look.size));
-  text->setCharacterSize(static_cast<float>(look.size));
-  text->setAlignment(osgText::Text::LEFT_BASE_LINE);
-  text->setPosition(osg::Vec3(x, y, 0));
-  text->setColor(look.color);
-  text->setText(words, osgText::String::ENCODING_UTF8);
-  text->setCullingActive(false);
-  return text;
+void load_fonts() {
+  for (const bool bold : {false, true}) static_cast<void>(width_of("0", {.bold = bold}));
 }
 
-void change_text(osgText::Text& text, const std::string& words, const osg::Vec4& color) {
-  if (text.getColor() != color) text.setColor(color);
-  if (text.getText() != osgText::String(words, osgText::String::ENCODING_UTF8)) {
-    text.setText(words, osgText::String::ENCODING_UTF8);
+Text::Text(const std::string& words, const Look& look, float x, float y)
+    : words_(words), look_(look), x_(std::round(x)), y_(std::round(y)) {
+  setDataVariance(osg::Object::DYNAMIC);
+  setUseDisplayList(false);
+  setUseVertexBufferObjects(true);
+  setCullingActive(false);
+  setVertexArray(new osg::Vec3Array(4));
+  const osg::ref_ptr<osg::Vec2Array> texels = new osg::Vec2Array;
+  for (const auto& [s, t] : {std::pair{0, 0}, std::pair{1, 0}, std::pair{0, 1}, std::pair{1, 1}}) {
+    texels->push_back(osg::Vec2(static_cast<float>(s), static_cast<float>(t)));
   }
+  setTexCoordArray(0, texels);
+  setColorArray(new osg::Vec4Array(1, &look_.color), osg::Array::BIND_OVERALL);
+  getOrCreateStateSet()->setDataVariance(osg::Object::DYNAMIC);
+  paint();
+}
+
+void Text::set(const std::string& words, const osg::Vec4& color) {
+  if (color != look_.color) {
+    look_.color = color;
+    setColorArray(new osg::Vec4Array(1, &color), osg::Array::BIND_OVERALL);
+  }
+  if (words == words_) return;
+  words_ = words;
+  paint();
+}
+
+void Text::set_place(float x, float y) {
+  const osg::Vec3 by(std::round(x) - x_, std::round(y) - y_, 0);
+  if (by == osg::Vec3()) return;
+  x_ += by.x();
+  y_ += by.y();
+  auto& corners = static_cast<osg::Vec3Array&>(*getVertexArray());
+  for (osg::Vec3& corner : corners) corner += by;
+  corners.dirty();
+}
+
+void Text::paint() {
+  const std::vector<std::string> lines = lines_of(words_);
+  width_ = 0;
+  for (const std::string& line : lines) width_ = std::max(width_, width_of(line, look_));
+  removePrimitiveSet(0, getNumPrimitiveSets());
+  if (width_ <= 0) return;
+  const cairo_font_extents_t font = extents_of(look_);
+  const int line = static_cast<int>(std::lround(look_.line > 0 ? look_.line : static_cast<float>(font.height)));
+  const int above = static_cast<int>(std::ceil(font.ascent)) + margin;
+  const int below = static_cast<int>(std::ceil(font.descent)) + margin + line * static_cast<int>(lines.size() - 1);
+  const int width = static_cast<int>(std::ceil(width_)) + 2 * margin, height = above + below;
+
+  // A new texture, because another thread may be drawing the old one.
+  const osg::ref_ptr<osg::Texture2D> texture =
+      new osg::Texture2D(paint_lines(lines, look_, {width, height}, above, line));
+  texture->setFilter(osg::Texture::MIN_FILTER, osg::Texture::NEAREST);
+  texture->setFilter(osg::Texture::MAG_FILTER, osg::Texture::NEAREST);
+  texture->setWrap(osg::Texture::WRAP_S, osg::Texture::CLAMP_TO_EDGE);
+  texture->setWrap(osg::Texture::WRAP_T, osg::Texture::CLAMP_TO_EDGE);
+  texture->setResizeNonPowerOfTwoHint(false);
+  getStateSet()->setTextureAttributeAndModes(0, texture);
+  const float left = x_ - margin, bottom = y_ - static_cast<float>(below);
+  auto& corners = static_cast<osg::Vec3Array&>(*getVertexArray());
+  for (unsigned i = 0; i < 4; ++i) {
+    corners[i].set(left + (i & 1 ? static_cast<float>(width) : 0.0f), bottom + (i & 2 ? static_cast<float>(height) : 0),
+                   0);
+  }
+  corners.dirty();
+  addPrimitiveSet(new osg::DrawArrays(GL_TRIANGLE_STRIP, 0, 4));
+}
+
+osg::ref_ptr<Text> make_text(const std::string& words, const Look& look, float x, float y) {
+  return new Text(words, look, x, y);
 }
 
 float width_of(const std::string& words, const Look& look) {
   if (words.find_first_not_of(' ') == std::string::npos) return 0;
-  const osg::BoundingBox box = make_text(words, look, 0, 0)->getBoundingBox();
-  return box.valid() ? box.xMax() : 0;
+  cairo_text_extents_t extents;
+  cairo_scaled_font_text_extents(font_for(look), words.c_str(), &extents);
+  return static_cast<float>(extents.x_bearing + extents.width);
 }
 
 std::vector<std::string> break_lines(const std::string& words, const Look& look, float width) {

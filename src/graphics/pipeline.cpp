@@ -56,9 +56,9 @@ void Frame::Pipeline::attach(osg::Camera& camera) {
   camera.setFinalDrawCallback(callback(this, [this](osg::RenderInfo& info) { finish(info); }));
 }
 
-void Frame::Pipeline::request(bool with_hud, Done done, Failed failed) {
+void Frame::Pipeline::request(bool with_hud, Finish finish, Done done, Failed failed) {
   const std::lock_guard lock(mutex_);
-  requests_.push_back({with_hud, std::move(done), std::move(failed)});
+  requests_.push_back({with_hud, finish, std::move(done), std::move(failed)});
 }
 
 void Frame::Pipeline::begin(osg::RenderInfo& info) {
@@ -66,17 +66,31 @@ void Frame::Pipeline::begin(osg::RenderInfo& info) {
   const osg::Viewport& viewport = *info.getCurrentCamera()->getViewport();
   const int width = std::max(1, static_cast<int>(viewport.width()));
   const int height = std::max(1, static_cast<int>(viewport.height()));
-  if (width != width_ || height != height_) resize(gl, width, height);
+  const Plan plan = plan_for(width, height);
+  if (plan != wished_) {
+    osg::State& state = *info.getState();
+    state.setActiveTextureUnit(0);
+    resize(gl, plan);
+    // Making textures has bound others.
+    state.haveAppliedTextureAttribute(0, osg::StateAttribute::TEXTURE);
+  }
   gl.glBindFramebuffer(GL_FRAMEBUFFER_EXT, scene_.frame);
 }
 
 void Frame::Pipeline::resolve(osg::RenderInfo& info) {
   osg::GLExtensions& gl = functions(info);
   info.getState()->applyMode(GL_SCISSOR_TEST, false);
-  if (picture_.frame != scene_.frame) {
+  const bool effects = plan_.effects.any();
+  if (flat_scene_.frame != scene_.frame) {
     gl.glBindFramebuffer(GL_READ_FRAMEBUFFER_EXT, scene_.frame);
-    gl.glBindFramebuffer(GL_DRAW_FRAMEBUFFER_EXT, picture_.frame);
-    gl.glBlitFramebuffer(0, 0, width_, height_, 0, 0, width_, height_, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+    gl.glBindFramebuffer(GL_DRAW_FRAMEBUFFER_EXT, flat_scene_.frame);
+    const GLbitfield depth = effects ? GL_DEPTH_BUFFER_BIT : 0u;
+    gl.glBlitFramebuffer(0, 0, plan_.width, plan_.height, 0, 0, plan_.width, plan_.height, GL_COLOR_BUFFER_BIT | depth,
+                         GL_NEAREST);
+  }
+  if (effects) {
+    const osg::Matrixd& projection = info.getCurrentCamera()->getProjectionMatrix();
+    composite_.draw(info, {flat_scene_.color, flat_scene_.depth, picture_.frame, projection, reversed_depth_});
   }
   gl.glBindFramebuffer(GL_FRAMEBUFFER_EXT, picture_.frame);
   serve(false);
@@ -92,24 +106,37 @@ void Frame::Pipeline::finish(osg::RenderInfo& info) {
     gl.glBindFramebuffer(GL_READ_FRAMEBUFFER_EXT, picture_.frame);
     gl.glBindFramebuffer(GL_DRAW_FRAMEBUFFER_EXT, window.getDefaultFboId());
     state.glDrawBuffer(window.getTraits()->doubleBuffer ? GL_BACK : GL_FRONT);
-    gl.glBlitFramebuffer(0, 0, width_, height_, 0, 0, width_, height_, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+    gl.glBlitFramebuffer(0, 0, plan_.width, plan_.height, 0, 0, plan_.width, plan_.height, GL_COLOR_BUFFER_BIT,
+                         GL_NEAREST);
   }
   gl.glBindFramebuffer(GL_FRAMEBUFFER_EXT, window.getDefaultFboId());
 }
 
-void Frame::Pipeline::resize(osg::GLExtensions& gl, int width, int height) {
-  width_ = width;
-  height_ = height;
+Frame::Pipeline::Plan Frame::Pipeline::plan_for(int width, int height) {
+  {
+    const std::lock_guard lock(mutex_);
+    fully_ = std::any_of(requests_.begin(), requests_.end(), [](const Request& r) { return r.finish == Finish::full; });
+  }
+  const Quality quality = fully_ ? Quality::full : quality_.load();
+  Plan plan{width, height, quality == Quality::full ? std::max(wished_samples_, 1) : 1, {}};
+  if (quality == Quality::full) plan.effects = full_effects;
+  if (quality == Quality::light) plan.effects = light_effects;
+  if (!edges_) plan.effects.edges = false;
+  return plan;
+}
+
+void Frame::Pipeline::resize(osg::GLExtensions& gl, const Plan& plan) {
+  wished_ = plan;
   problem_.clear();
   const auto [widest, highest] = largest_sides();
-  const bool within = width <= widest && height <= highest;
-  for (const int samples : {wished_samples_, 1}) {
-    samples_ = samples;
-    if (within && allocate(gl, width, height, samples)) return;
+  const bool within = plan.width <= widest && plan.height <= highest;
+  for (const Plan& tried : {plan, Plan{plan.width, plan.height, plan.samples, {}}, Plan{plan.width, plan.height, 1, {}}}) {
+    samples_ = tried.samples;
+    if (within && allocate(gl, tried)) return;
   }
   problem_ = refuse(gl);
   // OpenSceneGraph draws in any case, so give it one invisible pixel.
-  allocate(gl, 1, 1, 1);
+  allocate(gl, {1, 1, 1, {}});
   // A program without a screen gets the message with the picture that it requests.
   if (!headless_) OSG_WARN << "The picture cannot be drawn: " << problem_ << ".\n";
 }
@@ -118,27 +145,37 @@ std::string Frame::Pipeline::refuse(osg::GLExtensions& gl) {
   const auto text = [](int width, int height, const char* times) {
     return std::to_string(width) + times + std::to_string(height);
   };
-  const std::string refusal = text(width_, height_, " x ") + " pixels are too many for this graphics driver";
+  const std::string refusal =
+      text(wished_.width, wished_.height, " x ") + " pixels are too many for this graphics driver";
   constexpr double smaller = 0.7;  // half the pixels
   const auto [widest, highest] = largest_sides();
-  double scale = std::min({1.0, static_cast<double>(widest) / width_, static_cast<double>(highest) / height_});
+  double scale =
+      std::min({1.0, static_cast<double>(widest) / wished_.width, static_cast<double>(highest) / wished_.height});
   for (;; scale *= smaller) {
-    const int width = static_cast<int>(scale * width_), height = static_cast<int>(scale * height_);
+    const int width = static_cast<int>(scale * wished_.width), height = static_cast<int>(scale * wished_.height);
     if (width < 1 || height < 1) return refusal;
-    if (!allocate(gl, width, height, 1)) continue;
+    if (!allocate(gl, {width, height, 1, {}})) continue;
     if (headless_)
       return refusal + ". " + text(width, height, " x ") + " can be drawn: --size " + text(width, height, "x");
     return refusal + ". Make the window smaller: " + text(width, height, " x ") + " can be drawn";
   }
 }
 
-bool Frame::Pipeline::allocate(osg::GLExtensions& gl, int width, int height, int samples) {
+bool Frame::Pipeline::allocate(osg::GLExtensions& gl, const Plan& plan) {
   release(gl);
-  bool complete = make(gl, scene_, width, height, samples, true);
-  if (samples > 1) {
-    complete = complete && make(gl, picture_, width, height, 1, false);
+  plan_ = plan;
+  bool complete = make(gl, scene_, plan, Depth::kept);
+  const Plan flat{plan.width, plan.height, 1, plan.effects};
+  if (plan.samples > 1) {
+    complete = complete && make(gl, flat_scene_, flat, plan.effects.any() ? Depth::kept : Depth::none);
   } else {
-    picture_ = scene_;
+    flat_scene_ = scene_;
+  }
+  if (plan.effects.any()) {
+    complete = complete && make(gl, picture_, {plan.width, plan.height, 1, {}}, Depth::none) &&
+               composite_.resize(gl, plan.width, plan.height, plan.effects);
+  } else {
+    picture_ = flat_scene_;
   }
   if (complete) return true;
   release(gl);
@@ -146,22 +183,28 @@ bool Frame::Pipeline::allocate(osg::GLExtensions& gl, int width, int height, int
   return false;
 }
 
-bool Frame::Pipeline::make(osg::GLExtensions& gl, Buffers& buffers, int width, int height, int samples,
-                           bool with_depth) const {
+bool Frame::Pipeline::make(osg::GLExtensions& gl, Buffers& buffers, const Plan& plan, Depth depth) const {
+  // Effects read textures.
+  buffers.textures = plan.samples == 1 && plan.effects.any();
   const auto attach = [&](GLuint& buffer, GLenum where, GLenum format) {
+    if (buffers.textures) {
+      buffer = make_texture(format, plan.width, plan.height);
+      gl.glFramebufferTexture2D(GL_FRAMEBUFFER_EXT, where, GL_TEXTURE_2D, buffer, 0);
+      return;
+    }
     gl.glGenRenderbuffers(1, &buffer);
     gl.glBindRenderbuffer(GL_RENDERBUFFER_EXT, buffer);
-    if (samples > 1) {
-      gl.glRenderbufferStorageMultisample(GL_RENDERBUFFER_EXT, samples, format, width, height);
+    if (plan.samples > 1) {
+      gl.glRenderbufferStorageMultisample(GL_RENDERBUFFER_EXT, plan.samples, format, plan.width, plan.height);
     } else {
-      gl.glRenderbufferStorage(GL_RENDERBUFFER_EXT, format, width, height);
+      gl.glRenderbufferStorage(GL_RENDERBUFFER_EXT, format, plan.width, plan.height);
     }
     gl.glFramebufferRenderbuffer(GL_FRAMEBUFFER_EXT, where, GL_RENDERBUFFER_EXT, buffer);
   };
   gl.glGenFramebuffers(1, &buffers.frame);
   gl.glBindFramebuffer(GL_FRAMEBUFFER_EXT, buffers.frame);
   attach(buffers.color, GL_COLOR_ATTACHMENT0_EXT, GL_RGBA8);
-  if (with_depth) {
+  if (depth == Depth::kept) {
     attach(buffers.depth, GL_DEPTH_ATTACHMENT_EXT, reversed_depth_ ? GL_DEPTH_COMPONENT32F : GL_DEPTH_COMPONENT24);
   }
   gl.glBindRenderbuffer(GL_RENDERBUFFER_EXT, 0);
@@ -169,12 +212,19 @@ bool Frame::Pipeline::make(osg::GLExtensions& gl, Buffers& buffers, int width, i
 }
 
 void Frame::Pipeline::release(osg::GLExtensions& gl) {
-  if (picture_.frame == scene_.frame) picture_ = {};
-  for (Buffers* buffers : {&scene_, &picture_}) {
+  composite_.release(gl);
+  if (picture_.frame == flat_scene_.frame) picture_ = {};
+  if (flat_scene_.frame == scene_.frame) flat_scene_ = {};
+  for (Buffers* buffers : {&scene_, &flat_scene_, &picture_}) {
     // OpenGL ignores zeros.
     gl.glDeleteFramebuffers(1, &buffers->frame);
-    gl.glDeleteRenderbuffers(1, &buffers->color);
-    gl.glDeleteRenderbuffers(1, &buffers->depth);
+    for (GLuint* buffer : {&buffers->color, &buffers->depth}) {
+      if (buffers->textures) {
+        glDeleteTextures(1, buffer);
+      } else {
+        gl.glDeleteRenderbuffers(1, buffer);
+      }
+    }
     *buffers = {};
   }
 }
@@ -184,7 +234,11 @@ void Frame::Pipeline::serve(bool with_hud) {
   {
     const std::lock_guard lock(mutex_);
     const auto rest = std::stable_partition(requests_.begin(), requests_.end(),
-                                            [&](const Request& r) { return r.with_hud != with_hud; });
+                                            [&](const Request& r) {
+                                              // A request that came after the frame began waits for the next.
+                                              const bool later = r.finish == Finish::full && !fully_;
+                                              return r.with_hud != with_hud || later;
+                                            });
     served.assign(std::make_move_iterator(rest), std::make_move_iterator(requests_.end()));
     requests_.erase(rest, requests_.end());
   }
@@ -196,7 +250,7 @@ void Frame::Pipeline::serve(bool with_hud) {
     return;
   }
   osg::ref_ptr<osg::Image> image = new osg::Image;
-  image->readPixels(0, 0, width_, height_, GL_RGB, GL_UNSIGNED_BYTE);
+  image->readPixels(0, 0, plan_.width, plan_.height, GL_RGB, GL_UNSIGNED_BYTE);
   for (const Request& request : served) request.done(image);
 }
 

@@ -3,6 +3,7 @@
 /// The buffers of a Frame, and their use during drawing.
 
 #include <atomic>
+#include <cstdint>
 #include <functional>
 #include <mutex>
 #include <osg/Camera>
@@ -12,19 +13,24 @@
 #include <string>
 #include <vector>
 
+#include "graphics/composite.h"
 #include "graphics/frame.h"
 
 namespace roam::graphics {
 
 /// Runs in the drawing thread, as callbacks of the viewer's camera: begin before the scene is drawn, resolve after it,
-/// and finish after everything that lies over it. The buffers follow the camera's viewport. If the driver has no memory
-/// for the samples, there is one sample a pixel. If it has none for that either, nothing is drawn and all requests
-/// fail.
+/// and finish after everything that lies over it. The buffers follow the camera's viewport and the quality. If the
+/// driver has no memory for the effects and samples, there are none. If it has none for that either, nothing is drawn
+/// and all requests fail.
 class Frame::Pipeline : public osg::Referenced {
  public:
   /// `headless` only affects the advice in messages.
-  Pipeline(bool reversed_depth, int samples, bool headless)
-      : reversed_depth_(reversed_depth), headless_(headless), wished_samples_(samples), samples_(samples) {}
+  Pipeline(bool reversed_depth, int samples, Quality quality, bool headless)
+      : reversed_depth_(reversed_depth),
+        headless_(headless),
+        wished_samples_(samples),
+        samples_(samples),
+        quality_(quality) {}
 
   /// Makes `camera` draw through this pipeline.
   void attach(osg::Camera& camera);
@@ -33,11 +39,16 @@ class Frame::Pipeline : public osg::Referenced {
   [[nodiscard]] int wished_samples() const { return wished_samples_; }
   /// Samples of the last frame. Any thread.
   [[nodiscard]] int samples() const { return samples_; }
+  /// Any thread. Takes effect with the next frame.
+  void set_quality(Quality quality) { quality_ = quality; }
+  void set_edges(bool shown) { edges_ = shown; }
+  [[nodiscard]] Quality quality() const { return quality_; }
+  [[nodiscard]] bool edges() const { return edges_; }
 
   using Done = std::function<void(osg::ref_ptr<osg::Image>)>;
   using Failed = std::function<void(const std::string&)>;
   /// Any thread.
-  void request(bool with_hud, Done done, Failed failed);
+  void request(bool with_hud, Finish finish, Done done, Failed failed);
 
  private:
   /// A framebuffer object and its attachments; 0 for those that it does not have.
@@ -45,9 +56,18 @@ class Frame::Pipeline : public osg::Referenced {
     GLuint frame = 0;
     GLuint color = 0;
     GLuint depth = 0;
+    bool textures = false;
   };
+  /// What decides on the buffers.
+  struct Plan {
+    int width = 0, height = 0, samples = 1;
+    Effects effects;
+    bool operator==(const Plan&) const = default;
+  };
+  enum class Depth : std::uint8_t { none, kept };
   struct Request {
     bool with_hud;
+    Finish finish;
     Done done;
     Failed failed;
   };
@@ -56,10 +76,12 @@ class Frame::Pipeline : public osg::Referenced {
   void resolve(osg::RenderInfo& info);
   void finish(osg::RenderInfo& info);
 
-  void resize(osg::GLExtensions& gl, int width, int height);
+  /// The plan of this frame.
+  [[nodiscard]] Plan plan_for(int width, int height);
+  void resize(osg::GLExtensions& gl, const Plan& plan);
   /// Makes all buffers anew. If the driver refuses, leaves none and returns false.
-  bool allocate(osg::GLExtensions& gl, int width, int height, int samples);
-  bool make(osg::GLExtensions& gl, Buffers& buffers, int width, int height, int samples, bool with_depth) const;
+  bool allocate(osg::GLExtensions& gl, const Plan& plan);
+  bool make(osg::GLExtensions& gl, Buffers& buffers, const Plan& plan, Depth depth) const;
   void release(osg::GLExtensions& gl);
   /// The message that this size cannot be drawn, with a size that can.
   std::string refuse(osg::GLExtensions& gl);
@@ -68,10 +90,15 @@ class Frame::Pipeline : public osg::Referenced {
   const bool reversed_depth_, headless_;
   const int wished_samples_;
   std::atomic<int> samples_;
-  int width_ = 0, height_ = 0;
+  std::atomic<Quality> quality_;
+  std::atomic<bool> edges_ = true;
+  bool fully_ = false;   // whether this frame has all effects, whatever the quality
+  Plan wished_, plan_;   // as wished; as the driver has room for
   std::string problem_;  // why nothing can be drawn; empty if it can
   Buffers scene_;        // several samples a pixel, and the depth
-  Buffers picture_;      // one sample a pixel; equal to scene_ if that has one too
+  Buffers flat_scene_;   // the same with one sample a pixel, as textures; equal to scene_ if that has one too
+  Buffers picture_;      // one sample a pixel; equal to flat_scene_ without effects
+  Composite composite_;
   std::mutex mutex_;
   std::vector<Request> requests_;
 };

@@ -15,7 +15,6 @@
 #include <osg/Group>
 #include <osg/MatrixTransform>
 #include <osg/ref_ptr>
-#include <osgText/Text>
 #include <vector>
 
 #include "graphics/frame.h"

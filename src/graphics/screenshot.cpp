@@ -126,7 +126,7 @@ Screenshot::Screenshot(Frame& frame, fs::path path, bool with_hud, files::Naming
   state_->writer = std::thread([state = state_.get()] { state->run(); });
   frame.request_picture(
       with_hud, [state = state_](osg::ref_ptr<osg::Image> image) { state->give(std::move(image)); },
-      [state = state_](const std::string& reason) { state->refuse(reason); });
+      [state = state_](const std::string& reason) { state->refuse(reason); }, Finish::full);
 }
 
 Screenshot::~Screenshot() {

@@ -1,5 +1,6 @@
 #include "graphics/shading.h"
 
+#include <osg/BlendFunc>
 #include <osg/Geode>
 #include <osg/Geometry>
 #include <osg/Program>
@@ -29,15 +30,18 @@ void main() {
 }
 )";
 
-// The terms of the light add up to 1 on a floor before the eye, so white stays white and nothing is clipped. Walls get
-// about 0.7, a ceiling 0.6, and the dark end of a long corridor 0.4.
+// The terms of the light add up to 1 on a floor before the eye. Walls get about 0.7, a ceiling 0.6, and the dark end of a
+// long corridor 0.4. The brightest tones are compressed, so that white surfaces keep their shape.
 constexpr const char* scene_fragment = R"(#version 120
-#pragma import_defines(ROAM_TEXTURED)
+#pragma import_defines(ROAM_TEXTURED, ROAM_BLENDED, ROAM_CUT)
 varying vec3 roam_position;
 varying vec3 roam_normal;
 varying vec4 roam_surface;
 uniform mat4 osg_ViewMatrix;
 uniform sampler2D roam_picture;
+#ifdef ROAM_CUT
+uniform float roam_cutoff;
+#endif
 
 const vec3 sun = vec3(0.48, -0.36, 0.80);
 const vec3 ambient = vec3(0.245, 0.26, 0.29);
@@ -47,8 +51,9 @@ const vec3 lamp = vec3(0.32, 0.30, 0.255);
 const float lamp_reach = 14.0;
 
 const vec3 haze = vec3(0.63, 0.67, 0.71);
-const float haze_reach = 12000.0;
+const float haze_reach = 10000.0;
 const float most_haze = 0.6;
+const float knee = 0.6;  // darker tones are kept
 
 vec3 lit(vec3 normal, vec3 view, float distance) {
   vec3 up = osg_ViewMatrix[2].xyz;
@@ -59,10 +64,20 @@ vec3 lit(vec3 normal, vec3 view, float distance) {
          lamp * dot(normal, view) * fall_off;
 }
 
+vec3 toned(vec3 color) {
+  float most = max(color.r, max(color.g, color.b));
+  float over = max(most - knee, 0.0);
+  float shown = most - over + (1.0 - knee) * (1.0 - exp(over / (knee - 1.0)));
+  return color * (shown / max(most, 1e-4));
+}
+
 void main() {
   vec4 color = roam_surface;
 #ifdef ROAM_TEXTURED
   color *= texture2D(roam_picture, gl_TexCoord[0].st);
+#endif
+#ifdef ROAM_CUT
+  if (color.a < roam_cutoff) discard;
 #endif
   float distance = length(roam_position);
   vec3 view = -roam_position / max(distance, 1e-6);
@@ -73,12 +88,20 @@ void main() {
   normal = size > 0.0 ? normal / size : view;
   if (dot(normal, view) < 0.0) normal = -normal;
   vec3 light = lit(normal, view, distance);
+  float shade = 1.0;  // the share of later effects that this surface takes
+  vec3 seen = toned(color.rgb * light);
 #ifdef ROAM_TEXTURED
-  if (!has_normal) light = vec3(1.0);
+  if (!has_normal) {
+    seen = color.rgb;
+    shade = 0.0;
+  }
 #endif
-  vec3 seen = color.rgb * light;
-  float hazed = most_haze * (1.0 - exp(-distance * distance / (haze_reach * haze_reach)));
-  gl_FragColor = vec4(mix(seen, haze, hazed), color.a);
+  float square = distance * distance;
+  float hazed = most_haze * square / (square + haze_reach * haze_reach);
+#ifdef ROAM_BLENDED
+  shade = color.a;
+#endif
+  gl_FragColor = vec4(mix(seen, haze, hazed), shade);
 }
 )";
 
@@ -104,7 +127,7 @@ void main() {
   vec3 below = mix(edge, nadir, pow(clamp(-height, 0.0, 1.0), 0.6));
   vec3 color = mix(below, above, smoothstep(-0.02, 0.005, height));
   float noise = fract(52.9829189 * fract(dot(gl_FragCoord.xy, vec2(0.06711056, 0.00583715))));
-  gl_FragColor = vec4(color + (noise - 0.5) / 255.0, 1.0);
+  gl_FragColor = vec4(color + (noise - 0.5) / 255.0, 0.0);
 }
 )";
 
@@ -122,6 +145,21 @@ struct Nowhere : osg::Drawable::ComputeBoundingBoxCallback {
 };
 
 }  // namespace
+
+void apply(const Surface& surface, osg::StateSet& state) {
+  if (surface.textured) state.setDefine(textured_define);
+  if (surface.cutoff) {
+    state.setDefine("ROAM_CUT");
+    state.addUniform(new osg::Uniform("roam_cutoff", *surface.cutoff));
+  }
+  if (surface.blended) {
+    state.setDefine("ROAM_BLENDED");
+    // The background keeps its share of later effects.
+    state.setAttributeAndModes(
+        new osg::BlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, osg::BlendFunc::ZERO, osg::BlendFunc::ONE));
+    state.setRenderingHint(osg::StateSet::TRANSPARENT_BIN);
+  }
+}
 
 osg::ref_ptr<osg::Group> make_scene_group() {
   osg::ref_ptr<osg::Group> group = new osg::Group;

@@ -12,18 +12,29 @@
 ///     frame.space()->addChild(scene);
 ///     scene->addChild(node);   // between two frames
 
+#include <optional>
 #include <osg/Group>
 #include <osg/Node>
+#include <osg/StateSet>
 #include <osg/ref_ptr>
 
 namespace roam::graphics {
 
-/// The define (StateSet::setDefine) of states with a texture on unit 0.
+/// The define (StateSet::setDefine) of textured surfaces.
 inline constexpr const char* textured_define = "ROAM_TEXTURED";
 
+/// A surface's material. Its colours are those of its vertices.
+struct Surface {
+  bool textured = false;          ///< with an image on texture unit 0, which the caller sets
+  bool blended = false;           ///< over the background, by its opacity
+  std::optional<float> cutoff{};  ///< pixels with a smaller opacity are not drawn
+};
+
+/// Makes geometries below `state` look as `surface` says.
+void apply(const Surface& surface, osg::StateSet& state);
+
 /// The group for scenes drawn as described above; up is +z. Every geometry below must have colours and normals. A
-/// single zero normal means that each face uses its own. States may have only a texture on unit 0 with textured_define,
-/// blending and an alpha test.
+/// single zero normal means that each face uses its own. States other than opaque, untextured ones are made by apply().
 [[nodiscard]] osg::ref_ptr<osg::Group> make_scene_group();
 
 /// A gradient from the ground over the horizon to the zenith, dark enough for white objects and light enough for black

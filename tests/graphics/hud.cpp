@@ -414,6 +414,49 @@ TEST(GraphicsHud, GoesAwayWithItsObject) {
   EXPECT_EQ(shown_in(stage).pixels, 0);
 }
 
+/// A picture of text alone: light letters on a dark panel, before black.
+osg::ref_ptr<osg::Image> letters(const std::string& words) {
+  Stage stage(1280, 720);
+  fill_with(stage, 0);
+  Hud hud(stage.frame);
+  hud.set_crosshair(false);
+  hud.set_status({{"", words}});
+  return stage.picture(true);
+}
+
+TEST(GraphicsHud, UprightStemsFillWholeColumns) {
+  const auto picture = letters("llllllllIIIIIIII");
+  // In a row through the middle of the letters, nearly all pixels are letter or panel.
+  std::vector<int> sharp(720), soft(720);
+  for (int y = 0; y < 720; ++y) {
+    for (int x = 0; x < 640; ++x) {
+      const int level = at(*picture, x, y).g;
+      sharp[static_cast<std::size_t>(y)] += level > 200;
+      soft[static_cast<std::size_t>(y)] += level > 40 && level <= 200;
+    }
+  }
+  const auto row = std::max_element(sharp.begin(), sharp.end());
+  EXPECT_GE(*row, 16);
+  EXPECT_LE(soft[static_cast<std::size_t>(row - sharp.begin())], 1);
+}
+
+TEST(GraphicsHud, OnlyLettersAreLight) {
+  // Between the words there is nothing but panel: no texel of another letter.
+  const auto picture = letters("a" + std::string(40, ' ') + "a");
+  const auto lit = [&](int x) {
+    int count = 0;
+    for (int y = 600; y < 720; ++y) count += at(*picture, x, y).g > 40;
+    return count;
+  };
+  std::vector<int> columns;
+  for (int x = 0; x < 640; ++x) {
+    if (lit(x) > 0) columns.push_back(x);
+  }
+  ASSERT_GE(columns.size(), 10u);
+  EXPECT_LE(columns.size(), 24u);
+  EXPECT_GT(columns.back() - columns.front(), 150);
+}
+
 TEST(GraphicsHud, ChangesWhileAnotherThreadDraws) {
   Stage stage(320, 180);
   stage.viewer.setThreadingModel(osgViewer::Viewer::DrawThreadPerContext);

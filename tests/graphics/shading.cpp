@@ -1,6 +1,5 @@
 // How surfaces look.
 
-#include <osg/BlendFunc>
 #include <osg/Texture2D>
 
 #include "graphics_stage.h"
@@ -141,8 +140,7 @@ TEST(GraphicsShading, ATextureOnGeometryWithNormalsIsLit) {
 TEST(GraphicsShading, WhatIsTransparentIsBlendedOverWhatLiesBehind) {
   Stage stage(64, 64);
   osg::ref_ptr<osg::Geometry> glass = paint(quad({0, 3, 0}, x_axis * 9, z_axis * 9), {1, 1, 1, 0.25f});
-  glass->getOrCreateStateSet()->setAttributeAndModes(new osg::BlendFunc);
-  glass->getOrCreateStateSet()->setRenderingHint(osg::StateSet::TRANSPARENT_BIN);
+  graphics::apply({.blended = true}, *glass->getOrCreateStateSet());
   stage.add(glass);
   stage.add(paint(wall(), {1, 0, 0, 1}));
   const Pixel p = at(*stage.picture(), 32, 32);

@@ -82,13 +82,16 @@ struct Completion : osg::NodeVisitor {
     if (!geometry.getNormalArray()) geometry.setNormalArray(new osg::Vec3Array(1), osg::Array::BIND_OVERALL);
     osg::StateSet* state = geometry.getStateSet();
     const bool textured = state && state->getTextureAttribute(0, osg::StateAttribute::TEXTURE);
-    if (textured) state->setDefine(graphics::textured_define);
+    if (textured) graphics::apply({.textured = true}, *state);
   }
 };
 
+/// One sample a pixel, without effects, so that pixels are exact.
+inline const graphics::FrameSettings plain{.samples = 1, .quality = graphics::Quality::plain};
+
 /// A viewer without a screen. By default nothing is smoothed, so that pixels are exact.
 struct Stage {
-  explicit Stage(int width = 320, int height = 180, const graphics::FrameSettings& settings = {.samples = 1},
+  explicit Stage(int width = 320, int height = 180, const graphics::FrameSettings& settings = plain,
                  graphics::Headless how = graphics::Headless::any)
       : context(graphics::open_headless(width, height, how)),
         frame(viewer, context, settings),

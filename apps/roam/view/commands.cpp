@@ -25,6 +25,7 @@ constexpr Line lines[] = {
     {"measure", "T", "measures between clicked points, and the room around the body"},
     {"plan", "L", "shows a plan of the walls around: small, large, none; a click on it goes there"},
     {"marks", "V", "shows the body, what it touches and the nearest triangles"},
+    {"edges", "K", "draws thin lines along edges, or not"},
     {"fullscreen", "F", "fills the screen, or leaves it"},
     {"bookmark", "B", "keeps this place as a bookmark"},
     {"next_bookmark", "Tab", "goes to the next bookmark; with Shift to the one before"},

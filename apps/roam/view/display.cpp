@@ -88,6 +88,7 @@ Status Display::status(bool has_body) {
   s.display = scene_.state();
   s.resident = resident_bytes();
   s.frame_ms = stage_.last_frame_ms();
+  s.quality = stage_.quality_note();
   s.news = news_.shown();
   if (!roamer_.problem().empty()) s.news.push_back({roamer_.problem(), true});
   if (!has_body) return s;

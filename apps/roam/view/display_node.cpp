@@ -4,7 +4,6 @@
 #include <array>
 #include <cstring>
 #include <map>
-#include <osg/AlphaFunc>
 #include <osg/Array>
 #include <osg/Image>
 #include <osg/MatrixTransform>
@@ -77,17 +76,10 @@ osg::ref_ptr<osg::Texture2D> texture_of(const DisplayTexture& from, const Textur
 osg::ref_ptr<osg::StateSet> state_of(const DisplayLook& look, osg::Texture2D* texture) {
   if (texture == nullptr && look.cover == DisplayCover::opaque) return nullptr;
   osg::ref_ptr<osg::StateSet> state = new osg::StateSet;
-  if (texture != nullptr) {
-    state->setTextureAttributeAndModes(0, texture);
-    state->setDefine(graphics::textured_define);
-  }
-  if (look.cover == DisplayCover::cut) {
-    state->setAttributeAndModes(new osg::AlphaFunc(osg::AlphaFunc::GEQUAL, look.cutoff));
-  }
-  if (look.cover == DisplayCover::blended) {
-    state->setMode(GL_BLEND, osg::StateAttribute::ON);
-    state->setRenderingHint(osg::StateSet::TRANSPARENT_BIN);
-  }
+  if (texture != nullptr) state->setTextureAttributeAndModes(0, texture);
+  graphics::Surface surface{.textured = texture != nullptr, .blended = look.cover == DisplayCover::blended};
+  if (look.cover == DisplayCover::cut) surface.cutoff = look.cutoff;
+  graphics::apply(surface, *state);
   return state;
 }
 

@@ -182,6 +182,10 @@ void ViewOptions::add_to(CLI::App& verb) {
                   "option, --screenshot shows the display too")
       ->check(one_of({"plain", "full", "minimal", "off"}))
       ->type_name("MODE");
+  verb.add_option("--quality", quality,
+                  "Drawing: auto, full, light or plain (default: auto: full; plain in a window without a graphics card)")
+      ->check(one_of({quality_names.begin(), quality_names.end()}))
+      ->type_name("Q");
   verb.add_flag("--headless", headless, "Draw without a screen");
   verb.add_option("--time", time_limit, "End after S seconds of roaming")
       ->excludes(replay)
@@ -227,6 +231,8 @@ ViewPlan make_plan(const ViewOptions& options, const ViewSettings& settings,
   plan.invert_y = settings.invert_y.value_or(plan.invert_y);
   plan.easing = settings.easing.value_or(plan.easing);
   plan.hud = options.hud ? parse_hud_mode(*options.hud).value_or(plan.hud) : settings.hud.value_or(plan.hud);
+  plan.quality = options.quality.value_or(settings.quality.value_or(plan.quality));
+  plan.edges = settings.edges.value_or(plan.edges);
   const auto [width, height] = parse_size(options.size);
   plan.width = width;
   plan.height = height;

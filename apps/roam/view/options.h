@@ -36,7 +36,7 @@ struct ViewOptions {
   std::filesystem::path path;
   double dt = 1.0 / 60.0;
   std::filesystem::path screenshot, record, record_path, trace, settings;
-  std::optional<std::string> hud;
+  std::optional<std::string> hud, quality;
   double time_limit = 0.0;  ///< seconds after the body's arrival; 0: no limit
   bool headless = false;
   bool verify = false;
@@ -59,6 +59,8 @@ struct ViewPlan {
   bool invert_y = false;
   double easing = 0.15;  ///< seconds; see osgRoam::Manipulator::setEasing
   HudMode hud = HudMode::plain;
+  std::string quality = "auto";  ///< one of quality_names
+  bool edges = true;
   int width = 0, height = 0;   ///< pixels
   std::vector<Waypoint> path;  ///< of --path; make_plan leaves it empty
   std::optional<Pose> at;

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <initializer_list>
 #include <nlohmann/json.hpp>
@@ -152,6 +153,14 @@ ViewSettings read_settings(const std::filesystem::path& file) {
     settings.hud = hud->is_string() ? parse_hud_mode(hud->get<std::string>()) : std::nullopt;
     if (!settings.hud) all.fail("hud", "must be \"plain\", \"full\", \"minimal\" or \"off\"");
   }
+  if (const auto quality = all.take("quality")) {
+    const auto named = [&](const char* name) { return *quality == name; };
+    if (std::none_of(quality_names.begin(), quality_names.end(), named)) {
+      all.fail("quality", fmt::format("must be \"{}\"", fmt::join(quality_names, "\", \"")));
+    }
+    settings.quality = quality->get<std::string>();
+  }
+  settings.edges = all.flag("edges");
   all.end();
   return settings;
 }

@@ -11,9 +11,12 @@
 ///       "speed": 1.4,
 ///       "easing": 0.15,
 ///       "fov": 65,
-///       "hud": "plain"
+///       "hud": "plain",
+///       "quality": "auto",
+///       "edges": true
 ///     }
 
+#include <array>
 #include <filesystem>
 #include <map>
 #include <optional>
@@ -41,7 +44,12 @@ struct ViewSettings {
   std::optional<double> easing;                          ///< seconds to full speed and to rest, >= 0
   std::optional<double> fov;                             ///< degrees, vertical
   std::optional<HudMode> hud;
+  std::optional<std::string> quality;  ///< see quality_names
+  std::optional<bool> edges;           ///< thin lines along outlines
 };
+
+/// The qualities of drawing. auto: plain in a window without a graphics card, else full. The others as graphics::Quality.
+inline constexpr std::array<const char*, 4> quality_names{"auto", "full", "light", "plain"};
 
 /// Range of the field of view, degrees.
 inline constexpr double least_fov = 10.0;

@@ -22,9 +22,9 @@ constexpr double headless_frame = 1.0 / 60.0;  // s
 // Limits the frame rate if nothing else does: few screens are faster.
 constexpr auto shortest_frame = std::chrono::microseconds(6900);
 
-/// Loads OpenSceneGraph's plugins for letters and pictures. Later it loads no other library, whatever a file requests.
+/// Loads fonts, and OpenSceneGraph's plugins for pictures. Later it loads no other library, whatever a file requests.
 void load_plugins() {
-  for (const char* plugin : {"freetype", "png", "jpeg"}) osg_plugins::load(plugin);
+  for (const char* plugin : {"png", "jpeg"}) osg_plugins::load(plugin);
   osg_plugins::close_door([](const std::string& name, const osgDB::Options*) {
     std::error_code none;
     const std::filesystem::path file(name);
@@ -38,6 +38,14 @@ graphics::Context open(const ViewOptions& options, const ViewPlan& plan) {
   if (options.headless) return graphics::open_headless(plan.width, plan.height);
   std::string title = "roam: " + options.scene.names();
   return graphics::open_window(title, plan.width, plan.height);
+}
+
+graphics::Quality quality(const std::string& name, const graphics::Context& context) {
+  if (name == "light") return graphics::Quality::light;
+  if (name == "plain") return graphics::Quality::plain;
+  // Without a screen, all that is drawn is a still or part of a film.
+  const bool interactive_software = context.abilities.software && !context.headless;
+  return name == "auto" && interactive_software ? graphics::Quality::plain : graphics::Quality::full;
 }
 
 graphics::Detail detail(HudMode mode) {
@@ -68,9 +76,9 @@ Stage::Stage(const ViewOptions& options, const ViewPlan& plan)
   graphics::FrameSettings settings;
   settings.vertical_fov = plan.fov;
   settings.near = graphics::near_limit(plan.walker.radius, plan.fov, static_cast<double>(plan.width) / plan.height);
-  // In software, several samples a pixel cost several times as much; smoothness is worth more.
-  if (context_.abilities.software && !context_.headless) settings.samples = 1;
+  settings.quality = quality(plan.quality, context_);
   frame_.emplace(*viewer_, context_, settings);
+  frame_->set_edges(plan.edges);
   frame_->space()->addChild(graphics::make_sky());
   hud_.emplace(*frame_);
   overlay_.emplace(*frame_);
@@ -85,6 +93,10 @@ Stage::Stage(const ViewOptions& options, const ViewPlan& plan)
 TextureQuality Stage::texture_quality() const {
   // Software computes each sample separately: ground seen at a flat angle would take minutes a frame.
   return context_.abilities.software ? TextureQuality{1.0f} : TextureQuality{};
+}
+
+std::string Stage::quality_note() const {
+  return context_.abilities.software && frame_->quality() == graphics::Quality::plain ? "plain: no graphics card" : "";
 }
 
 void Stage::show(const Status& status) {
@@ -111,6 +123,7 @@ void Stage::set_hud(HudMode mode) {
 void Stage::add_to(Commands& commands) {
   commands.add("help", [this] { hud_->show_help(!hud_->help_shown()); });
   commands.add("hud", [this] { cycle_hud(); });
+  commands.add("edges", [this] { frame_->set_edges(!frame_->edges()); });
   commands.add("fullscreen", [this] { toggle_fullscreen(); });
   for (const auto& [name, with_display] : {std::pair("picture", false), std::pair("picture_with_display", true)}) {
     commands.add(name, [this, with_display = with_display] {

@@ -46,6 +46,8 @@ class Stage {
   [[nodiscard]] graphics::Overlay& overlay() { return *overlay_; }
   [[nodiscard]] bool headless() const { return context_.headless; }
   [[nodiscard]] TextureQuality texture_quality() const;
+  /// Says that drawing is light because there is no graphics card; else empty.
+  [[nodiscard]] std::string quality_note() const;
 
   /// Shows the lines and the message; does nothing if they are shown already.
   void show(const Status& status);

@@ -147,6 +147,7 @@ std::vector<StatusText> status_lines(const Status& status) {
     frame += fmt::format("{}collision {:.0f} \u00b5s", frame.empty() ? "" : ", ", status.collision_us);
   }
   if (!frame.empty()) lines.push_back({"frame", frame, false, true});
+  if (!status.quality.empty()) lines.push_back({"drawing", status.quality, false, true});
   for (const auto& [what, state] : {std::pair("scene", &status.display), std::pair("collision", &status.collision)}) {
     const bool failed = state->phase == Phase::failed;
     // A store has replaced it.

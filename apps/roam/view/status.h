@@ -57,6 +57,7 @@ struct Status {
   std::optional<LoadState> building;  ///< progress of a store's build; none: no build
   std::string store_key;              ///< the key that builds a store, if one is worth building; else empty
   double frame_ms = 0.0;              ///< 0: not known yet
+  std::string quality;                ///< why the drawing is not full; empty if there is nothing to say
   double collision_us = 0.0;          ///< per frame
   std::string recording;              ///< what is being recorded
   std::vector<StatusText> tool;       ///< of the tool that is on

@@ -1,0 +1,174 @@
+// The passes between the scene and the picture.
+
+#include <algorithm>
+#include <osg/Texture2D>
+
+#include "graphics_stage.h"
+
+namespace roam::test {
+namespace {
+
+using graphics::FrameSettings;
+using graphics::Quality;
+
+const osg::Vec3d x_axis(1, 0, 0), y_axis(0, 1, 0), z_axis(0, 0, 1);
+const FrameSettings full{.samples = 1, .quality = Quality::full};
+const FrameSettings light{.samples = 1, .quality = Quality::light};
+
+/// A wall of the photogrammetric kind: textured, without normals.
+osg::ref_ptr<osg::Geometry> photograph(osg::ref_ptr<osg::Geometry> geometry) {
+  osg::ref_ptr<osg::Image> image = new osg::Image;
+  image->allocateImage(1, 1, 1, GL_RGB, GL_UNSIGNED_BYTE, 1);
+  image->data()[0] = 240;
+  image->data()[1] = 130;
+  image->data()[2] = 15;
+  geometry->setTexCoordArray(0, new osg::Vec2Array(4));
+  geometry->getOrCreateStateSet()->setTextureAttributeAndModes(0, new osg::Texture2D(image));
+  return geometry;
+}
+
+/// A wall at a floor, seen from the front and above.
+struct Corner {
+  explicit Corner(const FrameSettings& settings, bool photographed = false) : stage(320, 180, settings) {
+    const auto made = [&](osg::ref_ptr<osg::Geometry> g) { return photographed ? photograph(g) : g; };
+    stage.add(made(quad({0, 4, 0}, x_axis * 9, z_axis * 9)));
+    stage.add(made(quad({0, 4, -1}, x_axis * 9, y_axis * 9)));
+  }
+  Stage stage;
+};
+
+/// The row of the picture in which the wall meets the floor: 1 m below the eye at a distance of 4 m.
+int foot_row(const Stage& stage) {
+  const double half = std::tan(0.5 * stage.frame.vertical_fov() * 3.14159265358979 / 180.0);
+  return static_cast<int>(90.0 * (1.0 - 0.25 / half));
+}
+
+TEST(GraphicsEffects, OcclusionDarkensACornerAndLeavesAFreePlaneAlone) {
+  for (const FrameSettings& settings : {full, light}) {
+    Corner with(settings), without(plain);
+    with.stage.frame.set_edges(false);
+    const auto dark = with.stage.picture(), bright = without.stage.picture();
+    const int foot = foot_row(with.stage);
+    for (const int x : {40, 160, 280}) {
+      EXPECT_LT(at(*dark, x, foot + 2).sum(), 0.95 * at(*bright, x, foot + 2).sum()) << x;
+      EXPECT_LT(at(*dark, x, foot - 2).sum(), 0.95 * at(*bright, x, foot - 2).sum()) << x;
+      // Farther than the reach of the occlusion.
+      for (const int y : {foot + 60, 170}) EXPECT_LE(at(*dark, x, y).distance(at(*bright, x, y)), 3) << x << " " << y;
+    }
+  }
+}
+
+TEST(GraphicsEffects, AFreePlaneIsLeftAloneAtEveryAngleAndDistance) {
+  for (const FrameSettings& settings : {full, light}) {
+    for (const double height : {0.1, 1.6, 40.0, 900.0}) {
+      Stage with(160, 90, settings), without(160, 90);
+      for (Stage* stage : {&with, &without}) {
+        stage->add(quad({0, 0, -height}, x_axis * 1e6, y_axis * 1e6));
+        stage->look({0, 0, 0}, {0.3, 1, -0.4});
+      }
+      const auto a = with.picture(), b = without.picture();
+      int wrong = 0;
+      // Without the rows about the horizon, which the smoothing changes.
+      for (int y = 0; y < 60; ++y) {
+        for (int x = 0; x < 160; ++x) {
+          const Pixel p = at(*a, x, y), q = at(*b, x, y);
+          wrong += std::abs(p.r - q.r) > 1 || std::abs(p.g - q.g) > 1 || std::abs(p.b - q.b) > 1;
+        }
+      }
+      EXPECT_EQ(wrong, 0) << height;
+    }
+  }
+}
+
+TEST(GraphicsEffects, PhotographsAreShownAsTheyAre) {
+  for (const FrameSettings& settings : {full, light}) {
+    Corner corner(settings, true);
+    const auto picture = corner.stage.picture();
+    for (int y = 0; y < 180; ++y) {
+      for (int x = 0; x < 320; ++x) ASSERT_EQ(at(*picture, x, y), (Pixel{240, 130, 15})) << x << " " << y;
+    }
+  }
+}
+
+/// A board half a metre before a wall.
+void add_board(Stage& stage) {
+  stage.add(quad({0, 4, 0}, x_axis * 9, z_axis * 9));
+  stage.add(quad({-2, 3.0, 0}, x_axis * 2, z_axis * 2));
+}
+
+TEST(GraphicsEffects, EdgesAreDrawnAtAStepAndVanishWhenSwitchedOff) {
+  for (const FrameSettings& settings : {full, light}) {
+    Stage stage(320, 180, settings);
+    add_board(stage);
+    const auto least = [](const osg::Image& picture) {
+      int sum = 3 * 255;
+      for (int x = 150; x < 170; ++x) sum = std::min(sum, at(picture, x, 100).sum());
+      return sum;
+    };
+    const int on = least(*stage.picture());
+    stage.frame.set_edges(false);
+    const int off = least(*stage.picture());
+    EXPECT_LT(on, 0.85 * off);
+    stage.frame.set_edges(true);
+    EXPECT_EQ(least(*stage.picture()), on);
+  }
+}
+
+TEST(GraphicsEffects, APlaneOfManyTrianglesHasNoEdges) {
+  for (const FrameSettings& settings : {full, light}) {
+    Stage stage(320, 180, settings);
+    for (int i = -20; i < 20; ++i) {
+      stage.add(quad({0.5 * i, 2.0 + 0.4 * i, 0}, osg::Vec3d(0.25, 0.2, 0), z_axis * 9));
+    }
+    const auto with = stage.picture();
+    stage.frame.set_edges(false);
+    EXPECT_EQ(differing(*with, *stage.picture()), 0);
+  }
+}
+
+/// The number of levels on the slanted outline of a white board before the sky.
+std::size_t levels_on_an_edge(const osg::Image& picture) {
+  std::vector<int> levels;
+  for (int y = 0; y < picture.t(); ++y) {
+    for (int x = 0; x < picture.s(); ++x) levels.push_back(at(picture, x, y).g / 8);
+  }
+  std::sort(levels.begin(), levels.end());
+  return static_cast<std::size_t>(std::unique(levels.begin(), levels.end()) - levels.begin());
+}
+
+TEST(GraphicsEffects, AStillIsSmoothWhateverTheQuality) {
+  for (const Quality quality : {Quality::full, Quality::light, Quality::plain}) {
+    Stage stage(200, 120, {.quality = quality});
+    stage.frame.set_edges(false);
+    stage.add(photograph(quad({0, 5, 0}, osg::Vec3d(1.5, 0, 0.3), osg::Vec3d(-0.3, 0, 1.5))));
+    osg::ref_ptr<osg::Image> still;
+    stage.frame.request_picture(false, [&](osg::ref_ptr<osg::Image> image) { still = image; }, {},
+                                graphics::Finish::full);
+    stage.viewer.frame();
+    ASSERT_TRUE(still);
+    EXPECT_GT(levels_on_an_edge(*still), levels_on_an_edge(*Stage(200, 120).picture()) + 3) << int(quality);
+    // The next frame has its own quality again.
+    EXPECT_EQ(stage.frame.quality(), quality);
+  }
+}
+
+TEST(GraphicsEffects, EffectsFollowTheWindow) {
+  Stage stage(160, 90, {.quality = Quality::full});
+  add_board(stage);
+  for (const auto& [width, height] : {std::pair{161, 91}, std::pair{1, 1}, std::pair{320, 37}, std::pair{640, 360}}) {
+    stage.context.window->setWindowRectangle(0, 0, width, height);
+    const auto picture = stage.picture();
+    ASSERT_EQ(picture->s(), width);
+    ASSERT_EQ(picture->t(), height);
+    EXPECT_GT(at(*picture, width / 4, height / 2).sum(), 3 * 60) << width;
+  }
+}
+
+TEST(GraphicsEffects, WithoutReversedDepthACornerIsDarkerToo) {
+  Corner with({.samples = 1, .reversed_depth = false}), without(plain);
+  const int foot = foot_row(with.stage);
+  EXPECT_LT(at(*with.stage.picture(), 160, foot + 2).sum(), 0.95 * at(*without.stage.picture(), 160, foot + 2).sum());
+}
+
+}  // namespace
+}  // namespace roam::test
