@@ -119,8 +119,8 @@ void Composite::draw(osg::RenderInfo& info, const CompositeInput& input) {
   double fovy = 0.0, aspect = 0.0, near = 0.0, far = 0.0;
   input.projection.getPerspective(fovy, aspect, near, far);
   size_->set(osg::Vec2(static_cast<float>(width_), static_cast<float>(height_)));
-  tangents_->set(osg::Vec2(static_cast<float>(1.0 / input.projection(0, 0)),
-                           static_cast<float>(1.0 / input.projection(1, 1))));
+  tangents_->set(
+      osg::Vec2(static_cast<float>(1.0 / input.projection(0, 0)), static_cast<float>(1.0 / input.projection(1, 1))));
   depth_scale_->set(input.reversed_depth ? osg::Vec2(0, 1) : osg::Vec2(1, static_cast<float>(near / far - 1.0)));
   near_->set(static_cast<float>(near));
 

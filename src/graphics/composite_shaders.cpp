@@ -45,6 +45,8 @@ void main() {
   float right = depth_at(pixel + vec2(1.0, 0.0)) - depth, up = depth_at(pixel + vec2(0.0, 1.0)) - depth;
   float left = pixel.x < 1.0 ? right : depth - depth_at(pixel - vec2(1.0, 0.0));
   float down = pixel.y < 1.0 ? up : depth - depth_at(pixel - vec2(0.0, 1.0));
+  if (pixel.x + 1.0 > roam_size.x) right = left;
+  if (pixel.y + 1.0 > roam_size.y) up = down;
   vec2 slope = vec2(smaller(left, right), smaller(down, up)) * roam_size / (2.0 * roam_tangents);
   vec2 ray = (2.0 * pixel / roam_size - 1.0) * roam_tangents;
   vec3 normal = -normalize(vec3(slope, depth - dot(slope, ray)));
@@ -121,7 +123,11 @@ float occlusion_at(float depth) {
 }
 
 // Sine of the bend of the surface between two neighbours: > 0 where it is concave or behind a step.
-float bend(float before, float here, float after) {
+float bend(vec2 pixel, vec2 to, float here) {
+  float before = depth_at(pixel - to), after = depth_at(pixel + to);
+  // Surfaces go on straight beyond the picture.
+  if (any(lessThan(pixel - to, vec2(0.0)))) before = 2.0 * here - after;
+  if (any(greaterThan(pixel + to, roam_size))) after = 2.0 * here - before;
   float scale = 1.0 / (max(here, 1e-9) * pixel_angle());
   float a = (here - before) * scale, b = (after - here) * scale;
   return (b - a) * inversesqrt((1.0 + a * a) * (1.0 + b * b));
@@ -136,8 +142,7 @@ void main() {
   color.rgb = mix(shade * color.rgb, color.rgb, light);
 #endif
 #ifdef ROAM_EDGES
-  float across = bend(depth_at(pixel - vec2(1.0, 0.0)), depth, depth_at(pixel + vec2(1.0, 0.0)));
-  float up = bend(depth_at(pixel - vec2(0.0, 1.0)), depth, depth_at(pixel + vec2(0.0, 1.0)));
+  float across = bend(pixel, vec2(1.0, 0.0), depth), up = bend(pixel, vec2(0.0, 1.0), depth);
   float line = outline * smoothstep(0.3, 0.75, -min(across, up));
   line = max(line, crease * smoothstep(0.3, 0.75, max(across, up)));
   float footprint = roam_near * pixel_angle() / max(depth, 1e-9);

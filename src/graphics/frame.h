@@ -37,7 +37,7 @@ struct FrameSettings {
   /// Metres, in (0, 1000]. Nothing nearer is drawn. For a body of radius r to see every wall that it can touch, use
   /// near_limit(r, ...).
   double near = 0.05;
-  /// Samples a pixel of Quality::full and plain. Limited by the driver; 1 if it has no memory for more.
+  /// Samples a pixel of Quality::full. Limited by the driver; 1 if it has no memory for more.
   int samples = 4;
   Quality quality = Quality::full;
   bool reversed_depth = true;  ///< false: an ordinary depth buffer even if the driver supports a reversed one

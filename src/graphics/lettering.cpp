@@ -47,6 +47,8 @@ Face find_face(bool bold) {
   // FreeType's own hinter puts stems on whole pixels in both directions; the fonts' instructions do so in one.
   FcPatternDel(match.get(), FC_AUTOHINT);
   FcPatternAddBool(match.get(), FC_AUTOHINT, FcTrue);
+  FcPatternDel(match.get(), FC_HINT_STYLE);
+  FcPatternAddInteger(match.get(), FC_HINT_STYLE, FC_HINT_FULL);
   Face face(cairo_ft_font_face_create_for_pattern(match.get()));
   return cairo_font_face_status(face.get()) == CAIRO_STATUS_SUCCESS ? std::move(face) : nullptr;
 }

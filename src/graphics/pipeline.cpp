@@ -130,7 +130,8 @@ void Frame::Pipeline::resize(osg::GLExtensions& gl, const Plan& plan) {
   problem_.clear();
   const auto [widest, highest] = largest_sides();
   const bool within = plan.width <= widest && plan.height <= highest;
-  for (const Plan& tried : {plan, Plan{plan.width, plan.height, plan.samples, {}}, Plan{plan.width, plan.height, 1, {}}}) {
+  for (const Plan& tried :
+       {plan, Plan{plan.width, plan.height, plan.samples, {}}, Plan{plan.width, plan.height, 1, {}}}) {
     samples_ = tried.samples;
     if (within && allocate(gl, tried)) return;
   }
@@ -233,12 +234,11 @@ void Frame::Pipeline::serve(bool with_hud) {
   std::vector<Request> served;
   {
     const std::lock_guard lock(mutex_);
-    const auto rest = std::stable_partition(requests_.begin(), requests_.end(),
-                                            [&](const Request& r) {
-                                              // A request that came after the frame began waits for the next.
-                                              const bool later = r.finish == Finish::full && !fully_;
-                                              return r.with_hud != with_hud || later;
-                                            });
+    const auto rest = std::stable_partition(requests_.begin(), requests_.end(), [&](const Request& r) {
+      // A request that came after the frame began waits for the next.
+      const bool later = r.finish == Finish::full && !fully_;
+      return r.with_hud != with_hud || later;
+    });
     served.assign(std::make_move_iterator(rest), std::make_move_iterator(requests_.end()));
     requests_.erase(rest, requests_.end());
   }

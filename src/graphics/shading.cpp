@@ -30,8 +30,8 @@ void main() {
 }
 )";
 
-// The terms of the light add up to 1 on a floor before the eye. Walls get about 0.7, a ceiling 0.6, and the dark end of a
-// long corridor 0.4. The brightest tones are compressed, so that white surfaces keep their shape.
+// The terms of the light add up to 1 on a floor before the eye. Walls get about 0.7, a ceiling 0.6, and the dark end of
+// a long corridor 0.4. The brightest tones are compressed, so that white surfaces keep their shape.
 constexpr const char* scene_fragment = R"(#version 120
 #pragma import_defines(ROAM_TEXTURED, ROAM_BLENDED, ROAM_CUT)
 varying vec3 roam_position;

@@ -1,5 +1,7 @@
 // Pictures and films on disk.
 
+#include "graphics/capture.h"
+
 #include <array>
 #include <cstdio>
 #include <cstdlib>
@@ -11,7 +13,6 @@
 #include <string>
 #include <utility>
 
-#include "graphics/capture.h"
 #include "graphics/hud.h"
 #include "graphics_stage.h"
 #include "process/find_program.h"
@@ -73,7 +74,7 @@ std::string probe(const fs::path& film) {
 bool have_ffmpeg() { return !process::find_program("ffmpeg").empty() && !process::find_program("ffprobe").empty(); }
 
 TEST_F(GraphicsCapture, AScreenshotIsThePictureToThePixel) {
-  Stage stage(333, 217);
+  Stage stage(333, 217, {.quality = graphics::Quality::full});
   stage.add(paint(quad({0, 4, 1}, {1, 0, 0}, {0, 0, 1}), {1, 0.5f, 0, 1}));
   const auto expected = stage.picture(true);
   const fs::path file = folder / "shot.png";

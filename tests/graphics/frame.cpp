@@ -175,8 +175,8 @@ TEST(GraphicsFrame, ThePictureFollowsTheWindowAndKeepsItsProportions) {
 }
 
 TEST(GraphicsFrame, SamplesSmoothEdges) {
-  const auto shades = [](int samples) {
-    Stage stage(160, 90, {.samples = samples});
+  const auto shades = [](graphics::Quality quality) {
+    Stage stage(160, 90, {.samples = 4, .quality = quality});
     stage.add(paint(quad({0, 4, 0}, {1, 0, 0.3}, {-0.3, 0, 1}), white));
     stage.add(paint(quad({0, 5, 0}, x_axis * 99, z_axis * 99), {0, 0, 0, 1}));
     const auto picture = stage.picture();
@@ -186,8 +186,8 @@ TEST(GraphicsFrame, SamplesSmoothEdges) {
     }
     return between;
   };
-  EXPECT_EQ(shades(1), 0);
-  EXPECT_GT(shades(4), 40);
+  EXPECT_EQ(shades(graphics::Quality::plain), 0);
+  EXPECT_GT(shades(graphics::Quality::full), 40);
 }
 
 TEST(GraphicsFrame, DrawsInAThreadOfItsOwn) {

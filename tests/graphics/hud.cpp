@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <osg/Texture2D>
+#include <set>
 #include <string>
 
 #include "graphics_stage.h"
@@ -424,20 +425,21 @@ osg::ref_ptr<osg::Image> letters(const std::string& words) {
   return stage.picture(true);
 }
 
-TEST(GraphicsHud, UprightStemsFillWholeColumns) {
-  const auto picture = letters("llllllllIIIIIIII");
-  // In a row through the middle of the letters, nearly all pixels are letter or panel.
-  std::vector<int> sharp(720), soft(720);
+TEST(GraphicsHud, EachLetterLiesOnWholePixels) {
+  const auto picture = letters("llllllllllllllll");
+  // In a row through the middle of the letters, each has one full column, and the same levels beside it.
+  std::vector<int> full(720);
+  std::vector<std::set<int>> others(720);
   for (int y = 0; y < 720; ++y) {
     for (int x = 0; x < 640; ++x) {
       const int level = at(*picture, x, y).g;
-      sharp[static_cast<std::size_t>(y)] += level > 200;
-      soft[static_cast<std::size_t>(y)] += level > 40 && level <= 200;
+      full[static_cast<std::size_t>(y)] += level > 250;
+      if (level > 20 && level <= 250) others[static_cast<std::size_t>(y)].insert(level);
     }
   }
-  const auto row = std::max_element(sharp.begin(), sharp.end());
-  EXPECT_GE(*row, 16);
-  EXPECT_LE(soft[static_cast<std::size_t>(row - sharp.begin())], 1);
+  const auto row = std::max_element(full.begin(), full.end());
+  EXPECT_EQ(*row, 16);
+  EXPECT_LE(others[static_cast<std::size_t>(row - full.begin())].size(), 2u);
 }
 
 TEST(GraphicsHud, OnlyLettersAreLight) {

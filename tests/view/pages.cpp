@@ -97,7 +97,7 @@ TEST(ViewPages, AreNodesAsThePictureWantsThem) {
   EXPECT_EQ(geometry->getNormalArray()->getBinding(), osg::Array::BIND_OVERALL);
   const osg::StateSet& state = *geometry->getStateSet();
   EXPECT_TRUE(state.getDefinePair(roam::graphics::textured_define));
-  EXPECT_TRUE(state.getAttribute(osg::StateAttribute::ALPHAFUNC));
+  EXPECT_TRUE(state.getUniform("roam_cutoff"));
   const auto* texture = dynamic_cast<const osg::Texture2D*>(state.getTextureAttribute(0, osg::StateAttribute::TEXTURE));
   ASSERT_TRUE(texture);
   EXPECT_EQ(texture->getMaxAnisotropy(), 4.0f);

@@ -182,8 +182,9 @@ void ViewOptions::add_to(CLI::App& verb) {
                   "option, --screenshot shows the display too")
       ->check(one_of({"plain", "full", "minimal", "off"}))
       ->type_name("MODE");
-  verb.add_option("--quality", quality,
-                  "Drawing: auto, full, light or plain (default: auto: full; plain in a window without a graphics card)")
+  verb.add_option(
+          "--quality", quality,
+          "Drawing: auto, full, light or plain (default: auto: full; plain in a window without a graphics card)")
       ->check(one_of({quality_names.begin(), quality_names.end()}))
       ->type_name("Q");
   verb.add_flag("--headless", headless, "Draw without a screen");

@@ -48,7 +48,8 @@ struct ViewSettings {
   std::optional<bool> edges;           ///< thin lines along outlines
 };
 
-/// The qualities of drawing. auto: plain in a window without a graphics card, else full. The others as graphics::Quality.
+/// The qualities of drawing. auto: plain in a window without a graphics card, else full. The others as
+/// graphics::Quality.
 inline constexpr std::array<const char*, 4> quality_names{"auto", "full", "light", "plain"};
 
 /// Range of the field of view, degrees.
