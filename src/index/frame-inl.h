@@ -34,7 +34,8 @@ inline constexpr int axis_lanes = static_cast<int>(hn::MaxLanes(D{}));
 HWY_INLINE hn::Vec<D> axes_of(const Vec3& v, [[maybe_unused]] int k) {
 #if HWY_MAX_BYTES >= 32
   const hn::Half<D> half;
-  return hn::Combine(D{}, hn::Set(half, v.z), hn::LoadU(half, &v.x));
+  // Not one load of two numbers: it would wait for the stores of each.
+  return hn::Combine(D{}, hn::Set(half, v.z), hn::InterleaveLower(half, hn::Set(half, v.x), hn::Set(half, v.y)));
 #elif HWY_TARGET != HWY_SCALAR
   return k == 0 ? hn::LoadU(D{}, &v.x) : hn::Set(D{}, v.z);
 #else

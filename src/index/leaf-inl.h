@@ -57,6 +57,7 @@ struct Met {
   alignas(64) float time[node_width];  ///< the body is free until then
   std::uint32_t arrived;               ///< bits: the body is then within the arrival distance, a hit
   std::uint32_t open;                  ///< bits: to be decided in double precision from that time on
+  float until;                         ///< the body is free of the other triangles until then
 };
 
 /// Metres. Error of a computed bound, for each triangle, after the body has moved by `way` metres.
@@ -94,14 +95,16 @@ HWY_INLINE void keep_off_planes(const Triangles& t, const V3& way, VF end, VF ke
 
 /// Advances the body against all triangles of a leaf from t_entry, until which they are known to be free, to t_max. A
 /// triangle counts as arrived within hit_limit of the axis; a negative hit_limit leaves all decisions to double
-/// precision. A Ray first drops the triangles that its line certainly misses.
-template <class Line>
+/// precision. A Ray first drops the triangles that its line certainly misses. With `first_only`, an arrival drops the
+/// triangles whose turn certainly comes later: the earliest impact stays the same to the bit.
+template <class Line, bool first_only>
 HWY_INLINE void sweep_leaf(const Leaf& leaf, const Frame& frame, const Motion& motion, const Line& line, float radius,
                            float hit_limit, float t_entry, float t_max, Met& out) {
   out.arrived = out.open = 0;
   const V3 way{set(motion.way[0]), set(motion.way[1]), set(motion.way[2])};
   const VF keep = set(radius * (1.0F + radius_roundings * float_unit));
-  const VF end = set(t_max), zero = hn::Zero(kF);
+  const VF zero = hn::Zero(kF);
+  VF end = set(t_max);
   for (int first = 0; first < leaf.triangle_count; first += lane_count) {
     MF active = hn::FirstN(kF, static_cast<std::size_t>(leaf.triangle_count - first));
     if constexpr (Line::is_ray) {
@@ -128,13 +131,25 @@ HWY_INLINE void sweep_leaf(const Leaf& leaf, const Frame& frame, const Motion& m
       const VF speed = hn::Sub(hn::Mul(set(speed_roundings * float_unit * motion.longest), s.length), dot(s.away, way));
       const MF apart = hn::And(hn::Ge(slack, zero), hn::Gt(s.length, set(shortest_way)));
       const MF missed = hn::And(apart, hn::Ge(slack, hn::Mul(hn::Sub(end, time), speed)));
-      active = hn::AndNot(missed, active);
       const VF reached = hn::Min(hn::Add(keep, hn::Add(set(arrival_tolerance), hn::Add(error, error))), set(hit_limit));
       // At time 0 a body that is not certainly apart may be touching; double precision decides that.
       const MF near = hn::And(hn::Le(hn::Add(s.most, error), reached), hn::Or(apart, hn::Gt(time, zero)));
-      const MF hit = hn::And(active, near);
+      const MF there = hn::And(active, near);
+      MF hit = hn::AndNot(missed, there);
+      if constexpr (first_only) {
+        // Near, but free until the earliest arrival: it counts if it is not free until t_max.
+        const MF grazed = hn::And(missed, there);
+        if (!hn::AllFalse(kF, grazed)) {
+          hit = hn::Or(hit, hn::AndNot(hn::Ge(slack, hn::Mul(hn::Sub(set(t_max), time), speed)), grazed));
+        }
+      }
+      active = hn::AndNot(hn::Or(missed, hit), active);
       arrived = hn::Or(arrived, hit);
-      active = hn::AndNot(hit, active);
+      if (first_only && !hn::AllFalse(kF, hit)) {
+        const VF earliest = hn::MinOfLanes(kF, hn::IfThenElse(hit, time, end));
+        end = hn::Min(end, hn::Mul(earliest, set(1.0F + later_roundings * float_unit)));
+        active = hn::And(active, hn::Le(time, end));
+      }
       const MF stuck = hn::AndNot(hn::And(apart, hn::Gt(slack, zero)), active);
       open = hn::Or(open, stuck);
       active = hn::AndNot(stuck, active);
@@ -146,6 +161,7 @@ HWY_INLINE void sweep_leaf(const Leaf& leaf, const Frame& frame, const Motion& m
     out.arrived |= bits_of(arrived) << first;
     out.open |= bits_of(open) << first;
   }
+  out.until = hn::GetLane(end);
 }
 
 /// Accepts bounds at most settled_gap below the distance.

@@ -32,6 +32,10 @@ inline constexpr float radius_roundings = 8.0F;
 /// Relative roundings of a quotient of two lengths, such as a time of entry. 4 are counted.
 inline constexpr float time_roundings = 8.0F;
 
+/// Relative roundings by which an arrival must be earlier before it drops a triangle that would arrive later. 13 are
+/// counted: in the product that says so, and in the time to which the triangle would have advanced.
+inline constexpr float later_roundings = 32.0F;
+
 /// In grid steps: precision of the stored fraction between the start of a query and its nearest grid point.
 inline constexpr float fraction_rounding = 0x1p-25F;
 

@@ -163,7 +163,7 @@ class SweepTraversal {
   void leaf(std::uint32_t tile_number, const Tile& t, const Leaf& leaf, std::uint32_t number, const Frame& frame,
             float radius, float hit_limit, float entry) {
     Met met;
-    sweep_leaf(leaf, frame, motion_, line_, radius, hit_limit, entry, t_max_, met);
+    sweep_leaf<Line, !skips>(leaf, frame, motion_, line_, radius, hit_limit, entry, t_max_, met);
     for (std::uint32_t left = met.arrived; left != 0; left &= left - 1) {
       const auto i = static_cast<std::uint32_t>(std::countr_zero(left));
       const Place place{tile_number, t.leaves + number, i};

@@ -72,6 +72,15 @@ class Corners {
     if constexpr (lane_count == 16) {
       const VF values = of(0);
       for (int c = 0; c < 3; ++c) out[c] = hn::TableLookupLanes(values, hn::IndicesFromVec(kF, at_[c]));
+    } else if constexpr (lane_count == 8) {
+      // Two permutes take a third of the time of a gather.
+      const VF low = of(0), high = of(lane_count);
+      const VI last = hn::Set(kI, lane_count - 1);
+      for (int c = 0; c < 3; ++c) {
+        const auto at = hn::IndicesFromVec(kF, hn::And(at_[c], last));
+        out[c] = hn::IfThenElse(hn::RebindMask(kF, hn::Gt(at_[c], last)), hn::TableLookupLanes(high, at),
+                                hn::TableLookupLanes(low, at));
+      }
     } else {
       alignas(64) float table[node_width];
       for (int from = 0; from < node_width; from += lane_count) hn::Store(of(from), kF, table + from);

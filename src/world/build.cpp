@@ -14,6 +14,7 @@
 #include "math/largest.h"
 #include "roam/error.h"
 #include "world/data.h"
+#include "world/query.h"
 
 namespace roam {
 namespace {
@@ -64,6 +65,14 @@ std::vector<BuiltTile> build_tiles(const index::Soup& soup, const index::Partiti
     progress.tick(partition_share + (1.0 - partition_share) * double(sum) / double(soup.size()));
   });
   return tiles;
+}
+
+/// Metres. A hit lies within hit_reach of the body, or within the largest error of the radius. The rest covers the
+/// roundings of the box test and of a hit: fewer than 2^12 units of the coordinates of a body that meets the box.
+double slack_of(const WorldData& data) {
+  const double farthest =
+      std::max(largest(data.reach.lower), largest(data.reach.upper)) + Space::motion_limit + 4.0 * Space::reach_limit;
+  return query::hit_reach + data.stats.largest_error + 0x1p-41 * farthest;
 }
 
 /// Moves all tiles into one set of arenas, in the order of the tree over them.
@@ -138,6 +147,7 @@ World World::build(std::span<const Mesh> meshes, const BuildOptions& options) {
     float error = 0.0F;
     for (std::size_t i = 0; i < data->tiles.size; ++i) error = std::max(error, data->tiles.items[i].fine_error);
     data->stats.largest_error = error;
+    data->slack = slack_of(*data);
   }
   data->stats.tiles = data->tiles.size;
   data->stats.bytes = data->blocks.bytes() + data->tiles.bytes() + data->fine.bytes() + data->ids.bytes() +

@@ -38,6 +38,7 @@ struct WorldData {
   index::Grid grid;       ///< grid of the tree over the tiles
   Box bounds;             ///< of the source triangles
   Box reach;              ///< bounds, grown by the errors of stored vertices
+  double slack = 0.0;     ///< metres: no sweep hits anything farther than this from its body, nor do roundings matter
   bool lossless = false;  ///< see BuildOptions
   WorldStats stats;
   std::vector<std::uint64_t> first;      ///< number of the first triangle of each mesh, followed by the number of all

@@ -28,7 +28,11 @@ class Pieces {
 
   [[nodiscard]] int count() const { return count_; }
   [[nodiscard]] index::Piece operator[](int i) const {
-    if (is_whole_) return {way_.body, way_.from, way_.motion};
+    // Number by number: callers have just stored them so, and a wider load would wait for the stores to end.
+    const Vec3 &from = way_.from, &motion = way_.motion;
+    if (is_whole_) {
+      return {{way_.body.radius, way_.body.half_height}, {from.x, from.y, from.z}, {motion.x, motion.y, motion.z}};
+    }
     return {{way_.body.radius + grown_, way_.body.half_height},
             way_.from + way_.motion * (begin_ + span_ * (double(i) / count_)),
             way_.motion * span_ / double(count_)};

@@ -16,16 +16,17 @@ namespace {
 /// error of a tile without low bits, 1.7 mm, it stays within 2 mm.
 constexpr float tight_bound = 2.5e-4F;
 
+/// Metres. Far above the roundings of meets() and the error of any tile.
+constexpr double near_slack = 1.0;
+
 /// Whether a body on this piece, grown by `reach`, can meet the box at all. False if it is so far away that the whole
-/// steps of the grids would not fit an integer.
-bool meets(const Box& box, const index::Piece& piece, double reach) {
-  if (box.empty()) return false;
+/// steps of the grids would not fit an integer. Inlined, because every sweep makes it.
+[[gnu::always_inline]] inline bool meets(const Box& box, const index::Piece& piece, double reach) {
   const double r = piece.body.radius + reach;
   for (int k = 0; k < 3; ++k) {
     const double grown = r + (k == 2 ? piece.body.half_height : 0.0);
     const double a = piece.start[k], b = a + piece.motion[k];
-    // The rounding of the sums is far below the added metre.
-    if (std::max(a, b) + grown + 1.0 < box.lower[k] || std::min(a, b) - grown - 1.0 > box.upper[k]) return false;
+    if (std::max(a, b) + grown < box.lower[k] || std::min(a, b) - grown > box.upper[k]) return false;
   }
   return true;
 }
@@ -66,7 +67,7 @@ class WorldScene {
       : world_(world), index_(index), base_(base), roots_(roots) {}
 
   std::optional<double> first(const index::Piece& piece) {
-    if (!meets(world_.reach, piece, 0.0)) return std::nullopt;
+    if (!meets(world_.reach, piece, world_.slack)) return std::nullopt;
     const index::Impact impact = first_in(piece);
     place_ = impact.place;
     return impact.hit ? std::optional(impact.time) : std::nullopt;
@@ -82,7 +83,7 @@ class WorldScene {
     return c;
   }
   void near(const index::Piece& piece, Collector& collector) const {
-    if (!meets(world_.reach, piece, collector.reach())) return;
+    if (!meets(world_.reach, piece, collector.reach() + near_slack)) return;
     if (roots_) {
       visit_near(index_, all_of(*roots_), piece, base_, collector);
     } else {
@@ -240,8 +241,6 @@ FirstImpact first_impact(const WorldData& world, const Query& query, const Part&
   return first_impact_in<false>(world, world.index, query, part, roots);
 }
 
-}  // namespace query
-
 namespace {
 
 /// The roots where a search in a world begins; null: at the root of the whole index.
@@ -254,15 +253,18 @@ const index::Roots* roots_of(const WorldData& world, Vicinity* vicinity, const Q
 }
 
 }  // namespace
+}  // namespace query
 
 FirstImpact World::find_first(const Query& query, Vicinity* vicinity) const {
-  return query::first_impact(*data_, query, {}, roots_of(*data_, vicinity, query, query::hit_reach));
+  const index::Roots* const roots = query::roots_of(*data_, vicinity, query, query::hit_reach);
+  if (query.ignored != nullptr) return query::first_impact_of_rest(*data_, query, {}, roots);
+  return query::first_impact_in<false>(*data_, data_->index, query, {}, roots);
 }
 
 void World::find_near(const Query& query, Collector& collector, Vicinity* vicinity) const {
   if (collector.only() != nullptr) return query::collect_one(data_->index, query, collector);
   if (data_->lossless) collector.demand(query::lossless_tolerance);
-  query::collect(*data_, query, {}, 0, collector, roots_of(*data_, vicinity, query, collector.initial_reach()));
+  query::collect(*data_, query, {}, 0, collector, query::roots_of(*data_, vicinity, query, collector.initial_reach()));
   if (collector.bounds_only()) return;
   for (Contact& c : collector.kept()) c.object = data_->object(c.triangle);
 }

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 
 #include "index/margin.h"
@@ -82,10 +83,11 @@ void compute_all(std::span<const Query> queries, std::span<Result> results, cons
 void query::check(const Query& query) {
   const Body& body = query.body;
   const Vec3 &from = query.from, &motion = query.motion;
-  // Most queries are valid. Zero times a value that is not finite is NaN.
-  const double zero = 0.0 * from.x + 0.0 * from.y + 0.0 * from.z + 0.0 * motion.x + 0.0 * motion.y + 0.0 * motion.z;
-  if (zero == 0.0 && body.radius >= 0.0 && body.radius <= Space::reach_limit && body.half_height >= 0.0 &&
-      body.half_height <= Space::reach_limit && largest(motion) <= Space::motion_limit) {
+  // Most queries are valid and pass at once. A comparison with a NaN fails.
+  const double far = std::abs(from.x) + std::abs(from.y) + std::abs(from.z);
+  const double way = std::abs(motion.x) + std::abs(motion.y) + std::abs(motion.z);
+  if (far <= std::numeric_limits<double>::max() && way <= Space::motion_limit && body.radius >= 0.0 &&
+      body.radius <= Space::reach_limit && body.half_height >= 0.0 && body.half_height <= Space::reach_limit) {
     return;
   }
   check_length(body.radius, Space::reach_limit, "the radius");

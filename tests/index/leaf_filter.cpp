@@ -17,8 +17,8 @@ namespace {
 using roam::Body;
 using roam::Triangle;
 using roam::Vec3;
-using roam::index::node_width;
 using roam::index::Leaf;
+using roam::index::node_width;
 namespace lanes = roam::index::HWY_NAMESPACE;
 
 /// Metres. The triangles lie anywhere in a tile of this step, and bodies pass one of them that set out far from it.
@@ -79,6 +79,24 @@ struct Touch {
   }
 };
 
+/// A leaf that stops at the first arrival leaves out only triangles met later.
+void expect_same_first(const lanes::Met& first, const lanes::Met& all) {
+  double earliest = 2.0;
+  for (int i = 0; i < node_width; ++i) {
+    if ((all.arrived >> i & 1U) != 0) earliest = std::min(earliest, double(all.time[i]));
+  }
+  for (int i = 0; i < node_width; ++i) {
+    const auto kind = [i](const lanes::Met& met) { return (met.arrived >> i & 1U) | (met.open >> i & 1U) << 1; };
+    if (kind(first) == kind(all)) {
+      if (kind(all) != 0) {
+        ASSERT_EQ(first.time[i], all.time[i]) << "triangle " << i;
+      }
+    } else {
+      ASSERT_GT(double((kind(all) != 0 ? all : first).time[i]), earliest) << "triangle " << i;
+    }
+  }
+}
+
 void sweep_every_triangle(bool capsule) {
   clutter::Random random(51);
   int tested = 0, missed = 0, arrived = 0;
@@ -87,13 +105,16 @@ void sweep_every_triangle(bool capsule) {
     if (!touch.some) continue;
     const lanes::Motion motion(touch.graze.motion, touch.graze.body.half_height);
     const float limit = q % 2 == 0 ? -1.0F : touch.radius + roam::index::hit_limit_distance;
-    lanes::Met met;
-    lanes::sweep_leaf(touch.scene.leaf, touch.frame, motion, lanes::NoRay(motion), touch.radius, limit, 0.0F, 1.0F,
-                      met);
+    lanes::Met met, all;
+    lanes::sweep_leaf<lanes::NoRay, true>(touch.scene.leaf, touch.frame, motion, lanes::NoRay(motion), touch.radius,
+                                          limit, 0.0F, 1.0F, met);
+    lanes::sweep_leaf<lanes::NoRay, false>(touch.scene.leaf, touch.frame, motion, lanes::NoRay(motion), touch.radius,
+                                           limit, 0.0F, 1.0F, all);
+    expect_same_first(met, all);
     for (int i = 0; i < node_width; ++i) {
       ++tested;
       const bool left = ((met.arrived | met.open) >> i & 1U) != 0;
-      const double free = left ? double(met.time[i]) : 1.0;
+      const double free = left ? double(met.time[i]) : double(met.until);
       missed += left ? 0 : 1;
       if (free > 0.0) {
         ASSERT_GE(touch.least(i, free), (long double)(touch.radius)) << "query " << q << " triangle " << i;
@@ -226,10 +247,11 @@ TEST(LeafFilter, ArrivesAtASliverInTime) {
     const float delta = 0.00085F, radius = static_cast<float>(body.radius) + delta;
     const float limit = static_cast<float>(body.radius) + 0.00114F;
     lanes::Met met;
-    lanes::sweep_leaf(sliver.leaf, frame, motion, lanes::NoRay(motion), radius, limit, 0.0F, 1.0F, met);
+    lanes::sweep_leaf<lanes::NoRay, true>(sliver.leaf, frame, motion, lanes::NoRay(motion), radius, limit, 0.0F, 1.0F,
+                                          met);
     const bool here = (met.arrived & 1U) != 0;
     arrived += here ? 1 : 0;
-    const double free = here || (met.open & 1U) != 0 ? double(met.time[0]) : 1.0;
+    const double free = here || (met.open & 1U) != 0 ? double(met.time[0]) : double(met.until);
     if (free > 0.0) {
       ASSERT_GE(oracle::least_distance(body, g.from, g.motion, free, sliver.triangle), (long double)(radius)-1e-6L)
           << q;

@@ -120,6 +120,51 @@ TEST(WorldQueries, KeepTheLosslessPromiseInWideSparseScenes) {
   }
 }
 
+/// The six sides of a cube.
+Mesh cube(const Vec3& middle, double half) {
+  Mesh mesh;
+  for (int i = 0; i < 8; ++i) {
+    mesh.vertices.push_back(middle + half * Vec3(i & 1 ? 1.0 : -1.0, i & 2 ? 1.0 : -1.0, i & 4 ? 1.0 : -1.0));
+  }
+  for (const std::uint32_t k : {1U, 2U, 4U}) {
+    const std::uint32_t u = k == 1 ? 2 : 1, v = k == 4 ? 2 : 4;
+    for (const std::uint32_t a : {0U, k}) {
+      mesh.triangles.push_back({a, a + u, a + u + v});
+      mesh.triangles.push_back({a, a + v, a + u + v});
+    }
+  }
+  return mesh;
+}
+
+/// All of the motion lies outside the box of the world, and as near to its sides as counts.
+TEST(WorldQueries, MeetTheSidesOfAWorldFromOutside) {
+  constexpr double half = 7.3, touch = 2e-6, clear = 5e-3;  // m: deeper than a body may sink; farther than a hit may be
+  for (const double far : {0.0, 4321.1, 6.4e6}) {
+    const Vec3 middle(far, -0.7 * far, 0.3 * far);
+    const Mesh mesh = cube(middle, half);
+    const World world = World::build({&mesh, 1});
+    for (int side = 0; side < 6; ++side) {
+      for (const double half_height : {0.0, 0.6}) {
+        const roam::Body body{0.4, half_height};
+        const int k = side / 2;
+        const double sign = side % 2 == 0 ? 1.0 : -1.0;
+        Vec3 out(0.0), along(0.0);
+        out[k] = sign * (half + body.radius + (k == 2 ? half_height : 0.0));
+        along[(k + 1) % 3] = 1.0;
+        out -= along;
+        Vec3 slip(0.0);
+        slip[k] = sign;
+        EXPECT_TRUE(world.sweep(body, middle + out - touch * slip, 2.0 * along).hit) << far << " side " << side;
+        EXPECT_TRUE(world.sweep(body, middle + out + slip, along - (1.0 + touch) * slip).hit)
+            << far << " side " << side;
+        EXPECT_FALSE(world.sweep(body, middle + out + clear * slip, 2.0 * along).hit) << far << " side " << side;
+        EXPECT_FALSE(world.sweep(body, middle + out + slip, along - (1.0 - clear) * slip).hit)
+            << far << " side " << side;
+      }
+    }
+  }
+}
+
 TEST(WorldQueries, DoNotAllocate) {
 #ifdef __SANITIZE_ADDRESS__
   GTEST_SKIP() << "the address sanitizer counts allocations itself";
