@@ -47,6 +47,7 @@ with_stand_ins() {
     s#\btrain gallery\.ply#train room.obj#;
     s#--unit in --from [^ ]+ --to [^ ]+#--from 1,2,1 --to 8,3,1#; s#--radius R\b#--radius 0.3#
     s#--triangles (2M|100M)#--triangles 50k#; s#--gallery 500000#--gallery 20000#; s#--least 100k#--least 20k#
+    s#--quality Q\b#--quality light#; s#--size 1280x720#--size 160x120#
     s#--queries 10000#--queries 100#; s#(roam bench engines) --picture\$#\1#; s# +# #g; s# \$##" <<< "$1")
   case $command in
     "roam bench scale") command+=" --least 20k --triangles 50k" ;;
@@ -56,6 +57,7 @@ with_stand_ins() {
       [[ $command != "roam bench engines"* || $command == *--queries* ]] || command+=" --queries 100 --patience 0.5"
       ;;
     *"roam view "*--screenshot*) ;;
+    *"roam view "*--size*) command+=" --headless --screenshot seen.png" ;;
     *"roam view "*) command+=" --headless --size 160x120 --screenshot seen.png" ;;
   esac
   echo "$command"
