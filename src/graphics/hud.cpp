@@ -24,31 +24,43 @@ class Hud::Panels : public osg::NodeCallback {
   std::vector<HudLabel> labels;
   double hint_opacity = 1.0;
   std::vector<HelpLine> help;
+  std::string help_focus, button;
   bool help_shown = false;
   Detail detail = Detail::full;
   bool crosshair = true;
   bool status_changed = true, message_changed = true, help_changed = true, crosshair_changed = true;
-  bool hint_changed = true, recording_changed = true, labels_changed = true;
+  bool hint_changed = true, recording_changed = true, labels_changed = true, button_changed = true;
+  std::vector<Target> help_targets, button_targets;  ///< of the last frame
 
   /// Adds the nodes, from the lowest to the topmost.
   void add_to(osg::Group& group) {
-    for (osg::Node* node :
-         {static_cast<osg::Node*>(labels_.get()), static_cast<osg::Node*>(crosshair_.get()), status_panel_.node(),
-          static_cast<osg::Node*>(message_.get()), static_cast<osg::Node*>(recording_.get()),
-          static_cast<osg::Node*>(help_.get()), static_cast<osg::Node*>(hint_.get())}) {
+    for (osg::Node* node : {static_cast<osg::Node*>(labels_.get()), static_cast<osg::Node*>(crosshair_.get()),
+                            status_panel_.node(), static_cast<osg::Node*>(message_.get()),
+                            static_cast<osg::Node*>(recording_.get()), static_cast<osg::Node*>(button_.get()),
+                            static_cast<osg::Node*>(help_.get()), static_cast<osg::Node*>(hint_.get())}) {
       group.addChild(node);
     }
   }
 
+  /// The name of the part at a point of the picture, x and y in [-1, 1]; empty: none.
+  [[nodiscard]] std::string name_at(const std::vector<Target>& targets, double x, double y) const {
+    const double across = 0.5 * (x + 1.0) * page_.width, up = 0.5 * (y + 1.0) * page_.height;
+    const auto found = std::find_if(targets.begin(), targets.end(), [&](const Target& target) {
+      const Rectangle& r = target.where;
+      return across >= r.x && across < r.x + r.width && up >= r.y && up < r.y + r.height;
+    });
+    return found == targets.end() || detail == Detail::off ? std::string() : found->name;
+  }
+
   void change_all() {
     status_changed = message_changed = help_changed = crosshair_changed = hint_changed = recording_changed = true;
-    labels_changed = true;
+    labels_changed = button_changed = true;
   }
   /// Hides everything but the hint, or no longer.
   void set_off(bool off) {
     const osg::Node::NodeMask mask = off ? 0u : ~0u;
     status_panel_.node()->setNodeMask(mask);
-    for (const auto& group : {labels_, crosshair_, message_, recording_, help_}) group->setNodeMask(mask);
+    for (const auto& group : {labels_, crosshair_, message_, recording_, button_, help_}) group->setNodeMask(mask);
   }
 
   [[nodiscard]] std::vector<StatusLine> status_shown() const {
@@ -79,14 +91,25 @@ class Hud::Panels : public osg::NodeCallback {
       const bool any = !message.empty() || progress;
       show_only(*message_, {any ? make_message(page_, message, tone, progress, plates) : nullptr});
     }
-    if (help_changed) show_only(*help_, {help_shown ? make_help(page_, help, plates) : nullptr});
+    if (help_changed) {
+      show(*help_, help_targets, help_shown ? make_help(page_, help, help_focus, plates) : Clickable{});
+    }
+    if (button_changed) {
+      const bool any = !button.empty() && !help_shown && detail == Detail::full;
+      show(*button_, button_targets, any ? make_button(page_, button, plates) : Clickable{});
+    }
     if (crosshair_changed) show_only(*crosshair_, {crosshair && !help_shown ? make_crosshair(page_, plates) : nullptr});
     if (labels_changed) show_only(*labels_, {help_shown ? nullptr : make_labels(page_, labels, plates)});
     if (recording_changed) {
       show_only(*recording_, {recording.empty() ? nullptr : make_recording(page_, recording, plates)});
     }
     status_changed = message_changed = help_changed = crosshair_changed = recording_changed = false;
-    labels_changed = false;
+    labels_changed = button_changed = false;
+  }
+
+  static void show(osg::Group& group, std::vector<Target>& targets, Clickable made) {
+    show_only(group, {made.node});
+    targets = std::move(made.targets);
   }
 
   osg::ref_ptr<osg::Camera> picture_;
@@ -95,6 +118,7 @@ class Hud::Panels : public osg::NodeCallback {
   StatusPanel status_panel_{plates_};
   osg::ref_ptr<osg::Group> message_ = new osg::Group, help_ = new osg::Group, crosshair_ = new osg::Group;
   osg::ref_ptr<osg::Group> hint_ = new osg::Group, recording_ = new osg::Group, labels_ = new osg::Group;
+  osg::ref_ptr<osg::Group> button_ = new osg::Group;
 };
 
 Hud::Hud(Frame& frame) : panels_(new Panels(frame.flat())), parent_(frame.flat()), group_(new osg::Group) {
@@ -164,6 +188,22 @@ void Hud::show_help(bool shown) {
 
 bool Hud::help_shown() const { return panels_->help_shown; }
 
+std::string Hud::help_at(double x, double y) const { return panels_->name_at(panels_->help_targets, x, y); }
+
+void Hud::set_help_focus(std::string name) {
+  if (name == panels_->help_focus) return;
+  panels_->help_focus = std::move(name);
+  panels_->help_changed = true;
+}
+
+void Hud::set_button(std::string text) {
+  if (text == panels_->button) return;
+  panels_->button = std::move(text);
+  panels_->button_changed = true;
+}
+
+bool Hud::button_at(double x, double y) const { return !panels_->name_at(panels_->button_targets, x, y).empty(); }
+
 void Hud::set_detail(Detail detail) {
   if (detail == panels_->detail) return;
   panels_->detail = detail;
@@ -192,7 +232,9 @@ std::string Hud::text() const {
   all += hint;
   for (const HudLabel& label : panels_->labels) all += label.text + '\n';
   if (panels_->help_shown) {
-    for (const auto& [key, deed] : panels_->help) all += (deed.empty() ? key : key + ": " + deed) + '\n';
+    for (const HelpLine& line : panels_->help) {
+      all += (line.effect.empty() ? line.key : line.key + ": " + line.effect) + '\n';
+    }
   }
   return all;
 }

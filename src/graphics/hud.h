@@ -13,7 +13,6 @@
 #include <cstdint>
 #include <osg/ref_ptr>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "graphics/frame.h"
@@ -35,8 +34,13 @@ struct StatusLine {
   bool operator==(const StatusLine&) const = default;
 };
 
-/// A key and its effect. With an empty second string: a heading.
-using HelpLine = std::pair<std::string, std::string>;
+/// A key and its effect.
+struct HelpLine {
+  std::string key{};
+  std::string effect{};  ///< empty: a heading
+  std::string name{};    ///< of a line that can be clicked: see Hud::help_at()
+  bool operator==(const HelpLine&) const = default;
+};
 
 /// A text on the picture, centred above a point. Pixels from the lower left corner.
 struct HudLabel {
@@ -72,12 +76,20 @@ class Hud {
   /// The help replaces the status and the crosshair; the message stays.
   void show_help(bool shown);
   [[nodiscard]] bool help_shown() const;
+  /// The name of the help's line at a point of the last frame, x and y in [-1, 1]; empty: none.
+  [[nodiscard]] std::string help_at(double x, double y) const;
+  /// Highlights the help's line with this name; empty: none.
+  void set_help_focus(std::string name);
+  /// A button at the lower left, in full detail and without help; empty: none.
+  void set_button(std::string text);
+  /// Whether the button is at a point of the last frame, x and y in [-1, 1].
+  [[nodiscard]] bool button_at(double x, double y) const;
   void set_detail(Detail detail);
   [[nodiscard]] Detail detail() const;
   void set_crosshair(bool shown);  ///< default true
 
   /// All visible text, line by line: "label: value", "recording: ...", the message, the hint, the labels, "key:
-  /// effect".
+  /// effect". Not the button.
   [[nodiscard]] std::string text() const;
 
  private:

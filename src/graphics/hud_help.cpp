@@ -8,6 +8,7 @@ namespace roam::graphics {
 namespace {
 
 const osg::Vec4 panel_color(0.04f, 0.05f, 0.065f, 0.90f);
+const osg::Vec4 focus_color(0.30f, 0.45f, 0.62f, 0.95f);
 const osg::Vec4 heading_color(0.52f, 0.80f, 1.0f, 1.0f);
 const osg::Vec4 key_color(1.0f, 1.0f, 1.0f, 1.0f);
 const osg::Vec4 text_color(0.86f, 0.89f, 0.92f, 1.0f);
@@ -33,7 +34,7 @@ struct Arrangement {
   std::vector<Column> columns;
 };
 
-bool is_heading(const HelpLine& line) { return line.second.empty(); }
+bool is_heading(const HelpLine& line) { return line.effect.empty(); }
 
 /// Above every heading, except at the top of a column.
 constexpr float heading_space = 0.6f;  // lines
@@ -93,12 +94,12 @@ Arrangement arrange(const std::vector<HelpLine>& lines, int letter, std::vector<
   for (Column& column : a.columns) {
     highest = std::max(highest, height_of(lines, column));
     for (std::size_t i = column.first; i < column.last; ++i) {
-      const float width = width_of(lines[i].first, {letter, true, key_color});
+      const float width = width_of(lines[i].key, {letter, true, key_color});
       if (is_heading(lines[i])) {
         column.deeds = std::max(column.deeds, width - column.keys - a.gap);
       } else {
         column.keys = std::max(column.keys, width);
-        column.deeds = std::max(column.deeds, width_of(lines[i].second, {letter, false, text_color}));
+        column.deeds = std::max(column.deeds, width_of(lines[i].effect, {letter, false, text_color}));
       }
     }
     a.width += std::ceil(column.keys + a.gap + column.deeds);
@@ -117,19 +118,19 @@ std::vector<HelpLine> narrowed(const std::vector<HelpLine>& lines, int letter, f
   const float gap = blank(letter).gap;
   float keys = 0;
   for (const HelpLine& line : lines) {
-    if (!is_heading(line)) keys = std::max(keys, width_of(line.first, key_look));
+    if (!is_heading(line)) keys = std::max(keys, width_of(line.key, key_look));
   }
   keys = std::min(keys, 0.5f * width);
   const float deeds = width - keys - gap;
   std::vector<HelpLine> broken;
-  for (const auto& [key, deed] : lines) {
+  for (const auto& [key, deed, name] : lines) {
     if (deed.empty()) {
-      broken.emplace_back(shorten(key, key_look, width), "");
+      broken.push_back({shorten(key, key_look, width), ""});
       continue;
     }
     std::string first = shorten(key, key_look, keys);
     for (const std::string& line : break_lines(deed, deed_look, deeds)) {
-      broken.emplace_back(std::exchange(first, {}), shorten(line, deed_look, deeds));
+      broken.push_back({std::exchange(first, {}), shorten(line, deed_look, deeds), name});
     }
   }
   return broken;
@@ -142,7 +143,7 @@ Arrangement first_of(const std::vector<HelpLine>& lines, int letter, std::size_t
   columns.resize(std::min(columns.size(), count));
   const std::size_t shown = columns.back().last - 1;
   std::vector<HelpLine> some(lines.begin(), lines.begin() + static_cast<std::ptrdiff_t>(shown));
-  some.emplace_back(shorten(more, {letter, true, heading_color}, width), "");
+  some.push_back({shorten(more, {letter, true, heading_color}, width), ""});
   return arrange(some, letter, std::move(columns));
 }
 
@@ -181,35 +182,43 @@ Arrangement fit(const Page& page, const std::vector<HelpLine>& lines) {
 
 }  // namespace
 
-osg::ref_ptr<osg::Node> make_help(const Page& page, const std::vector<HelpLine>& lines, osg::StateSet* plates) {
+Clickable make_help(const Page& page, const std::vector<HelpLine>& lines, const std::string& focus,
+                    osg::StateSet* plates) {
   osg::ref_ptr<osg::Group> group = new osg::Group;
-  if (lines.empty()) return group;
-  const Arrangement a = fit(page, lines);
-  if (a.columns.empty()) return group;
+  Clickable made{group, {}};
+  const Arrangement a = lines.empty() ? Arrangement{} : fit(page, lines);
+  if (a.columns.empty()) return made;
+  const auto add_plate = [&](const Rectangle& where, float radius, const osg::Vec4& color) {
+    const osg::ref_ptr<osg::Geometry> plate = make_plate(where, radius, color);
+    plate->setStateSet(plates);
+    group->addChild(plate);
+  };
   const float left = std::round(0.5f * (page.width - a.width));
   const float middle = 0.5f * (bottom_of_help(page) + page.height - page.margin);
   const float top = std::round(middle + 0.5f * a.height);
-  osg::ref_ptr<osg::Geometry> panel =
-      make_plate({left, top - a.height, a.width, a.height}, 0.6f * page.margin, panel_color);
-  panel->setStateSet(plates);
-  group->addChild(panel);
+  add_plate({left, top - a.height, a.width, a.height}, 0.6f * page.margin, panel_color);
 
   float x = left + 1.5f * a.gap;
   for (const Column& column : a.columns) {
     float y = top - a.gap - std::round(1.1f * static_cast<float>(a.letter));
+    const float width = column.keys + a.gap + column.deeds;
     for (std::size_t i = column.first; i < column.last; ++i) {
-      if (is_heading(a.lines[i]) && i > column.first) y -= std::round(heading_space * a.line);
-      const osg::Vec4& color = is_heading(a.lines[i]) ? heading_color : key_color;
-      group->addChild(make_text(a.lines[i].first, {a.letter, true, color}, std::round(x), y));
-      if (!is_heading(a.lines[i])) {
+      const HelpLine& line = a.lines[i];
+      if (is_heading(line) && i > column.first) y -= std::round(heading_space * a.line);
+      const Rectangle row{x - 0.5f * a.gap, y - std::round(0.3f * a.line), width + a.gap, a.line};
+      if (!line.name.empty()) made.targets.push_back({row, line.name});
+      if (!line.name.empty() && line.name == focus) add_plate(row, 0.25f * a.line, focus_color);
+      group->addChild(
+          make_text(line.key, {a.letter, true, is_heading(line) ? heading_color : key_color}, std::round(x), y));
+      if (!is_heading(line)) {
         const float deed_x = std::round(x + column.keys + a.gap);
-        group->addChild(make_text(a.lines[i].second, {a.letter, false, text_color}, deed_x, y));
+        group->addChild(make_text(line.effect, {a.letter, false, text_color}, deed_x, y));
       }
       y -= a.line;
     }
-    x += std::ceil(column.keys + a.gap + column.deeds) + columns_gap * a.gap;
+    x += std::ceil(width) + columns_gap * a.gap;
   }
-  return group;
+  return made;
 }
 
 }  // namespace roam::graphics

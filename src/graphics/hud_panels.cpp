@@ -247,6 +247,17 @@ osg::ref_ptr<osg::Node> make_recording(const Page& page, const std::string& text
   return group;
 }
 
+Clickable make_button(const Page& page, const std::string& text, osg::StateSet* plates) {
+  const Look look{page.letter, false, label_color};
+  const float pad = std::round(0.6f * page.margin);
+  const Rectangle panel{page.margin, page.margin, std::round(width_of(text, look) + 2 * pad), page.line + pad};
+  osg::ref_ptr<osg::Group> group = new osg::Group;
+  group->addChild(plate(plates, panel, 0.5f * pad, panel_color));
+  const float base = std::round(panel.y + 0.5f * panel.height - 0.36f * static_cast<float>(look.size));
+  group->addChild(make_text(text, look, panel.x + pad, base));
+  return {group, {{panel, text}}};
+}
+
 osg::ref_ptr<osg::Node> make_labels(const Page& page, const std::vector<HudLabel>& labels, osg::StateSet* plates) {
   osg::ref_ptr<osg::Group> group = new osg::Group;
   const Look look{page.letter, true, text_color};

@@ -79,10 +79,25 @@ class StatusPanel {
 [[nodiscard]] osg::ref_ptr<osg::Node> make_labels(const Page& page, const std::vector<HudLabel>& labels,
                                                   osg::StateSet* plates);
 
-/// The keys, over the whole picture. Uses as many columns, as small letters and as many breaks as needed to fit. If
-/// they still do not fit, shows the first of them and "… enlarge the window".
-[[nodiscard]] osg::ref_ptr<osg::Node> make_help(const Page& page, const std::vector<HelpLine>& lines,
-                                                osg::StateSet* plates);
+/// A clickable part of the display, in pixels.
+struct Target {
+  Rectangle where;
+  std::string name;
+};
+
+/// A node and its clickable parts.
+struct Clickable {
+  osg::ref_ptr<osg::Node> node;
+  std::vector<Target> targets;
+};
+
+/// A text at the lower left.
+[[nodiscard]] Clickable make_button(const Page& page, const std::string& text, osg::StateSet* plates);
+
+/// The keys, over the whole picture. The lines named `focus` are highlighted. Uses as many columns, as small letters
+/// and as many breaks as needed to fit. If they still do not fit, shows the first of them and "… enlarge the window".
+[[nodiscard]] Clickable make_help(const Page& page, const std::vector<HelpLine>& lines, const std::string& focus,
+                                  osg::StateSet* plates);
 
 /// The small cross in the middle: light with a dark rim.
 [[nodiscard]] osg::ref_ptr<osg::Node> make_crosshair(const Page& page, osg::StateSet* plates);

@@ -182,8 +182,8 @@ TEST(GraphicsHud, HelpShowsItsLastLinesInASmallWindowToo) {
 TEST(GraphicsHud, HelpThatHasNoRoomSaysSoInsteadOfBeingCut) {
   // Only the first lines are there, whatever follows, and what is shown is not empty.
   std::vector<graphics::HelpLine> more = many_keys;
-  more.emplace_back("Section 4", "");
-  more.emplace_back("Shift+Ctrl+9", "what this key does, said shortly");
+  more.push_back({"Section 4", ""});
+  more.push_back({"Shift+Ctrl+9", "what this key does, said shortly"});
   const int letters = letters_of(many_keys, 300, 200);
   EXPECT_EQ(letters, letters_of(more, 300, 200));
   EXPECT_GT(letters, 500);
@@ -328,6 +328,71 @@ TEST(GraphicsHud, TextIsWhatIsShown) {
   EXPECT_EQ(hud.text(), "Move\nW: forwards\n");
   hud.set_detail(Detail::off);
   EXPECT_EQ(hud.text(), "");
+}
+
+/// The height of the picture where `name` is, seen from its left part; -2: nowhere.
+double height_where(const Hud& hud, const std::string& name) {
+  for (double y = -0.99; y < 1.0; y += 0.01) {
+    for (double x = -0.9; x < 0.9; x += 0.02) {
+      if (hud.help_at(x, y) == name) return y;
+    }
+  }
+  return -2.0;
+}
+
+TEST(GraphicsHud, HelpSaysWhichLineIsAtAPoint) {
+  for (const auto& [width, height] : {std::pair(1280, 720), std::pair(480, 360)}) {
+    Stage stage(width, height);
+    Hud hud(stage.frame);
+    std::vector<graphics::HelpLine> lines = many_keys;
+    for (std::size_t i = 1; i < lines.size(); ++i) {
+      if (!lines[i].effect.empty()) lines[i].name = std::to_string(i);
+    }
+    hud.set_help(lines);
+    (void)stage.picture(true);
+    EXPECT_EQ(height_where(hud, "1"), -2.0) << "it is not open";
+    hud.show_help(true);
+    const auto before = stage.picture(true);
+    const double first = height_where(hud, "1"), second = height_where(hud, "2");
+    EXPECT_GT(first, second);
+    EXPECT_GT(second, -1.0);
+    EXPECT_EQ(hud.help_at(-0.999, 0.999), "");
+    hud.set_help_focus("1");
+    const auto focused = stage.picture(true);
+    // The row of the first line has another colour now, that of the second does not.
+    const auto changes = [&](double y) {
+      int count = 0;
+      const int row = static_cast<int>(0.5 * (y + 1.0) * height);
+      for (int x = 0; x < width; ++x) count += luminance(at(*before, x, row)) != luminance(at(*focused, x, row));
+      return count;
+    };
+    EXPECT_GT(changes(first + 4.0 / height), 20);
+    EXPECT_EQ(changes(second + 4.0 / height), 0);
+    hud.show_help(false);
+    (void)stage.picture(true);
+    EXPECT_EQ(height_where(hud, "1"), -2.0);
+  }
+}
+
+TEST(GraphicsHud, AButtonIsAtTheLowerLeft) {
+  Stage stage(640, 360);
+  Hud hud(stage.frame);
+  hud.set_button("Menu: H");
+  const Region button = shown_in(stage);
+  EXPECT_LT(button.right, 160);
+  EXPECT_LT(button.top, 60);
+  const double x = (button.left + button.right) / 640.0 - 1.0, y = (button.bottom + button.top) / 360.0 - 1.0;
+  EXPECT_TRUE(hud.button_at(x, y));
+  EXPECT_FALSE(hud.button_at(0, 0));
+  EXPECT_EQ(hud.text(), "");
+  hud.set_help({{"W", "forwards", "forward"}});
+  hud.show_help(true);
+  (void)stage.picture(true);
+  EXPECT_FALSE(hud.button_at(x, y)) << "the help hides it";
+  hud.show_help(false);
+  hud.set_detail(Detail::minimal);
+  EXPECT_EQ(shown_in(stage).pixels, 0);
+  EXPECT_FALSE(hud.button_at(x, y));
 }
 
 TEST(GraphicsHud, DetailSaysHowMuchIsDrawn) {

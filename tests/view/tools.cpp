@@ -211,4 +211,62 @@ TEST(Tools, DrawThePlanBesideThePictureOnly) {
   EXPECT_GT(white(Shot(with)), white(Shot(without)) + 300);
 }
 
+/// A point of the picture where a line of the open help is.
+std::optional<std::pair<double, double>> line_of(graphics::Hud& hud, const std::string& command) {
+  for (double y = -0.99; y < 1.0; y += 0.01) {
+    for (double x = -0.98; x < 1.0; x += 0.02) {
+      if (hud.help_at(x, y) == command) return std::pair(x, y);
+    }
+  }
+  return std::nullopt;
+}
+
+TEST(Menu, PressesTheKeyOfTheClickedLine) {
+  Tooled d;
+  graphics::Hud& hud = d.session->stage().hud();
+  const auto choose = [&](const char* command) {
+    hud.show_help(true);
+    d.session->stage().draw();
+    const auto at = line_of(hud, command);
+    ASSERT_TRUE(at) << command;
+    d.click(at->first, at->second);
+    d.run(0.1);
+    EXPECT_FALSE(hud.help_shown());
+  };
+  choose("measure");
+  EXPECT_TRUE(contains(d.hud(), "Measuring")) << d.hud();
+  choose("gravity");
+  EXPECT_EQ(d.session->roamer().mode(), Mode::fly);
+  EXPECT_TRUE(d.measured().empty()) << "a click in the menu is none on the scene";
+}
+
+TEST(Menu, ReachesCommandsWithCtrl) {
+  Tooled d;
+  graphics::Hud& hud = d.session->stage().hud();
+  hud.show_help(true);
+  d.session->stage().draw();
+  const auto at = line_of(hud, "picture_with_display");
+  ASSERT_TRUE(at);
+  const auto before = std::filesystem::current_path();
+  std::filesystem::current_path(d.folder.file(""));
+  d.click(at->first, at->second);
+  for (int i = 0; i < 500 && !contains(d.hud(), "roam-1.png"); ++i) d.session->stage().draw();
+  EXPECT_TRUE(contains(d.hud(), "roam-1.png")) << d.hud();
+  std::filesystem::current_path(before);
+}
+
+TEST(Menu, OpensWithItsButtonAndClosesElsewhere) {
+  Tooled d;
+  graphics::Hud& hud = d.session->stage().hud();
+  hud.set_button("Menu: H");
+  const Vec3 before = d.place();
+  d.click(-0.93, -0.88);
+  EXPECT_TRUE(hud.help_shown());
+  d.session->stage().draw();
+  d.click(0.999, -0.999, 2);
+  EXPECT_FALSE(hud.help_shown());
+  d.run(1.0);
+  EXPECT_LT(glm::distance(d.place(), before), 1e-3) << "nobody is sent there";
+}
+
 }  // namespace

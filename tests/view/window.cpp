@@ -188,6 +188,17 @@ TEST(ViewWindow, WritesPicturesWithoutTheDisplayUnlessAsked) {
   w.end();
 }
 
+TEST(ViewWindow, ShowsItsMenuByTheMouseAlone) {
+  Window w({"--at", "2,0,0.95,0"});
+  xdo("search --name '^roam: ' mousemove --window %1 25 160 click 1");
+  wait(0.5);
+  xdo("key ctrl+p");
+  ASSERT_TRUE(eventually([&] { return std::filesystem::exists(w.folder.file("roam-1.png")); }));
+  const osg::Vec4 c = Shot(w.folder.file("roam-1.png")).at(60, 120);
+  EXPECT_LT(c.r() + c.g() + c.b(), 0.6f) << "the menu's panel is dark, the room's walls are light";
+  w.end();
+}
+
 TEST(ViewWindow, WritesEachPictureToAFileOfItsOwn) {
   Window w({"--at", "2,0,0.95,0"});
   xdo("key p key p");

@@ -126,14 +126,14 @@ std::string first_hint(const osgRoam::Controls& controls) {
   return text + "drag: look";
 }
 
-std::vector<KeyLine> key_lines(const osgRoam::Controls& controls) {
-  std::vector<KeyLine> table;
+std::vector<graphics::HelpLine> key_lines(const osgRoam::Controls& controls) {
+  std::vector<graphics::HelpLine> table;
   for (const auto& command : controls.commands()) {
     for (const auto& [first, heading] : headings) {
-      if (command.name == first) table.emplace_back(heading, "");
+      if (command.name == first) table.push_back({heading, ""});
     }
     const std::string keys = osgRoam::Controls::keyText(command);
-    if (!keys.empty()) table.emplace_back(keys, command.help);
+    if (!keys.empty()) table.push_back({keys, command.help, command.kind == Kind::pressed ? command.name : ""});
   }
   return table;
 }

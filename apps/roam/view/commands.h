@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "graphics/hud.h"
 #include "osgRoam/Controls.h"
 #include "view/news.h"
 #include "view/settings.h"
@@ -40,10 +41,8 @@ void set_up(osgRoam::Controls& controls, const ViewSettings& settings);
 /// The line that a window begins with: "H: help     W A S D: walk     drag: look".
 [[nodiscard]] std::string first_hint(const osgRoam::Controls& controls);
 
-/// Keys and their action; a heading if the second is empty.
-using KeyLine = std::pair<std::string, std::string>;
-/// The table of keys, for display.
-[[nodiscard]] std::vector<KeyLine> key_lines(const osgRoam::Controls& controls);
+/// The table of keys, for display. Lines of commands that a key press runs have the command's name.
+[[nodiscard]] std::vector<graphics::HelpLine> key_lines(const osgRoam::Controls& controls);
 /// The same as text: one line a command, with its name in the settings file.
 [[nodiscard]] std::string key_table(const osgRoam::Controls& controls);
 

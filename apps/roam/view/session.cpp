@@ -10,6 +10,7 @@
 #include "roam/profile.h"
 #include "scenes/frame.h"
 #include "view/body.h"
+#include "view/menu.h"
 #include "view/session_handler.h"
 
 namespace roam::app {
@@ -63,6 +64,7 @@ Session::Session(const ViewOptions& options, const ViewPlan& plan, const ViewSet
   commands_.add("quit", [this] { quits_ = true; });
   roamer_->setCommandCallback([this](const std::string& name) { run(name); });
   stage_.viewer().addEventHandler(new SessionHandler(*this));
+  stage_.viewer().addEventHandler(new Menu(stage_, *roamer_));
   stage_.viewer().addEventHandler(tools_);
   // SessionHandler handles Escape; the viewer would end before any other use of the key.
   stage_.viewer().setKeyEventSetsDone(0);
@@ -186,7 +188,11 @@ void Session::turn() {
   }
 }
 
-void Session::show_keys() { stage_.hud().set_help(key_lines(roamer_->controls())); }
+void Session::show_keys() {
+  const std::string key = key_of(roamer_->controls(), "help");
+  stage_.hud().set_help(key_lines(roamer_->controls()));
+  if (!stage_.headless()) stage_.hud().set_button(key.empty() ? "Menu" : "Menu: " + key);
+}
 
 bool Session::is_at_its_end() const {
   if (!roaming()) return false;

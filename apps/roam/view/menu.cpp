@@ -1,0 +1,58 @@
+#include "view/menu.h"
+
+namespace roam::app {
+namespace {
+
+using Adapter = osgGA::GUIEventAdapter;
+
+}  // namespace
+
+bool Menu::handle(const Adapter& event, osgGA::GUIActionAdapter& /*action*/) {
+  if (event.getHandled() || roamer_.mouseGrab()) return false;
+  graphics::Hud& hud = stage_.hud();
+  const std::string here = hud.help_at(event.getXnormalized(), event.getYnormalized());
+  switch (event.getEventType()) {
+    case Adapter::PUSH:
+      return push(event);
+    case Adapter::RELEASE:
+      if (!is_down_) return false;
+      is_down_ = event.getButtonMask() != 0;
+      return true;
+    case Adapter::MOVE:
+    case Adapter::DRAG:
+      hud.set_help_focus(here);
+      return hud.help_shown() || is_down_;
+    case Adapter::DOUBLECLICK:
+    case Adapter::SCROLL:
+      return hud.help_shown() || is_down_;
+    default:
+      return false;
+  }
+}
+
+/// The menu acts when the button goes down, so that the release of a drag that began before does nothing.
+bool Menu::push(const Adapter& event) {
+  graphics::Hud& hud = stage_.hud();
+  const double x = event.getXnormalized(), y = event.getYnormalized();
+  const bool opens = hud.button_at(x, y);
+  if (!hud.help_shown() && !opens) return false;
+  const std::string command = hud.help_at(x, y);
+  hud.set_help_focus({});
+  hud.show_help(opens);
+  is_down_ = true;
+  if (!command.empty() && command != "help") choose(command);
+  return true;
+}
+
+void Menu::choose(const std::string& command) {
+  const osgRoam::Controls::Command* const chosen = roamer_.controls().find(command);
+  if (chosen == nullptr || chosen->keys.empty()) return;
+  osgGA::EventQueue& events = *stage_.viewer().getEventQueue();
+  const auto [symbol, ctrl] = chosen->keys.front();
+  if (ctrl) events.keyPress(Adapter::KEY_Control_L);
+  events.keyPress(symbol);
+  events.keyRelease(symbol);
+  if (ctrl) events.keyRelease(Adapter::KEY_Control_L);
+}
+
+}  // namespace roam::app
