@@ -14,12 +14,20 @@ namespace roam::graphics {
 namespace {
 
 constexpr const char* scene_vertex = R"(
+#pragma import_defines(ROAM_SECTION)
 varying vec3 roam_position;
 varying vec3 roam_normal;
 varying vec4 roam_surface;
+#ifdef ROAM_SECTION
+uniform mat4 osg_ViewMatrixInverse;
+varying vec4 roam_place;
+#endif
 void main() {
   vec4 eye = gl_ModelViewMatrix * gl_Vertex;
   roam_position = eye.xyz;
+#ifdef ROAM_SECTION
+  roam_place = osg_ViewMatrixInverse * eye;
+#endif
   roam_normal = gl_NormalMatrix * gl_Normal;
   // Many models have each wall twice, front and back, at one place. The one that faces the eye is to be seen, so the
   // other yields by more than depths are inexact: along the line of sight, which moves nothing in the picture.
@@ -33,7 +41,7 @@ void main() {
 // The terms of the light add up to 1 on a floor before the eye. Walls get about 0.7, a ceiling 0.6, and the dark end of
 // a long corridor 0.4. The brightest tones are compressed, so that white surfaces keep their shape.
 constexpr const char* scene_fragment = R"(#version 120
-#pragma import_defines(ROAM_TEXTURED, ROAM_BLENDED, ROAM_CUT)
+#pragma import_defines(ROAM_TEXTURED, ROAM_BLENDED, ROAM_CUT, ROAM_SECTION)
 varying vec3 roam_position;
 varying vec3 roam_normal;
 varying vec4 roam_surface;
@@ -41,6 +49,10 @@ uniform mat4 osg_ViewMatrix;
 uniform sampler2D roam_picture;
 #ifdef ROAM_CUT
 uniform float roam_cutoff;
+#endif
+#ifdef ROAM_SECTION
+uniform vec4 roam_section[ROAM_SECTION];
+varying vec4 roam_place;
 #endif
 
 const vec3 sun = vec3(0.48, -0.36, 0.80);
@@ -72,6 +84,11 @@ vec3 toned(vec3 color) {
 }
 
 void main() {
+#ifdef ROAM_SECTION
+  for (int i = 0; i < ROAM_SECTION; ++i) {
+    if (dot(roam_section[i], roam_place) > 0.0) discard;
+  }
+#endif
   vec4 color = roam_surface;
 #ifdef ROAM_TEXTURED
   color *= texture2D(roam_picture, gl_TexCoord[0].st);
@@ -169,6 +186,24 @@ osg::ref_ptr<osg::Group> make_scene_group() {
   state.addUniform(new osg::Uniform("roam_picture", 0));
   state.setMode(GL_CULL_FACE, osg::StateAttribute::OFF);
   return group;
+}
+
+void set_section(osg::Group& scene, std::span<const SectionPlane> planes) {
+  constexpr const char* define = "ROAM_SECTION";
+  constexpr const char* name = "roam_section";
+  osg::StateSet& state = *scene.getOrCreateStateSet();
+  state.removeUniform(name);
+  if (planes.empty()) {
+    state.removeDefine(define);
+    return;
+  }
+  osg::ref_ptr<osg::Uniform> values = new osg::Uniform(osg::Uniform::FLOAT_VEC4, name, static_cast<int>(planes.size()));
+  for (unsigned i = 0; i < planes.size(); ++i) {
+    const auto& [normal, distance] = planes[i];
+    values->setElement(i, osg::Vec4(osg::Vec3d(normal.x, normal.y, normal.z), static_cast<float>(-distance)));
+  }
+  state.addUniform(values);
+  state.setDefine(define, std::to_string(planes.size()));
 }
 
 osg::ref_ptr<osg::Node> make_sky() {

@@ -17,6 +17,9 @@
 #include <osg/Node>
 #include <osg/StateSet>
 #include <osg/ref_ptr>
+#include <span>
+
+#include "roam/math.h"
 
 namespace roam::graphics {
 
@@ -36,6 +39,19 @@ void apply(const Surface& surface, osg::StateSet& state);
 /// The group for scenes drawn as described above; up is +z. Every geometry below must have colours and normals. A
 /// single zero normal means that each face uses its own. States other than opaque, untextured ones are made by apply().
 [[nodiscard]] osg::ref_ptr<osg::Group> make_scene_group();
+
+/// Hides every point p with dot(normal, p) > distance.
+struct SectionPlane {
+  Vec3 normal{0.0, 0.0, 1.0};  ///< of length 1
+  double distance = 0.0;       ///< metres
+  bool operator==(const SectionPlane&) const = default;
+};
+
+inline constexpr std::size_t most_section_planes = 6;
+
+/// Hides what one of the planes hides, in the frame of the scene group; nothing without planes. Call it between two
+/// frames, with at most most_section_planes.
+void set_section(osg::Group& scene, std::span<const SectionPlane> planes);
 
 /// A gradient from the ground over the horizon to the zenith, dark enough for white objects and light enough for black
 /// ones. It has no bounds.

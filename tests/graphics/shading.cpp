@@ -166,5 +166,25 @@ TEST(GraphicsShading, TheSkyMovesNoBounds) {
   EXPECT_NEAR(stage.frame.root()->getBound().radius(), std::sqrt(2.0), 1e-3);
 }
 
+TEST(GraphicsShading, ASectionHidesWhatIsBeyondItsPlanes) {
+  Stage stage(64, 64);
+  stage.add(quad({0, 4, 0}, x_axis * 9, z_axis * 9));  // a wall of y = 4, seen from 0
+  const auto is_wall = [&](int x, int y) {
+    const auto picture = stage.picture();
+    return at(*picture, x, y).distance(at(*picture, 32, 32)) < 60;
+  };
+  const auto cut = [&](const std::vector<graphics::SectionPlane>& planes) {
+    graphics::set_section(*stage.scene, planes);
+  };
+  EXPECT_TRUE(is_wall(8, 32) && is_wall(56, 32) && is_wall(32, 8) && is_wall(32, 56));
+  cut({{{1, 0, 0}, 0.5}});
+  EXPECT_TRUE(is_wall(8, 32) && is_wall(32, 8) && is_wall(32, 56));
+  EXPECT_FALSE(is_wall(56, 32));
+  cut({{{1, 0, 0}, 0.5}, {{-1, 0, 0}, 0.5}, {{0, 0, 1}, 0.5}, {{0, 0, -1}, 0.5}, {{0, 1, 0}, 5}, {{0, -1, 0}, 0}});
+  EXPECT_FALSE(is_wall(8, 32) || is_wall(56, 32) || is_wall(32, 8) || is_wall(32, 56));
+  cut({});
+  EXPECT_TRUE(is_wall(8, 32) && is_wall(56, 32) && is_wall(32, 8) && is_wall(32, 56));
+}
+
 }  // namespace
 }  // namespace roam::test

@@ -60,10 +60,9 @@ class DrivenSession {
     return session->stage().hud().text();
   }
 
+  osgGA::EventQueue& events() { return *session->stage().viewer().getEventQueue(); }
+
   TestFolder folder;
   roam::app::ViewOptions options;
   std::optional<roam::app::Session> session;
-
- protected:
-  osgGA::EventQueue& events() { return *session->stage().viewer().getEventQueue(); }
 };

@@ -2,8 +2,10 @@
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
+#include "cli/exit_status.h"
 #include "roam/error.h"
 #include "view/plan_scan.h"
+#include "view/section.h"
 #include "view_stores.h"
 
 namespace {
@@ -211,12 +213,94 @@ TEST(Tools, DrawThePlanBesideThePictureOnly) {
   EXPECT_GT(white(Shot(with)), white(Shot(without)) + 300);
 }
 
-/// A point of the picture where a line of the open help is.
-std::optional<std::pair<double, double>> line_of(graphics::Hud& hud, const std::string& command) {
-  for (double y = -0.99; y < 1.0; y += 0.01) {
-    for (double x = -0.98; x < 1.0; x += 0.02) {
-      if (hud.help_at(x, y) == command) return std::pair(x, y);
+TEST(Section, HidesAClickedSurfaceAndWhatIsBeforeIt) {
+  Tooled d;
+  d.tap('x');
+  EXPECT_TRUE(contains(d.hud(), "Section: click what is to be hidden, turn the wheel to cut deeper; X ends"))
+      << d.hud();
+  d.click(0, -0.9);
+  d.tap('t');
+  d.click(0.2, -0.9);  // at the same place it would be a double click
+  EXPECT_TRUE(contains(d.hud(), "There is no surface here")) << "the floor is hidden: " << d.hud();
+  d.click(0, 0);
+  EXPECT_TRUE(contains(d.hud(), "There is no surface here")) << "so is all that is above it: " << d.hud();
+  const Vec3 before = d.place();
+  d.run(1.0);
+  EXPECT_LT(glm::distance(d.place(), before), 1e-3) << "the body still stands on the floor";
+  d.tap('x');
+  d.tap('x');
+  EXPECT_TRUE(contains(d.hud(), "All is shown again")) << d.hud();
+  d.tap('t');
+  d.click(0, -0.9);
+  ASSERT_TRUE(d.until([&] { return contains(d.hud(), ", floor, slope 0"); })) << d.hud();
+  EXPECT_TRUE(json_report(d.session->finish())["section"].empty());
+}
+
+TEST(Section, IsMovedByTheWheel) {
+  Tooled d;
+  d.tap('x');
+  d.click(0, -0.9);
+  d.events().mouseScroll(osgGA::GUIEventAdapter::SCROLL_UP);
+  d.events().mouseScroll(osgGA::GUIEventAdapter::SCROLL_UP);
+  d.run(0.1);
+  const Json json = json_report(d.session->finish());
+  ASSERT_EQ(json["section"].size(), 1u);
+  EXPECT_NEAR(json["section"][0]["normal"][2], 1.0, 1e-6);
+  EXPECT_LT(json["section"][0]["distance_m"], -0.1) << "below the floor at 0";
+  EXPECT_GT(json["section"][0]["distance_m"], -0.5);
+}
+
+TEST(Section, IsGivenByOptions) {
+  const graphics::SectionPlane below = parse_section("z<2.5"), east = parse_section("x>-10");
+  EXPECT_EQ(below, (graphics::SectionPlane{{0, 0, 1}, 2.5}));
+  EXPECT_EQ(east, (graphics::SectionPlane{{-1, 0, 0}, 10}));
+  for (const char* text : {"", "z", "z<", "w<1", "z=1", "z<a", "z<nan", "z<1e300", "z<1 "}) {
+    EXPECT_THROW((void)parse_section(text), UsageError) << text;
+  }
+  ViewOptions options;
+  options.scene.scenes = {"room.obj"};
+  options.section.assign(7, "z<2");
+  EXPECT_THROW((void)make_plan(options, {}), UsageError);
+}
+
+/// A picture of the room from above; with a section, its roof is not shown.
+Shot from_above(const std::vector<std::string>& section) {
+  view_stores::Driven d;
+  d.write_scene();
+  d.options.at = {10, 0, 12, 0, -85};
+  d.options.mode = "ghost";
+  d.options.size = "320x180";
+  d.options.section = section;
+  d.begin();
+  d.run(0.2);
+  const std::string shot = d.folder.file("above.png");
+  d.session->stage().draw_picture(shot);
+  return Shot(shot);
+}
+
+TEST(Section, LetsOneLookIntoARoomFromAbove) {
+  const Shot closed = from_above({}), high = from_above({"z<10"}), open = from_above({"z<2.9"});
+  int same = 0, other = 0;
+  for (int y = 0; y < closed.height(); ++y) {
+    for (int x = 0; x < closed.width(); ++x) {
+      same += (closed.at(x, y) - high.at(x, y)).length() > 0.02;
+      other += (closed.at(x, y) - open.at(x, y)).length() > 0.02;
     }
+  }
+  EXPECT_EQ(same, 0);
+  EXPECT_GT(other, 1000);
+}
+
+/// The middle of a line of the open help, found on a vertical line through it.
+std::optional<std::pair<double, double>> line_of(graphics::Hud& hud, const std::string& command) {
+  for (double x = -0.98; x < 1.0; x += 0.02) {
+    double least = 1.0, most = -1.0;
+    for (double y = -0.99; y < 1.0; y += 0.01) {
+      if (hud.help_at(x, y) != command) continue;
+      least = std::min(least, y);
+      most = std::max(most, y);
+    }
+    if (least <= most) return std::pair(x, 0.5 * (least + most));
   }
   return std::nullopt;
 }

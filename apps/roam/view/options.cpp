@@ -17,6 +17,7 @@
 #include "files/extension.h"
 #include "roam/error.h"
 #include "roam/route.h"
+#include "view/section.h"
 
 namespace roam::app {
 namespace {
@@ -187,6 +188,12 @@ void ViewOptions::add_to(CLI::App& verb) {
           "Drawing: auto, full, light or plain (default: auto: full; plain in a window without a graphics card)")
       ->check(one_of({quality_names.begin(), quality_names.end()}))
       ->type_name("Q");
+  verb.add_option("--section", section,
+                  "Show only what is there, to look into buildings: 'z<2.5', 'x>10'; may be repeated. The body still "
+                  "meets the rest")
+      ->type_name("PLANE")
+      ->expected(1)
+      ->take_all();
   verb.add_flag("--headless", headless, "Draw without a screen");
   verb.add_option("--time", time_limit, "End after S seconds of roaming")
       ->excludes(replay)
@@ -234,6 +241,10 @@ ViewPlan make_plan(const ViewOptions& options, const ViewSettings& settings,
   plan.hud = options.hud ? parse_hud_mode(*options.hud).value_or(plan.hud) : settings.hud.value_or(plan.hud);
   plan.quality = options.quality.value_or(settings.quality.value_or(plan.quality));
   plan.edges = settings.edges.value_or(plan.edges);
+  for (const std::string& text : options.section) plan.section.push_back(parse_section(text));
+  if (plan.section.size() > graphics::most_section_planes) {
+    throw UsageError("--section", fmt::format("there are at most {}", graphics::most_section_planes));
+  }
   const auto [width, height] = parse_size(options.size);
   plan.width = width;
   plan.height = height;

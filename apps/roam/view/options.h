@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "graphics/shading.h"
 #include "roam/walker.h"
 #include "scenes/body_options.h"
 #include "scenes/open_scene.h"
@@ -33,6 +34,7 @@ struct ViewOptions {
   bool fullscreen = false;
   std::vector<double> at;  ///< x, y, z, perhaps yaw, perhaps pitch
   std::string bookmark;
+  std::vector<std::string> section;
   std::filesystem::path path;
   double dt = 1.0 / 60.0;
   std::filesystem::path screenshot, record, record_path, trace, settings;
@@ -61,6 +63,7 @@ struct ViewPlan {
   HudMode hud = HudMode::plain;
   std::string quality = "auto";  ///< one of quality_names
   bool edges = true;
+  std::vector<graphics::SectionPlane> section;
   int width = 0, height = 0;   ///< pixels
   std::vector<Waypoint> path;  ///< of --path; make_plan leaves it empty
   std::optional<Pose> at;

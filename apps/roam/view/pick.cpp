@@ -4,25 +4,50 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
+#include <utility>
 
 #include "osgroam/vectors.h"
 #include "view/surroundings.h"
 
 namespace roam::app {
+namespace {
+
+/// The part of the segment from `from` to `from + motion` that the planes do not hide, as two fractions; the second is
+/// smaller than the first if there is none.
+std::pair<double, double> seen_part(std::span<const graphics::SectionPlane> planes, const Vec3& from,
+                                    const Vec3& motion) {
+  double first = 0.0, last = 1.0;
+  for (const auto& [normal, distance] : planes) {
+    const double over = glm::dot(normal, from) - distance, rise = glm::dot(normal, motion);
+    if (rise < 0.0) {
+      first = std::max(first, -over / rise);
+    } else if (rise > 0.0) {
+      last = std::min(last, -over / rise);
+    } else if (over > 0.0) {
+      last = -1.0;
+    }
+  }
+  return {first, last};
+}
+
+}  // namespace
 
 double slope_degrees(const Pick& pick) {
   return glm::degrees(std::acos(std::clamp(std::abs(pick.normal.z), 0.0, 1.0)));
 }
 
 std::optional<Pick> pick(const Space& space, const osg::Matrixd& view, const osg::Matrixd& projection,
-                         const Vec3& origin, double x, double y) {
+                         const Vec3& origin, double x, double y, std::span<const graphics::SectionPlane> hidden) {
   const osg::Matrixd to_graph = osg::Matrixd::inverse(view);
   const osg::Vec3d ahead = osg::Vec3d(x, y, -1.0) * osg::Matrixd::inverse(projection);
   const Vec3 eye = osgRoam::to_roam(to_graph.getTrans()) + origin;
   const Vec3 direction = osgRoam::to_roam(osg::Matrixd::transform3x3(ahead, to_graph));
   const double length = glm::length(direction);
   if (!(length > 0.0) || !std::isfinite(length) || !std::isfinite(glm::length(eye))) return std::nullopt;
-  const Impact seen = space.ray(eye, sight(space, eye) / length * direction);
+  const Vec3 whole = sight(space, eye) / length * direction;
+  const auto [first, last] = seen_part(hidden, eye, whole);
+  if (!(first < last)) return std::nullopt;
+  const Impact seen = space.ray(eye + first * whole, (last - first) * whole);
   if (!seen.hit || seen.unknown) return std::nullopt;
   return Pick{seen.point, seen.normal, space.object_name(seen.triangle), seen.triangle};
 }

@@ -4,8 +4,10 @@
 
 #include <optional>
 #include <osg/Matrixd>
+#include <span>
 #include <string>
 
+#include "graphics/shading.h"
 #include "roam/space.h"
 
 namespace roam::app {
@@ -22,8 +24,9 @@ struct Pick {
 [[nodiscard]] double slope_degrees(const Pick& pick);
 
 /// The first known surface behind a point of the picture; x and y in [-1, 1], right and up. `view` and `projection` are
-/// the camera's matrices, in the graph's frame: the scene minus `origin`.
+/// the camera's matrices, in the graph's frame: the scene minus `origin`. Surfaces that the planes hide are not found.
 [[nodiscard]] std::optional<Pick> pick(const Space& space, const osg::Matrixd& view, const osg::Matrixd& projection,
-                                       const Vec3& origin, double x, double y);
+                                       const Vec3& origin, double x, double y,
+                                       std::span<const graphics::SectionPlane> hidden = {});
 
 }  // namespace roam::app

@@ -52,7 +52,7 @@ Session::Session(const ViewOptions& options, const ViewPlan& plan, const ViewSet
       scene_(stage_.viewer(), *stage_.frame().space(), load_picture(what_, arrival_.loader(), stage_),
              stage_.headless() ? SceneGraph::Arrival::at_once : SceneGraph::Arrival::smooth),
       display_(stage_, scene_, *roamer_, news_, plan_.fov),
-      tools_(new Tools(stage_, *roamer_)),
+      tools_(new Tools(stage_, scene_, *roamer_, plan_.section)),
       building_(what_, options.program, *roamer_, news_) {
   for (const std::string& note : {plan_.note, link_beside(what_)}) {
     if (!note.empty()) news_.note(note);
@@ -122,7 +122,6 @@ void Session::enter() {
   }
   records_.add_to(commands_);
   tools_->add_to(commands_);
-  tools_->set_origin(scene_.origin());
   arrival_.enter();
   show_keys();
   stage_.end_hint(hint_seconds);
@@ -204,7 +203,7 @@ bool Session::is_at_its_end() const {
 void Session::show(bool at_once) {
   graphics::Marks marks;
   tools_->add_to(marks);
-  if (roaming()) tools_->update();
+  tools_->update(roaming());
   display_.update(roaming(), roaming() && !arrival_.is_ghost_only() ? roamer_->leastEyeDistance() : plan_.walker.radius,
                   std::move(marks));
   if (!at_once && !display_.is_due()) return;

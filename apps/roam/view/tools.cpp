@@ -21,15 +21,33 @@ bool is_left(const Adapter& event) { return event.getButton() == Adapter::LEFT_M
 
 void Tools::add_to(Commands& commands) {
   commands.add("measure", [this] { toggle_measuring(); });
+  commands.add("section", [this] { toggle_section(); });
   commands.add("plan", [this] { plan_.cycle(); });
 }
 
 void Tools::toggle_measuring() {
   constexpr double seconds = 4.0;
-  measures_ = !measures_;
+  tool_ = tool_ == Tool::measure ? Tool::none : Tool::measure;
   measuring_.clear();
   const std::string key = key_of(roamer_.controls(), "measure");
-  stage_.hint(measures_ ? fmt::format("Measuring: click two points; {} ends", key) : "Measuring has ended", seconds);
+  stage_.hint(tool_ == Tool::measure ? fmt::format("Measuring: click two points; {} ends", key) : "Measuring has ended",
+              seconds);
+}
+
+void Tools::toggle_section() {
+  constexpr double seconds = 4.0;
+  const bool ends = tool_ == Tool::section;
+  tool_ = ends ? Tool::none : Tool::section;
+  if (ends) section_.clear();
+  const std::string key = key_of(roamer_.controls(), "section");
+  stage_.hint(ends ? "All is shown again"
+                   : fmt::format("Section: click what is to be hidden, turn the wheel to cut deeper; {} ends", key),
+              seconds);
+}
+
+void Tools::update(bool has_body) {
+  section_.show(scene_.group(), scene_.origin());
+  if (has_body) plan_.update(stage_.hud().detail() != graphics::Detail::off);
 }
 
 Tools::Point Tools::point_of(const Adapter& event) const {
@@ -43,7 +61,7 @@ bool Tools::handle(const Adapter& event, osgGA::GUIActionAdapter& /*action*/) {
     case Adapter::PUSH:
       return is_left(event) && press(event);
     case Adapter::DOUBLECLICK:
-      return is_left(event) && (is_on_plan_ || measures_);
+      return is_left(event) && (is_on_plan_ || tool_ != Tool::none);
     case Adapter::RELEASE:
       if (is_left(event)) release(event);
       return false;
@@ -59,8 +77,14 @@ bool Tools::scroll(const Adapter& event) {
   const Point at = point_of(event);
   const auto motion = event.getScrollingMotion();
   const bool up = motion == Adapter::SCROLL_UP, down = motion == Adapter::SCROLL_DOWN;
-  if (!(up || down) || roamer_.mouseGrab() || !plan_.at(at.x, at.y)) return false;
-  plan_.zoom(up ? 1.0 / notch : notch);
+  if (!(up || down)) return false;
+  if (!roamer_.mouseGrab() && plan_.at(at.x, at.y)) {
+    plan_.zoom(up ? 1.0 / notch : notch);
+    return true;
+  }
+  if (tool_ != Tool::section) return false;
+  const osg::Vec3d eye = stage_.viewer().getCamera()->getInverseViewMatrix().getTrans();
+  section_.move(up ? 1.0 : -1.0, Vec3(eye.x(), eye.y(), eye.z()) + scene_.origin());
   return true;
 }
 
@@ -73,7 +97,7 @@ bool Tools::press(const Adapter& event) {
   pressed_at_ = event.getTime();
   is_down_ = !again;
   is_on_plan_ = !roamer_.mouseGrab() && plan_.at(at.x, at.y).has_value();
-  return is_on_plan_ || (again && measures_);
+  return is_on_plan_ || (again && tool_ != Tool::none);
 }
 
 void Tools::release(const Adapter& event) {
@@ -85,28 +109,36 @@ void Tools::release(const Adapter& event) {
   if (is_on_plan_) {
     constexpr double seconds = 2.0;
     if (!plan_.go(at.x, at.y)) stage_.hint("There is no floor there", seconds);
-  } else if (measures_) {
+  } else if (tool_ != Tool::none) {
     click(at);
   }
 }
 
 void Tools::click(const Point& at) {
   const osg::Camera& camera = *stage_.viewer().getCamera();
-  const auto found = pick(*roamer_.space(), camera.getViewMatrix(), camera.getProjectionMatrix(), origin_, at.x, at.y);
-  if (found) {
-    measuring_.take(*found);
-  } else {
+  const auto found = pick(*roamer_.space(), camera.getViewMatrix(), camera.getProjectionMatrix(), scene_.origin(), at.x,
+                          at.y, section_.planes());
+  if (!found) {
     constexpr double seconds = 2.0;
     stage_.hint("There is no surface here", seconds);
+  } else if (tool_ == Tool::measure) {
+    measuring_.take(*found);
+  } else {
+    section_.cut(*found);
   }
 }
 
 void Tools::fill(Status& status) {
-  if (measures_) measuring_.fill(status);
+  if (tool_ == Tool::measure) measuring_.fill(status);
+}
+
+void Tools::fill(ViewReport& report) const {
+  report.measurements = measuring_.all();
+  report.section = section_.planes();
 }
 
 void Tools::add_to(graphics::Marks& marks) const {
-  if (measures_) measuring_.add_to(marks, origin_);
+  if (tool_ == Tool::measure) measuring_.add_to(marks, scene_.origin());
 }
 
 }  // namespace roam::app

@@ -9,33 +9,40 @@
 #include "view/commands.h"
 #include "view/live_plan.h"
 #include "view/measuring.h"
+#include "view/scene_graph.h"
+#include "view/section.h"
 #include "view/stage.h"
 #include "view/view_report.h"
 
 namespace roam::app {
 
 /// Recognizes clicks of the left button: pressed and released at one place. Drags still look around. While a tool is
-/// on, clicks are its own, and a double click does not lead the body. With a grabbed mouse, a click is at the middle of
-/// the picture. A click on the plan leads the body there, and the wheel zooms it.
+/// on, clicks are its own, and a double click does not lead the body. The section's planes stay while one measures.
+/// With a grabbed mouse, a click is at the middle of the picture. A click on the plan leads the body there, and the
+/// wheel zooms it.
 ///
 /// Call all members from the thread that draws, between two frames. add_to() needs a body in the scene.
 class Tools : public osgGA::GUIEventHandler {
  public:
-  Tools(Stage& stage, osgRoam::Manipulator& roamer)
-      : stage_(stage), roamer_(roamer), measuring_(roamer), plan_(stage.frame(), roamer) {}
+  Tools(Stage& stage, SceneGraph& scene, osgRoam::Manipulator& roamer, std::vector<graphics::SectionPlane> section)
+      : stage_(stage),
+        scene_(scene),
+        roamer_(roamer),
+        measuring_(roamer),
+        section_(std::move(section)),
+        plan_(stage.frame(), roamer) {}
 
-  /// Adds "measure", which turns measuring on or off, and "plan", which shows the plan smaller, larger or not.
+  /// Adds "measure" and "section", which turn these tools on or off, and "plan", which shows the plan smaller, larger
+  /// or not.
   void add_to(Commands& commands);
-  /// Call it in each frame with a body.
-  void update() { plan_.update(stage_.hud().detail() != graphics::Detail::off); }
-  /// Sets the origin of the graph: the scene minus `origin`.
-  void set_origin(const Vec3& origin) { origin_ = origin; }
+  /// Call it in each frame.
+  void update(bool has_body);
 
   using osgGA::GUIEventHandler::handle;
   bool handle(const osgGA::GUIEventAdapter& event, osgGA::GUIActionAdapter& action) override;
 
   void fill(Status& status);
-  void fill(ViewReport& report) const { report.measurements = measuring_.all(); }
+  void fill(ViewReport& report) const;
   void add_to(graphics::Marks& marks) const;
   [[nodiscard]] const LivePlan& plan() const { return plan_; }
 
@@ -48,18 +55,23 @@ class Tools : public osgGA::GUIEventHandler {
     double x = 0.0, y = 0.0;
   };
   [[nodiscard]] Point point_of(const osgGA::GUIEventAdapter& event) const;
+  /// What clicks on the picture do.
+  enum class Tool : std::uint8_t { none, measure, section };
+
   bool press(const osgGA::GUIEventAdapter& event);
   bool scroll(const osgGA::GUIEventAdapter& event);
   void release(const osgGA::GUIEventAdapter& event);
   void click(const Point& at);
   void toggle_measuring();
+  void toggle_section();
 
   Stage& stage_;
+  SceneGraph& scene_;
   osgRoam::Manipulator& roamer_;
+  Tool tool_ = Tool::none;
   Measuring measuring_;
-  bool measures_ = false;
+  Section section_;
   LivePlan plan_;
-  Vec3 origin_{0.0};
   Point pressed_;
   double pressed_at_ = -1e9;  ///< s
   bool is_down_ = false;

@@ -104,6 +104,10 @@ Json json_report(const ViewReport& report) {
   json["store"] = report.store.empty() ? Json(nullptr) : Json(report.store);
   json["measurements"] = Json::array();
   for (const Measurement& measurement : report.measurements) json["measurements"].push_back(to_json(measurement));
+  json["section"] = Json::array();
+  for (const auto& [normal, distance] : report.section) {
+    json["section"].push_back(Json::object({{"normal", to_json(normal)}, {"distance_m", distance}}));
+  }
   if (report.paging) json["paging"] = to_json(*report.paging);
   json["end"]["eye"] = app::to_json(report.eye);
   if (report.start) json["start"] = to_json(*report.start);

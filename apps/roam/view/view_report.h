@@ -62,9 +62,10 @@ struct ViewReport {
   std::vector<std::string> missing_texture_files;
   std::uint64_t missing_pages = 0;
   std::vector<Measurement> measurements;
-  std::vector<std::string> written;  ///< files
-  std::vector<Mesh> meshes;          ///< for --verify; none if the session began with a store
-  verification::PieceLog pieces;     ///< for --verify
+  std::vector<graphics::SectionPlane> section;  ///< at the end
+  std::vector<std::string> written;             ///< files
+  std::vector<Mesh> meshes;                     ///< for --verify; none if the session began with a store
+  verification::PieceLog pieces;                ///< for --verify
   std::optional<verification::Verification> verified;
 };
 
