@@ -213,6 +213,48 @@ TEST(Tools, DrawThePlanBesideThePictureOnly) {
   EXPECT_GT(white(Shot(with)), white(Shot(without)) + 300);
 }
 
+TEST(Probing, FindsAWayBetweenMeasuredPoints) {
+  Tooled d;
+  d.tap('i');
+  EXPECT_TRUE(contains(d.hud(), "First measure from A to B: T, then two clicks")) << d.hud();
+  d.tap('t');
+  d.click(-0.5, -0.9);
+  d.tap('i');
+  ASSERT_TRUE(d.until([&] { return contains(d.hud(), "way: YES: a body 0.60 m wide"); })) << "to A: " << d.hud();
+  d.click(0.3, -0.9);
+  EXPECT_FALSE(contains(d.hud(), "YES")) << "that was of another question: " << d.hud();
+  d.tap('i');
+  ASSERT_TRUE(d.until([&] { return contains(d.hud(), "way: YES: a body 0.60 m wide"); })) << "to B: " << d.hud();
+  const ViewReport report = d.session->finish();
+  ASSERT_EQ(report.probes.size(), 2u);
+  EXPECT_LT(glm::distance(report.probes[0].from, {10, 0, 0}), 0.01) << "the body's feet";
+  EXPECT_LT(glm::distance(report.probes[1].from, report.probes[0].to), 1e-9);
+  EXPECT_TRUE(report.probes[1].passable);
+  EXPECT_GE(report.probes[1].way.size(), 2u);
+  EXPECT_EQ(json_report(report)["probes"][1]["passable"], true);
+}
+
+TEST(Probing, StandsInFrontOfAClickedWall) {
+  Tooled d;
+  d.tap('t');
+  d.click(0, 0);
+  ASSERT_TRUE(d.until([&] { return contains(d.hud(), ", front, slope 90"); })) << d.hud();
+  d.tap('i');
+  ASSERT_TRUE(d.until([&] { return contains(d.hud(), "way: YES: a body 0.60 m wide"); })) << d.hud();
+  const ViewReport report = d.session->finish();
+  ASSERT_EQ(report.probes.size(), 1u);
+  EXPECT_NEAR(report.probes[0].to.x, 20.0 - 0.35, 1e-2);
+}
+
+TEST(Probing, SaysWhyThereIsNoWay) {
+  Tooled d;
+  d.tap('t');
+  d.click(0, 0.9);  // the ceiling, from above which nobody comes
+  d.tap('i');
+  ASSERT_TRUE(d.until([&] { return contains(d.hud(), "way: ") && !contains(d.hud(), "searching"); })) << d.hud();
+  EXPECT_FALSE(contains(d.hud(), "YES")) << d.hud();
+}
+
 TEST(Section, HidesAClickedSurfaceAndWhatIsBeforeIt) {
   Tooled d;
   d.tap('x');

@@ -10,17 +10,13 @@
 #include <utility>
 
 #include "cli/report.h"
-#include "process/child.h"
-#include "process/find_program.h"
-#include "process/lines.h"
 #include "roam/error.h"
 #include "scenes/beside_scene.h"
 #include "view/collision_loader.h"
+#include "view/roam_child.h"
 
 namespace roam::app {
 namespace {
-
-using namespace std::chrono_literals;
 
 /// Lowers this thread's priority; a child that it starts inherits it.
 void give_way() {
@@ -57,25 +53,11 @@ StoreBuildReport report_of(const Json& json) {
   return report;
 }
 
-/// The error that failure_report() printed.
-Error error_of(const Json& json) {
-  const Json& where = json.at("where");
-  return Error::at(where.is_null() ? std::string() : where.get<std::string>(), json.at("message"));
-}
-
-/// The error of a child that ended without a report and without an error.
-Error silent_end(const process::Child& child) {
-  const process::Ending& ending = child.ending();
-  const std::string words = child.last_words();
-  return Error(fmt::format("`roam build` {} {}{}", ending.signal != 0 ? "was ended by signal" : "ended with status",
-                           ending.signal != 0 ? ending.signal : ending.exit_code, words.empty() ? "" : ": " + words));
-}
-
 }  // namespace
 
 BuildProcess::BuildProcess(std::filesystem::path program, const SceneAndStore& what, const WalkerSettings& walker,
                            const Vec3& place)
-    : program_(program.empty() ? process::own_program() : std::move(program)),
+    : program_(std::move(program)),
       what_(what),
       output_(store_place(what)),
       walker_(walker),
@@ -103,30 +85,22 @@ StoreBuildReport BuildProcess::build() {
   scene.threads = work_threads(scene.threads);
   for (std::string& argument : scene.arguments()) arguments.push_back(std::move(argument));
 
-  process::Lines lines;
-  process::Child child(program_, arguments, {.descriptors = {{lines.theirs(), STDOUT_FILENO}}});
-  lines.child_has_started();
   std::optional<StoreBuildReport> report;
   std::optional<Error> error;
-  while (!lines.ended()) {
-    if (!loading_.wanted()) {
-      child.end();
-      throw Cancelled();
-    }
-    const std::optional<std::string> line = lines.next(50ms);
-    if (!line) continue;
-    const Json json = Json::parse(*line);
-    if (json.contains("step")) {
-      const LoadState state = state_of(json);
-      loading_.tell(state.phase, state.share, state.triangles);
-    } else if (json.contains("error")) {
-      error = error_of(json.at("error"));
-    } else {
-      report = report_of(json);
-    }
-  }
-  if (!child.wait(process::Child::usual_grace)) child.end();
-  if (!report || !child.ending().is_success()) throw error ? *error : silent_end(child);
+  const VerbEnd end = run_verb(
+      program_, arguments, [this] { return loading_.wanted(); },
+      [&](const std::string& line) {
+        const Json json = Json::parse(line);
+        if (json.contains("step")) {
+          const LoadState state = state_of(json);
+          loading_.tell(state.phase, state.share, state.triangles);
+        } else if (json.contains("error")) {
+          error = printed_error(json.at("error"));
+        } else {
+          report = report_of(json);
+        }
+      });
+  if (!report || !end.ending.is_success()) throw error ? *error : silent_end("build", end);
   return *report;
 }
 

@@ -23,6 +23,7 @@ constexpr Line lines[] = {
     {"help", "H", "shows or hides this help"},
     {"hud", "F1", "changes the display: usual, with all figures, one line, none"},
     {"measure", "T", "measures between clicked points, and the room around the body"},
+    {"probe", "I", "finds whether the body gets from A to B, the measured points, and draws the way"},
     {"section", "X", "hides a clicked surface and what is before it; the wheel moves the cut"},
     {"plan", "L", "shows a plan of the walls around: small, large, none; a click on it goes there"},
     {"marks", "V", "shows the body, what it touches and the nearest triangles"},

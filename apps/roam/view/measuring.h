@@ -44,6 +44,8 @@ class Measuring {
   void fill(Status& status);
   /// Adds the points and the line between them. `origin`: see Arrival::Seen.
   void add_to(graphics::Marks& marks, const Vec3& origin) const;
+  /// The measurement that is shown; null: none.
+  [[nodiscard]] const Measurement* shown() const { return shown_ ? &all_.back() : nullptr; }
   [[nodiscard]] const std::vector<Measurement>& all() const { return all_; }
 
  private:

@@ -52,7 +52,7 @@ Session::Session(const ViewOptions& options, const ViewPlan& plan, const ViewSet
       scene_(stage_.viewer(), *stage_.frame().space(), load_picture(what_, arrival_.loader(), stage_),
              stage_.headless() ? SceneGraph::Arrival::at_once : SceneGraph::Arrival::smooth),
       display_(stage_, scene_, *roamer_, news_, plan_.fov),
-      tools_(new Tools(stage_, scene_, *roamer_, plan_.section)),
+      tools_(new Tools(stage_, scene_, *roamer_, what_, options.program, plan_.section)),
       building_(what_, options.program, *roamer_, news_) {
   for (const std::string& note : {plan_.note, link_beside(what_)}) {
     if (!note.empty()) news_.note(note);

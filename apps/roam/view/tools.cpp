@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <utility>
 
 #include "osgroam/pointer.h"
 
@@ -15,12 +16,29 @@ using Adapter = osgGA::GUIEventAdapter;
 constexpr double longest_click = osgRoam::double_click_time;             // s
 constexpr double click_distance = 2.0 * osgRoam::double_click_distance;  // of half the picture
 
+/// Where a body of this radius is at a clicked surface: on a floor, or in front of a wall.
+Vec3 beside(const Pick& pick, double radius) {
+  constexpr double gap = 0.05;  // metres
+  return pick.point + (gap + radius * std::hypot(pick.normal.x, pick.normal.y)) * pick.normal;
+}
+
 bool is_left(const Adapter& event) { return event.getButton() == Adapter::LEFT_MOUSE_BUTTON; }
 
 }  // namespace
 
+Tools::Tools(Stage& stage, SceneGraph& scene, osgRoam::Manipulator& roamer, const SceneAndStore& what,
+             const std::filesystem::path& program, std::vector<graphics::SectionPlane> section)
+    : stage_(stage),
+      scene_(scene),
+      roamer_(roamer),
+      measuring_(roamer),
+      probing_(program, what, roamer),
+      section_(std::move(section)),
+      plan_(stage.frame(), roamer) {}
+
 void Tools::add_to(Commands& commands) {
   commands.add("measure", [this] { toggle_measuring(); });
+  commands.add("probe", [this] { probe(); });
   commands.add("section", [this] { toggle_section(); });
   commands.add("plan", [this] { plan_.cycle(); });
 }
@@ -29,9 +47,28 @@ void Tools::toggle_measuring() {
   constexpr double seconds = 4.0;
   tool_ = tool_ == Tool::measure ? Tool::none : Tool::measure;
   measuring_.clear();
+  probing_.clear();
   const std::string key = key_of(roamer_.controls(), "measure");
   stage_.hint(tool_ == Tool::measure ? fmt::format("Measuring: click two points; {} ends", key) : "Measuring has ended",
               seconds);
+}
+
+/// From A to B; with A alone, from the body to A.
+void Tools::probe() {
+  constexpr double seconds = 4.0;
+  const Measurement* const points = tool_ == Tool::measure ? measuring_.shown() : nullptr;
+  if (points == nullptr) {
+    const std::string key = key_of(roamer_.controls(), "measure");
+    stage_.hint(fmt::format("First measure from A to B: {}, then two clicks", key), seconds);
+    return;
+  }
+  const Vec3 a = beside(points->a, roamer_.settings().radius);
+  if (points->b) {
+    probing_.ask(a, beside(*points->b, roamer_.settings().radius));
+  } else {
+    const Walker& walker = *roamer_.walker();
+    probing_.ask(roamer_.mode() == Mode::fly ? walker.position() : walker.feet(), a);
+  }
 }
 
 void Tools::toggle_section() {
@@ -122,6 +159,7 @@ void Tools::click(const Point& at) {
     constexpr double seconds = 2.0;
     stage_.hint("There is no surface here", seconds);
   } else if (tool_ == Tool::measure) {
+    probing_.clear();
     measuring_.take(*found);
   } else {
     section_.cut(*found);
@@ -129,16 +167,21 @@ void Tools::click(const Point& at) {
 }
 
 void Tools::fill(Status& status) {
-  if (tool_ == Tool::measure) measuring_.fill(status);
+  if (tool_ != Tool::measure) return;
+  measuring_.fill(status);
+  probing_.fill(status);
 }
 
-void Tools::fill(ViewReport& report) const {
+void Tools::fill(ViewReport& report) {
+  report.probes = probing_.replies();
   report.measurements = measuring_.all();
   report.section = section_.planes();
 }
 
-void Tools::add_to(graphics::Marks& marks) const {
-  if (tool_ == Tool::measure) measuring_.add_to(marks, scene_.origin());
+void Tools::add_to(graphics::Marks& marks) {
+  if (tool_ != Tool::measure) return;
+  measuring_.add_to(marks, scene_.origin());
+  probing_.add_to(marks, scene_.origin());
 }
 
 }  // namespace roam::app

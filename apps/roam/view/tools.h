@@ -9,6 +9,7 @@
 #include "view/commands.h"
 #include "view/live_plan.h"
 #include "view/measuring.h"
+#include "view/probing.h"
 #include "view/scene_graph.h"
 #include "view/section.h"
 #include "view/stage.h"
@@ -24,16 +25,12 @@ namespace roam::app {
 /// Call all members from the thread that draws, between two frames. add_to() needs a body in the scene.
 class Tools : public osgGA::GUIEventHandler {
  public:
-  Tools(Stage& stage, SceneGraph& scene, osgRoam::Manipulator& roamer, std::vector<graphics::SectionPlane> section)
-      : stage_(stage),
-        scene_(scene),
-        roamer_(roamer),
-        measuring_(roamer),
-        section_(std::move(section)),
-        plan_(stage.frame(), roamer) {}
+  /// `program`: path of roam; empty: the running program. `section`: the planes at first.
+  Tools(Stage& stage, SceneGraph& scene, osgRoam::Manipulator& roamer, const SceneAndStore& what,
+        const std::filesystem::path& program, std::vector<graphics::SectionPlane> section);
 
-  /// Adds "measure" and "section", which turn these tools on or off, and "plan", which shows the plan smaller, larger
-  /// or not.
+  /// Adds "measure" and "section", which turn these tools on or off; "probe", which searches a way between the measured
+  /// points; and "plan", which shows the plan smaller, larger or not.
   void add_to(Commands& commands);
   /// Call it in each frame.
   void update(bool has_body);
@@ -42,8 +39,8 @@ class Tools : public osgGA::GUIEventHandler {
   bool handle(const osgGA::GUIEventAdapter& event, osgGA::GUIActionAdapter& action) override;
 
   void fill(Status& status);
-  void fill(ViewReport& report) const;
-  void add_to(graphics::Marks& marks) const;
+  void fill(ViewReport& report);
+  void add_to(graphics::Marks& marks);
   [[nodiscard]] const LivePlan& plan() const { return plan_; }
 
  protected:
@@ -64,12 +61,14 @@ class Tools : public osgGA::GUIEventHandler {
   void click(const Point& at);
   void toggle_measuring();
   void toggle_section();
+  void probe();
 
   Stage& stage_;
   SceneGraph& scene_;
   osgRoam::Manipulator& roamer_;
   Tool tool_ = Tool::none;
   Measuring measuring_;
+  Probing probing_;
   Section section_;
   LivePlan plan_;
   Point pressed_;

@@ -104,6 +104,8 @@ Json json_report(const ViewReport& report) {
   json["store"] = report.store.empty() ? Json(nullptr) : Json(report.store);
   json["measurements"] = Json::array();
   for (const Measurement& measurement : report.measurements) json["measurements"].push_back(to_json(measurement));
+  json["probes"] = Json::array();
+  for (const ProbeReply& reply : report.probes) json["probes"].push_back(to_json(reply));
   json["section"] = Json::array();
   for (const auto& [normal, distance] : report.section) {
     json["section"].push_back(Json::object({{"normal", to_json(normal)}, {"distance_m", distance}}));

@@ -14,6 +14,7 @@
 #include "verify/piece_log.h"
 #include "view/measuring.h"
 #include "view/pose.h"
+#include "view/probing.h"
 
 namespace roam::app {
 
@@ -62,6 +63,7 @@ struct ViewReport {
   std::vector<std::string> missing_texture_files;
   std::uint64_t missing_pages = 0;
   std::vector<Measurement> measurements;
+  std::vector<ProbeReply> probes;
   std::vector<graphics::SectionPlane> section;  ///< at the end
   std::vector<std::string> written;             ///< files
   std::vector<Mesh> meshes;                     ///< for --verify; none if the session began with a store

@@ -1,0 +1,142 @@
+#include "view/probing.h"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "view/roam_child.h"
+
+namespace roam::app {
+namespace {
+
+std::string option(const char* name, const Vec3& point) {
+  return fmt::format("--{}={},{},{}", name, point.x, point.y, point.z);
+}
+
+/// The verb's arguments for a body: ways through the air are found for spheres.
+std::vector<std::string> arguments_of(const SceneAndStore& what, const WalkerSettings& body, Mode mode,
+                                      const Vec3& from, const Vec3& to) {
+  std::vector<std::string> arguments{"probe", "--json", option("from", from), option("to", to),
+                                     fmt::format("--radius={}", body.radius)};
+  if (mode == Mode::fly) {
+    arguments.insert(arguments.end(), {"--mode=fly", "--sphere"});
+  } else {
+    arguments.push_back(fmt::format("--height={}", body.height));
+    arguments.push_back(fmt::format("--step={}", body.step));
+    arguments.push_back(fmt::format("--slope={}", body.slope_degrees));
+    if (body.support_radius > 0.0) arguments.push_back(fmt::format("--support-radius={}", body.support_radius));
+  }
+  SceneOptions scene = what.scene;
+  if (!what.store.empty()) scene.scenes = {what.store};
+  for (std::string& argument : scene.arguments()) arguments.push_back(std::move(argument));
+  return arguments;
+}
+
+Vec3 point_of(const Json& json) { return {json.at(0), json.at(1), json.at(2)}; }
+
+ProbeReply reply_of(const Json& json) {
+  ProbeReply reply;
+  reply.from = point_of(json.at("from"));
+  reply.to = point_of(json.at("to"));
+  reply.passable = json.at("passable");
+  for (const Json& point : json.at("way")) reply.way.push_back(point_of(point));
+  if (const Json& opening = json.at("opening"); opening.is_object() && opening.contains("point")) {
+    reply.narrowest = point_of(opening.at("point"));
+  }
+  reply.text = json.at("text").get<std::vector<std::string>>();
+  return reply;
+}
+
+/// The line with single blanks.
+std::string without_columns(const std::string& line) {
+  std::string words;
+  for (const char c : line) {
+    if (c != ' ' || (!words.empty() && words.back() != ' ')) words += c;
+  }
+  return words;
+}
+
+}  // namespace
+
+struct Probing::Search {
+  Search(std::filesystem::path program, std::vector<std::string> arguments)
+      : loading([this, program = std::move(program), arguments = std::move(arguments)] { run(program, arguments); }) {}
+
+  void run(const std::filesystem::path& program, const std::vector<std::string>& arguments) {
+    std::string text;
+    const VerbEnd end = run_verb(
+        program, arguments, [this] { return loading.wanted(); }, [&](const std::string& line) { text += line + '\n'; });
+    const Json json = Json::parse(text, nullptr, false);
+    if (json.is_object() && json.contains("error")) throw printed_error(json.at("error"));
+    if (!json.is_object() || !json.contains("passable")) throw silent_end("probe", end);
+    ProbeReply found = reply_of(json);
+    loading.with_state([&](LoadState& state) {
+      state.phase = LoadState::Phase::done;
+      reply = std::move(found);
+    });
+  }
+
+  std::optional<ProbeReply> reply;
+  bool received = false;
+  Loading loading;
+};
+
+Probing::Probing(std::filesystem::path program, SceneAndStore what, const osgRoam::Manipulator& roamer)
+    : program_(std::move(program)), what_(std::move(what)), roamer_(roamer) {}
+
+Probing::~Probing() = default;
+
+void Probing::ask(const Vec3& from, const Vec3& to) {
+  search_.reset();
+  search_ = std::make_unique<Search>(program_, arguments_of(what_, roamer_.settings(), roamer_.mode(), from, to));
+}
+
+void Probing::clear() { search_.reset(); }
+
+void Probing::receive() {
+  if (!search_ || search_->received || search_->loading.state().phase != LoadState::Phase::done) return;
+  replies_.push_back(*search_->reply);
+  search_->received = true;
+}
+
+const std::vector<ProbeReply>& Probing::replies() {
+  receive();
+  return replies_;
+}
+
+void Probing::fill(Status& status) {
+  receive();
+  if (!search_) return;
+  const LoadState state = search_->loading.state();
+  if (state.phase == LoadState::Phase::failed) {
+    status.tool.push_back({"way", state.error.what(), true});
+  } else if (!search_->received) {
+    status.tool.push_back({"way", "searching"});
+  } else {
+    constexpr std::size_t most_lines = 3;  // the answer, and what decides
+    const std::vector<std::string>& text = replies_.back().text;
+    for (std::size_t i = 0; i < std::min(text.size(), most_lines); ++i) {
+      status.tool.push_back({i == 0 ? "way" : "", without_columns(text[i]), i == 0 && !replies_.back().passable});
+    }
+  }
+}
+
+void Probing::add_to(graphics::Marks& marks, const Vec3& origin) {
+  receive();
+  if (!search_ || !search_->received) return;
+  const ProbeReply& reply = replies_.back();
+  const Vec3 above_floor(0.0, 0.0, 0.05);
+  for (std::size_t i = 0; i + 1 < reply.way.size(); ++i) {
+    marks.lines.push_back({reply.way[i] - origin + above_floor, reply.way[i + 1] - origin + above_floor});
+  }
+  if (!reply.narrowest) return;
+  marks.points.push_back(*reply.narrowest - origin);
+  marks.labels.push_back({*reply.narrowest - origin, reply.passable ? "narrowest" : "too narrow"});
+}
+
+Json to_json(const ProbeReply& reply) {
+  return {{"from", to_json(reply.from)}, {"to", to_json(reply.to)}, {"passable", reply.passable}, {"text", reply.text}};
+}
+
+}  // namespace roam::app
