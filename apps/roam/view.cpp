@@ -16,6 +16,7 @@
 #include "roam/error.h"
 #include "scenes/beside_scene.h"
 #include "scenes/frame.h"
+#include "text/printable.h"
 #include "verbs.h"
 #include "verify/verify_stored.h"
 #include "view/notices.h"
@@ -65,9 +66,9 @@ verification::Verification verified(const ViewReport& report, const ViewOptions&
   return verify(*store, report.pieces, progress);
 }
 
-/// One session, to its end or Ctrl-C. Returns the frame in which the person wants to see the scene next.
-std::optional<SceneFrame> run_session(const ViewOptions& options, const ViewPlan& plan, const ViewSettings& settings,
-                                      ViewReport& report, bool& cancelled) {
+/// One session, to its end or Ctrl-C. Returns how the person wants to go on.
+std::optional<NextSession> run_session(const ViewOptions& options, const ViewPlan& plan, const ViewSettings& settings,
+                                       ViewReport& report, bool& cancelled) {
   Session session(options, plan, settings);
   try {
     while (session.frame()) {
@@ -77,15 +78,27 @@ std::optional<SceneFrame> run_session(const ViewOptions& options, const ViewPlan
     cancelled = true;
   }
   report = session.finish();
-  return cancelled ? std::nullopt : session.turned();
+  return cancelled ? std::nullopt : session.next();
 }
 
-/// Sets the options for the scene in another frame, where places of this one mean nothing.
-void read_turned(ViewOptions& options, const SceneFrame& frame) {
-  options.scene.up = to_string(frame.up);
-  options.scene.unit = to_string(frame.unit);
-  options.at.clear();
+/// Sets the options for the next session. `given`: the patterns of the command line. Returns a sentence for the person.
+std::string go_on(ViewOptions& options, const NextSession& next, const std::vector<std::string>& given) {
   options.bookmark.clear();
+  options.at.clear();
+  if (next.frame) {
+    options.scene.up = to_string(next.frame->up);
+    options.scene.unit = to_string(next.frame->unit);
+    return fmt::format("read with {}", options_of(*next.frame));
+  }
+  const Vec3& place = next.at.position;
+  options.at = {place.x, place.y, place.z, next.at.yaw, next.at.pitch};
+  options.mode = to_string(next.mode);
+  if (next.leave_out.empty()) {
+    options.scene.ignore = given;
+    return "all objects are shown";
+  }
+  options.scene.ignore.push_back(next.leave_out);
+  return fmt::format("left out: {}", printable(next.leave_out));
 }
 
 ExitStatus view(ViewOptions options) {
@@ -108,10 +121,11 @@ ExitStatus view(ViewOptions options) {
   }
   ViewReport report;
   bool cancelled = false;
-  while (const std::optional<SceneFrame> turned = run_session(options, plan, settings, report, cancelled)) {
-    read_turned(options, *turned);
+  const std::vector<std::string> given = options.scene.ignore;
+  while (const std::optional<NextSession> next = run_session(options, plan, settings, report, cancelled)) {
+    const std::string note = go_on(options, *next, given);
     plan = make_plan(options, settings, std::nullopt, profile_for(options, std::nullopt));
-    plan.note = fmt::format("read with {}", options_of(*turned));
+    plan.note = note;
   }
   for (const std::string& note : report.notes) tell("note: " + note);
   if (options.verify && report.roamed) {

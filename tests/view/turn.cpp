@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <sstream>
 #include <vector>
 
 #include "roam/profile.h"
@@ -31,12 +32,12 @@ TEST(Turn, EndsTheSessionAndIsKept) {
   DrivenSession d;
   d.write_scene();
   d.begin();
-  EXPECT_FALSE(d.session->turned());
+  EXPECT_FALSE(d.session->next());
   d.session->run("turn");
   EXPECT_FALSE(d.session->frame());
-  ASSERT_TRUE(d.session->turned());
-  EXPECT_STREQ(to_string(d.session->turned()->up), "y");
-  EXPECT_EQ(find_frame(d.options.scene.scenes), d.session->turned());
+  ASSERT_TRUE(d.session->next());
+  EXPECT_STREQ(to_string(d.session->next()->frame->up), "y");
+  EXPECT_EQ(find_frame(d.options.scene.scenes), d.session->next()->frame);
   EXPECT_FALSE(find_profile(d.options.scene.scenes));
 }
 
@@ -46,7 +47,7 @@ TEST(Turn, IsNotKeptWithoutAProfile) {
   d.options.scene.no_profile = true;
   d.begin();
   d.session->run("turn");
-  EXPECT_TRUE(d.session->turned());
+  EXPECT_TRUE(d.session->next());
   EXPECT_FALSE(std::filesystem::exists(scene + ".roam.json"));
 }
 
@@ -56,8 +57,74 @@ TEST(Turn, IsRefusedWhileSomethingIsWritten) {
   d.options.trace = d.folder.file("t.csv");
   d.begin();
   d.session->run("turn");
-  EXPECT_FALSE(d.session->turned());
-  EXPECT_TRUE(contains(d.hud(), "is not turned")) << d.hud();
+  EXPECT_FALSE(d.session->next());
+  EXPECT_TRUE(contains(d.hud(), "is not read anew")) << d.hud();
+}
+
+TEST(LeaveOut, EndsTheSessionWithThePatternOfTheObjectAhead) {
+  DrivenSession d;
+  d.write_scene();
+  d.options.at = {10, 0, 0.95, 0};
+  d.begin();
+  d.run(0.2);
+  d.session->run("leave_out");
+  EXPECT_FALSE(d.session->frame());
+  ASSERT_TRUE(d.session->next());
+  EXPECT_FALSE(d.session->next()->frame);
+  EXPECT_EQ(d.session->next()->leave_out, "front");
+  EXPECT_NEAR(d.session->next()->at.position.x, 10.0, 1e-6);
+  // The next session has neither its picture nor its wall.
+  d.session.reset();
+  d.options.scene.ignore = {"front"};
+  d.begin();
+  d.run(0.2);
+  EXPECT_NE(d.session->status().around.ahead, "front");
+  d.press('w');
+  d.run(12.0);
+  EXPECT_GT(d.place().x, 20.0) << "nothing stops the body there";
+}
+
+TEST(LeaveOut, KeepsTheOnlyObject) {
+  DrivenSession d;
+  std::string scene;
+  std::istringstream lines(room_obj());
+  for (std::string line; std::getline(lines, line);) {
+    if (!line.starts_with("o ") && !line.starts_with("g ")) scene += line + '\n';
+  }
+  d.write_scene(scene);
+  d.options.at = {10, 0, 0.95, 0};
+  d.begin();
+  d.run(0.2);
+  d.session->run("leave_out");
+  EXPECT_FALSE(d.session->next());
+  EXPECT_TRUE(contains(d.hud(), "only this object")) << d.hud();
+}
+
+TEST(LeaveOut, ShowsAllAgain) {
+  DrivenSession d;
+  d.write_scene();
+  d.options.scene.ignore = {"front"};
+  d.options.at = {10, 0, 0.95, 0};
+  d.begin();
+  d.session->run("show_all");
+  EXPECT_FALSE(d.session->frame());
+  ASSERT_TRUE(d.session->next());
+  EXPECT_EQ(d.session->next()->leave_out, "");
+}
+
+TEST(LeaveOut, TakesNamesAsTheyAre) {
+  DrivenSession d;
+  std::string scene = room_obj();
+  for (std::size_t at = scene.find("front"); at != std::string::npos; at = scene.find("front", at + 1)) {
+    scene.replace(at, 5, "fr*[t");
+  }
+  d.write_scene(scene);
+  d.options.at = {10, 0, 0.95, 0};
+  d.begin();
+  d.run(0.2);
+  d.session->run("leave_out");
+  ASSERT_TRUE(d.session->next());
+  EXPECT_EQ(d.session->next()->leave_out, "fr\\*\\[t");
 }
 
 }  // namespace

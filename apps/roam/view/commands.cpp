@@ -36,6 +36,8 @@ constexpr Line lines[] = {
     {"record", "R", "begins or ends recording the way, as roam-1.path and so on"},
     {"store", "O", "builds the scene's collision store in the background, after a question, or stops that"},
     {"turn", "U", "turns the scene by 90 degrees, first as its floors suggest; SCENE.roam.json keeps it"},
+    {"leave_out", "Delete", "leaves out the object ahead, for the body too"},
+    {"show_all", "Ctrl+Delete", "shows the objects that were left out"},
     {"adapt", "Y", "takes the size of the body that would get on here"},
     {"quit", "F10", "ends at once; so does Escape, pressed twice"},
 };

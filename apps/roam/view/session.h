@@ -24,6 +24,14 @@
 
 namespace roam::app {
 
+/// How the person wants to read the scene next: in another frame, or without some objects.
+struct NextSession {
+  std::optional<SceneFrame> frame;  ///< another frame, where places of this one mean nothing
+  std::string leave_out;            ///< without `frame`: pattern of an object to leave out too; empty: show all again
+  Pose at;                          ///< the body at the end
+  Mode mode = Mode::walk;
+};
+
 /// Joins the objects of a session, each of which owns its state:
 ///
 ///     Arrival        loads the collision, puts the body into the scene
@@ -53,8 +61,8 @@ class Session {
   /// Runs one frame. False at the end of the session: closed, or all work done. Throws roam::Error if nothing of the
   /// scene can be loaded, or if the path or --verify is not possible.
   bool frame();
-  /// The frame in which the person wants to see the scene next: the session has ended for that.
-  [[nodiscard]] const std::optional<SceneFrame>& turned() const { return turned_; }
+  /// Set if the session has ended for another one.
+  [[nodiscard]] const std::optional<NextSession>& next() const { return next_; }
   /// Ends the session and writes its outputs.
   [[nodiscard]] ViewReport finish();
 
@@ -77,6 +85,10 @@ class Session {
   void see_to_store();
   void show_keys();
   void turn();
+  void leave_out_ahead();
+  void show_all();
+  [[nodiscard]] bool can_begin_anew();
+  void begin_anew(const std::string& leave_out);
   void show(bool at_once);
   [[nodiscard]] Vec3 place() const;
   [[nodiscard]] bool is_replaying() const { return replay_ && !replay_->done(); }
@@ -101,7 +113,7 @@ class Session {
   std::optional<Replay> replay_;
   double placed_at_ = 0.0;  ///< s since the session began
   bool quits_ = false;
-  std::optional<SceneFrame> turned_;
+  std::optional<NextSession> next_;
 };
 
 }  // namespace roam::app
