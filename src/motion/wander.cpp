@@ -175,8 +175,15 @@ Wander::Wander(Walker& walker, const WanderOptions& options) : walker_(&walker),
   if (!(options.dt >= Route::shortest_step && std::isfinite(options.dt)))
     throw Error("the wandering's time step is " + number_text(options.dt) + " s; it must be at least 1e-6 s");
   if (walker.mode() == Mode::ghost) throw Error("a ghost meets nothing that could turn it; wander in fly or walk mode");
-  result_.add_placement(walker.report());
-  note(walker.report());
+  // Of a step before, only where it ended belongs to this walk.
+  StepReport start = walker.report();
+  if (start.elapsed > 0.0) {
+    start.events.clear();
+    start.elapsed = 0.0;
+  } else {
+    result_.add_placement(start);
+  }
+  note(start);
 }
 
 std::uint64_t Wander::cell(const Vec3& place) const {

@@ -71,6 +71,18 @@ TEST(Wander, IsTheSameWalkWhoeverLooks) {
   }
 }
 
+TEST(Wander, CountsNothingOfTheStepBefore) {
+  const World world = two_rooms();
+  Walker walker(world, person, Mode::fly, {0.32, 3, 1.5});
+  const StepReport& before = walker.step({.velocity = {8, 0, 0}}, 0.3);
+  ASSERT_LT(before.least_axis_clearance, 0.4);
+  Wander wander(walker, {.seconds = 0.01});
+  EXPECT_EQ(wander.result().least_axis_clearance, 0.0) << "none is known yet";
+  wander.advance();
+  EXPECT_GT(wander.result().least_axis_clearance, 0.6);
+  EXPECT_TRUE(wander.result().events.empty());
+}
+
 TEST(Wander, RefusesWhatCannotBe) {
   const World world = two_rooms();
   Walker walker(world, person, Mode::walk, {3, 3, 0.95});
