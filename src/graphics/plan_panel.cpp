@@ -21,6 +21,7 @@ const osg::Vec4 rim(0.36f, 0.39f, 0.45f, 1.0f);
 const osg::Vec4 wall(0.13f, 0.15f, 0.20f, 1.0f);
 const osg::Vec4 below(0.66f, 0.70f, 0.76f, 1.0f);
 const osg::Vec4 blue(0.10f, 0.38f, 0.72f, 1.0f);
+const osg::Vec4 green(0.08f, 0.47f, 0.25f, 1.0f);
 const osg::Vec4 ink(0.11f, 0.13f, 0.17f, 1.0f);
 
 constexpr float small_share = 0.34f, large_share = 0.86f;  ///< of the picture's height
@@ -60,7 +61,8 @@ PlanPanel::PlanPanel(Frame& frame)
       map_(new osg::MatrixTransform),
       body_(new osg::MatrixTransform),
       lines_(new osg::Group),
-      trail_(new osg::Group) {
+      trail_(new osg::Group),
+      names_(new osg::Group) {
   group_->setName("plan");
   osg::StateSet& state = *group_->getOrCreateStateSet();
   state.setRenderBinDetails(0, "TraversalOrderBin", osg::StateSet::OVERRIDE_RENDERBIN_DETAILS);
@@ -70,7 +72,7 @@ PlanPanel::PlanPanel(Frame& frame)
   map_->addChild(trail_);
   map_->getOrCreateStateSet()->setMode(GL_LINE_SMOOTH, osg::StateAttribute::ON);
   for (osg::Node* node : {static_cast<osg::Node*>(frame_parts_.get()), static_cast<osg::Node*>(map_.get()),
-                          static_cast<osg::Node*>(body_.get())}) {
+                          static_cast<osg::Node*>(names_.get()), static_cast<osg::Node*>(body_.get())}) {
     group_->addChild(node);
   }
   group_->setNodeMask(0u);
@@ -87,6 +89,37 @@ void PlanPanel::set_lines(const PlanLines& lines) {
 
 void PlanPanel::set_trail(const std::vector<glm::vec2>& trail) {
   show_only(*trail_, {strokes(trail, GL_LINE_STRIP, blue)});
+}
+
+void PlanPanel::set_places(const std::vector<PlanPlace>& places) {
+  if (places == places_) return;
+  places_ = places;
+  lay_out_places();
+}
+
+void PlanPanel::lay_out_places() {
+  const Page page = Page::of(static_cast<float>(frame_.width()), static_cast<float>(frame_.height()));
+  names_->removeChildren(0, names_->getNumChildren());
+  texts_.clear();
+  for (const PlanPlace& place : places_) {
+    texts_.push_back(make_text("\u25cf " + place.name, {page.letter, false, green}, 0.0f, 0.0f));
+    names_->addChild(texts_.back());
+  }
+}
+
+/// Puts each dot to its place. Names that would leave the panel are not shown.
+void PlanPanel::move_places() {
+  const Rectangle r = place();
+  const double scale = 0.5 * static_cast<double>(r.width) / view_.half;
+  const float letter = static_cast<float>(Page::of(static_cast<float>(width_), static_cast<float>(height_)).letter);
+  for (std::size_t i = 0; i < texts_.size(); ++i) {
+    const glm::dvec2 at = scale * (places_[i].at - view_.centre);
+    const float x = r.x + 0.5f * r.width + static_cast<float>(std::clamp(at.x, -1e6, 1e6)) - 0.38f * letter;
+    const float y = r.y + 0.5f * r.height + static_cast<float>(std::clamp(at.y, -1e6, 1e6)) - 0.36f * letter;
+    const bool inside = x >= r.x && x + texts_[i]->width() <= r.x + r.width && y >= r.y && y + letter <= r.y + r.height;
+    texts_[i]->setNodeMask(inside ? ~0u : 0u);
+    texts_[i]->set_place(x, y);
+  }
 }
 
 Rectangle PlanPanel::place() const {
@@ -134,6 +167,7 @@ void PlanPanel::lay_out() {
   body_->removeChildren(0, body_->getNumChildren());
   body_->addChild(strokes({{arm, 0.0f}, {-0.7f * arm, 0.6f * arm}, {-0.35f * arm, 0.0f}, {-0.7f * arm, -0.6f * arm}},
                           GL_TRIANGLE_FAN, blue));
+  lay_out_places();
 }
 
 void PlanPanel::set_view(const PlanView& view) {
@@ -150,6 +184,7 @@ void PlanPanel::set_view(const PlanView& view) {
                   osg::Matrixd::translate(middle.x + scale * from.x, middle.y + scale * from.y, 0.0));
   body_->setMatrix(osg::Matrixd::rotate(view.yaw, osg::Vec3d(0.0, 0.0, 1.0)) *
                    osg::Matrixd::translate(middle.x, middle.y, 0.0));
+  move_places();
 }
 
 std::optional<glm::dvec2> PlanPanel::at(double x, double y) const {

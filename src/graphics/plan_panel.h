@@ -15,9 +15,11 @@
 #include <osg/Group>
 #include <osg/MatrixTransform>
 #include <osg/ref_ptr>
+#include <string>
 #include <vector>
 
 #include "graphics/frame.h"
+#include "graphics/lettering.h"
 #include "graphics/plate.h"
 
 namespace roam::graphics {
@@ -29,6 +31,13 @@ enum class PlanSize : std::uint8_t { none, small, large };
 struct PlanLines {
   glm::dvec2 base{0.0};
   std::vector<glm::vec2> walls{}, below{};  ///< at body height; lower
+};
+
+/// A named place.
+struct PlanPlace {
+  glm::dvec2 at{0.0};  ///< metres
+  std::string name;    ///< UTF-8
+  bool operator==(const PlanPlace&) const = default;
 };
 
 /// The part that is shown. It may change in each frame.
@@ -49,6 +58,7 @@ class PlanPanel {
   void set_lines(const PlanLines& lines);
   /// Metres, from the base of the lines.
   void set_trail(const std::vector<glm::vec2>& trail);
+  void set_places(const std::vector<PlanPlace>& places);
   void set_view(const PlanView& view);
   /// The metres at a point of the picture, x and y in [-1, 1]; none outside of the panel.
   [[nodiscard]] std::optional<glm::dvec2> at(double x, double y) const;
@@ -56,6 +66,8 @@ class PlanPanel {
  private:
   [[nodiscard]] Rectangle place() const;
   void lay_out();
+  void lay_out_places();
+  void move_places();
 
   Frame& frame_;
   PlanView view_;
@@ -65,7 +77,9 @@ class PlanPanel {
   PlanSize laid_size_ = PlanSize::none;
   osg::ref_ptr<osg::Group> parent_, group_, frame_parts_;
   osg::ref_ptr<osg::MatrixTransform> map_, body_;
-  osg::ref_ptr<osg::Group> lines_, trail_;
+  osg::ref_ptr<osg::Group> lines_, trail_, names_;
+  std::vector<PlanPlace> places_;
+  std::vector<osg::ref_ptr<Text>> texts_;  ///< of the places
 };
 
 }  // namespace roam::graphics

@@ -59,6 +59,36 @@ TEST(GraphicsPlanPanel, ShowsWallsWhereTheyAre) {
   EXPECT_GT(dark, 10);
 }
 
+TEST(GraphicsPlanPanel, ShowsNamedPlacesThatLieOnIt) {
+  const auto is_green = [](const Pixel& p) { return p.g > p.r + 40 && p.g > p.b + 20; };
+  Stage stage(640, 360);
+  PlanPanel plan(stage.frame);
+  const glm::dvec2 body(4e6, 5e6), door = body + glm::dvec2(-4.0, 3.0);
+  plan.set_places({{door, "door"}, {body + glm::dvec2(50.0, 0.0), "far"}});
+  plan.set_view({.size = PlanSize::small, .centre = body, .half = 10.0, .yaw = 0.0});
+  const auto picture = stage.picture(true);
+  int left = 640, bottom = 0, count = 0;
+  for (int y = 0; y < 360; ++y) {
+    for (int x = 400; x < 640; ++x) {
+      if (!is_green(at(*picture, x, y))) continue;
+      ++count;
+      if (x < left) bottom = y;
+      left = std::min(left, x);
+    }
+  }
+  EXPECT_GT(count, 20);
+  const auto dot = plan.at(2.0 * (left + 3) / 640 - 1.0, 2.0 * bottom / 360 - 1.0);
+  ASSERT_TRUE(dot);
+  EXPECT_LT(glm::distance(*dot, door), 0.8);
+  plan.set_places({});
+  const auto without = stage.picture(true);
+  int rest = 0;
+  for (int y = 0; y < 360; ++y) {
+    for (int x = 400; x < 640; ++x) rest += is_green(at(*without, x, y));
+  }
+  EXPECT_EQ(rest, 0);
+}
+
 TEST(GraphicsPlanPanel, IsNotThereUnlessWanted) {
   Stage stage(640, 360);
   const auto without = stage.picture(true);

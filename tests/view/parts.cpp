@@ -277,6 +277,27 @@ TEST(Bookmarks, AreKeptForTheirSceneAlone) {
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(file.parent_path()), {}), 1);
 }
 
+TEST(Bookmarks, AreGivenNames) {
+  const TestFolder folder;
+  const std::filesystem::path file = folder.file("b.json");
+  Bookmarks mine(file, {"mine.obj"}, {});
+  EXPECT_TRUE(contains(error_of([&] { mine.rename("shaft"); }), "keep one first"));
+  mine.add({{1, 2, 3}, 90, -5});
+  mine.rename("shaft");
+  EXPECT_EQ(mine.present()->name, "shaft");
+  EXPECT_EQ(mine.add({{4, 5, 6}, 0, 0}).name, "1");
+  EXPECT_TRUE(contains(error_of([&] { mine.rename("shaft"); }), "another bookmark has the name shaft"));
+  mine.rename("1");
+  Bookmarks other(file, {"mine.obj"}, {});
+  EXPECT_EQ(other.names(), "shaft, 1");
+  EXPECT_EQ(other.find("shaft")->pose.position, Vec3(1, 2, 3));
+  // Another session has renamed it meanwhile.
+  other.rename("door");
+  EXPECT_TRUE(mine.find("shaft"));
+  EXPECT_TRUE(contains(error_of([&] { mine.rename("hall"); }), "no longer there"));
+  EXPECT_EQ(Bookmarks(file, {"mine.obj"}, {}).names(), "door, 1");
+}
+
 TEST(Bookmarks, OfAnotherFrameAreNotTakenButKnown) {
   const TestFolder folder;
   const std::filesystem::path file = folder.file("b.json");

@@ -243,6 +243,33 @@ TEST(Session, KeepsBookmarksAndGoesThere) {
   EXPECT_TRUE(std::filesystem::exists(d.folder.file("config/roam/bookmarks.json")));
 }
 
+TEST(Session, NamesABookmarkByTyping) {
+  Driven d(room_obj(), {10, 1, 0.95, 0});
+  d.session->run("name_bookmark");
+  EXPECT_TRUE(contains(d.hud(), "keep one first")) << d.hud();
+  d.tap('b');
+  const Vec3 before = d.place();
+  d.session->run("name_bookmark");
+  EXPECT_TRUE(contains(d.hud(), "Name of the bookmark: 1_")) << d.hud();
+  d.tap(osgGA::GUIEventAdapter::KEY_BackSpace);
+  for (const int key : {int{'w'}, int{'x'}, 0xfc, 0x01000416, int{' '}, int{'2'}}) d.tap(key);
+  EXPECT_TRUE(contains(d.hud(), "Name of the bookmark: wx\u00fc\u0416 2_")) << d.hud();
+  d.tap(osgGA::GUIEventAdapter::KEY_BackSpace);
+  d.tap(osgGA::GUIEventAdapter::KEY_BackSpace);
+  d.tap(osgGA::GUIEventAdapter::KEY_BackSpace);
+  d.tap(osgGA::GUIEventAdapter::KEY_Return);
+  EXPECT_TRUE(contains(d.hud(), "bookmark wx\u00fc")) << d.hud();
+  EXPECT_LT(glm::distance(d.place(), before), 1e-6) << "the typed keys moved nobody";
+  d.session->run("name_bookmark");
+  d.tap('z');
+  d.tap(osgGA::GUIEventAdapter::KEY_Escape);
+  EXPECT_FALSE(contains(d.hud(), "Name of the bookmark"))
+      << "and Escape does not begin to end the session: " << d.hud();
+  EXPECT_FALSE(contains(d.hud(), "again")) << d.hud();
+  d.tap(osgGA::GUIEventAdapter::KEY_Tab);
+  EXPECT_TRUE(contains(d.hud(), "bookmark wx\u00fc (1 of 1)")) << d.hud();
+}
+
 TEST(Session, RecordsTheWayThatWasWalked) {
   Driven d(room_obj(), {10, 0, 0.95, 0});
   const auto before = std::filesystem::current_path();

@@ -79,6 +79,14 @@ Json to_json(const Bookmark& bookmark) {
           {"pitch", bookmark.pose.pitch}};
 }
 
+std::vector<Bookmark>::iterator named(std::vector<Bookmark>& bookmarks, const std::string& name) {
+  return std::find_if(bookmarks.begin(), bookmarks.end(), [&](const Bookmark& b) { return b.name == name; });
+}
+
+bool has(std::vector<Bookmark>& bookmarks, const std::string& name) {
+  return named(bookmarks, name) != bookmarks.end();
+}
+
 }  // namespace
 
 Bookmarks::Bookmarks(std::filesystem::path file, const std::vector<std::filesystem::path>& scenes,
@@ -105,8 +113,7 @@ Bookmarks::Bookmarks(std::filesystem::path file, const std::vector<std::filesyst
 }
 
 const Bookmark* Bookmarks::find(const std::string& name) {
-  const auto found =
-      std::find_if(bookmarks_.begin(), bookmarks_.end(), [&](const Bookmark& b) { return b.name == name; });
+  const auto found = named(bookmarks_, name);
   if (found == bookmarks_.end()) return nullptr;
   present_ = static_cast<std::size_t>(found - bookmarks_.begin());
   return &*found;
@@ -133,7 +140,8 @@ std::string Bookmarks::names() const {
   return text;
 }
 
-const Bookmark& Bookmarks::add(const Pose& pose) {
+/// Edits the scene's list with the changes of other sessions, and writes the file.
+void Bookmarks::change(const std::function<void(std::vector<Bookmark>&)>& edit) {
   if (file_.empty()) throw Error("there is no folder for bookmarks: set HOME or XDG_CONFIG_HOME");
   Json document = read(file_);
   const auto is_ours = [&](const Json& scene) {
@@ -149,12 +157,7 @@ const Bookmark& Bookmarks::add(const Pose& pose) {
     ours = std::prev(document.end());
   }
   std::vector<Bookmark> bookmarks = bookmarks_of(*ours, file_);
-  const auto is_taken = [&](const std::string& name) {
-    return std::any_of(bookmarks.begin(), bookmarks.end(), [&](const Bookmark& b) { return b.name == name; });
-  };
-  Bookmark added{"1", pose};
-  for (int number = 2; is_taken(added.name); ++number) added.name = std::to_string(number);
-  bookmarks.push_back(added);
+  edit(bookmarks);
   Json list = Json::array();
   for (const Bookmark& bookmark : bookmarks) list.push_back(to_json(bookmark));
   (*ours)["bookmarks"] = list;
@@ -162,8 +165,30 @@ const Bookmark& Bookmarks::add(const Pose& pose) {
   std::filesystem::create_directories(file_.parent_path(), none);
   files::write_whole(file_, document.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
   bookmarks_ = std::move(bookmarks);
+}
+
+const Bookmark& Bookmarks::add(const Pose& pose) {
+  change([&](std::vector<Bookmark>& bookmarks) {
+    Bookmark added{"1", pose};
+    for (int number = 2; has(bookmarks, added.name); ++number) added.name = std::to_string(number);
+    bookmarks.push_back(added);
+  });
   present_ = bookmarks_.size() - 1;
   return bookmarks_.back();
+}
+
+void Bookmarks::rename(const std::string& name) {
+  if (!present_) throw Error("there is no bookmark to name; keep one first");
+  const std::string old = bookmarks_[*present_].name;
+  if (name == old) return;
+  change([&](std::vector<Bookmark>& bookmarks) {
+    if (has(bookmarks, name))
+      throw Error(fmt::format("another bookmark has the name {}; take another", printable(name)));
+    const auto found = named(bookmarks, old);
+    if (found == bookmarks.end()) throw Error(fmt::format("the bookmark {} is no longer there", printable(old)));
+    found->name = name;
+  });
+  find(name);
 }
 
 }  // namespace roam::app

@@ -3,6 +3,7 @@
 /// Named poses in a scene, kept from one session to the next.
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <utility>
@@ -24,7 +25,7 @@ struct Bookmark {
 ///       "bookmarks": [{"name": "shaft", "position": [1, 2, 3], "yaw": 90, "pitch": 0}]}]
 ///
 /// Absolute paths identify a scene, together with its frame, which its positions are of. An empty "up" is the axis that
-/// is up without --up. Only add() writes the file, as a whole: a reader sees the old or the new one.
+/// is up without --up. Only add() and rename() write the file, as a whole: a reader sees the old or the new one.
 class Bookmarks {
  public:
   /// Reads the file; a missing file has no bookmarks. `usual`: the frame without options. Throws roam::Error if the
@@ -46,8 +47,16 @@ class Bookmarks {
   /// Adds a pose under the smallest unused number, and writes the file with the changes of other sessions. It becomes
   /// the present bookmark. Throws roam::Error if that fails; nothing is added then.
   const Bookmark& add(const Pose& pose);
+  /// The present bookmark, and its number from 1; null if there is none.
+  [[nodiscard]] const Bookmark* present() const { return present_ ? &bookmarks_[*present_] : nullptr; }
+  [[nodiscard]] std::size_t number() const { return present_ ? *present_ + 1 : 0; }
+  /// Gives the present bookmark another name, and writes the file. Throws roam::Error if another has that name, or if
+  /// the file cannot be written; nothing changes then.
+  void rename(const std::string& name);
 
  private:
+  void change(const std::function<void(std::vector<Bookmark>&)>& edit);
+
   std::filesystem::path file_;
   std::vector<std::string> scenes_;
   SceneFrame frame_, usual_;

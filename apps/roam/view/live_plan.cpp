@@ -120,7 +120,7 @@ void LivePlan::follow() {
   trail_.resize((trail_.size() + 1) / 2);
 }
 
-void LivePlan::update(bool visible) {
+void LivePlan::update(bool visible, const std::vector<graphics::PlanPlace>& places) {
   if (roamer_.walker() == nullptr) return;
   follow();
   graphics::PlanView view;
@@ -140,6 +140,7 @@ void LivePlan::update(bool visible) {
     panel_.set_trail(trail);
     trail_shown_ = trail_.size();
   }
+  panel_.set_places(places);
   view.size = size_;
   view.centre = seen_from_above(centre);
   view.half = half();

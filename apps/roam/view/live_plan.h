@@ -27,7 +27,7 @@ class LivePlan {
   void cycle();
   [[nodiscard]] graphics::PlanSize size() const { return size_; }
   /// Call it in each frame. `visible` false: nothing is shown or cut.
-  void update(bool visible);
+  void update(bool visible, const std::vector<graphics::PlanPlace>& places);
   /// The metres at a point of the picture, x and y in [-1, 1]; none outside of the plan.
   [[nodiscard]] std::optional<glm::dvec2> at(double x, double y) const { return panel_.at(x, y); }
   /// Sends the body to the floor at a point of the plan, as a double click in the picture does. False if there is none.

@@ -5,6 +5,7 @@
 #include "cli/exit_status.h"
 #include "roam/error.h"
 #include "scenes/frame.h"
+#include "text/printable.h"
 #include "view/body.h"
 #include "view/settings.h"
 
@@ -55,6 +56,26 @@ void Records::add_bookmark() {
   news_.tell("bookmark " + bookmarks_->add(standing_pose_of(roamer_)).name);
 }
 
+void Records::name_bookmark(const std::string& name) {
+  if (!bookmarks_) throw Error(*problem_);
+  bookmarks_->rename(name);
+  news_.tell("bookmark " + bookmarks_->present()->name);
+}
+
+std::string Records::bookmark() const {
+  const Bookmark* const present = bookmarks_ ? bookmarks_->present() : nullptr;
+  return present == nullptr ? std::string() : present->name;
+}
+
+std::vector<graphics::PlanPlace> Records::places() const {
+  std::vector<graphics::PlanPlace> places;
+  if (!bookmarks_) return places;
+  for (const Bookmark& bookmark : bookmarks_->all()) {
+    places.push_back({glm::dvec2(bookmark.pose.position), printable(bookmark.name)});
+  }
+  return places;
+}
+
 void Records::go_to_next_bookmark(bool backwards) {
   const Bookmark* bookmark = bookmarks_ ? bookmarks_->next(backwards) : nullptr;
   if (bookmark == nullptr) {
@@ -62,7 +83,7 @@ void Records::go_to_next_bookmark(bool backwards) {
     return;
   }
   go_to(roamer_, bookmark->pose);
-  news_.tell("bookmark " + bookmark->name);
+  news_.tell(fmt::format("bookmark {} ({} of {})", bookmark->name, bookmarks_->number(), bookmarks_->all().size()));
 }
 
 void Records::record(const std::filesystem::path& file, files::Naming naming) {

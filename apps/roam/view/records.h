@@ -5,7 +5,9 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
+#include "graphics/plan_panel.h"
 #include "osgRoam/Manipulator.h"
 #include "roam/error.h"
 #include "roam/scene_frame.h"
@@ -31,6 +33,12 @@ class Records {
   [[nodiscard]] Pose named(const std::string& name);
   /// Adds the body's pose. Throws roam::Error on failure.
   void add_bookmark();
+  /// Gives the bookmark that was kept or visited last another name. Throws roam::Error on failure.
+  void name_bookmark(const std::string& name);
+  /// That bookmark's name; empty: there is none.
+  [[nodiscard]] std::string bookmark() const;
+  /// All bookmarks, seen from above.
+  [[nodiscard]] std::vector<graphics::PlanPlace> places() const;
   /// Puts the body at the next bookmark, or the previous one; at first, at the first or the last.
   void go_to_next_bookmark(bool backwards);
   /// Adds both as "bookmark" and "next_bookmark". Adds "record", which ends the recording, or begins one in the current

@@ -63,6 +63,7 @@ Session::Session(const ViewOptions& options, const ViewPlan& plan, const ViewSet
       scene_(stage_.viewer(), *stage_.frame().space(), load_picture(what_, arrival_.loader(), stage_),
              stage_.headless() ? SceneGraph::Arrival::at_once : SceneGraph::Arrival::smooth),
       display_(stage_, scene_, *roamer_, news_, plan_.fov),
+      prompt_(new Prompt(stage_)),
       tools_(new Tools(stage_, scene_, *roamer_, what_, options.program, plan_.section)),
       building_(what_, options.program, *roamer_, news_) {
   for (const std::string& note : {plan_.note, link_beside(what_)}) {
@@ -72,10 +73,12 @@ Session::Session(const ViewOptions& options, const ViewPlan& plan, const ViewSet
   display_.add_to(commands_);
   commands_.add("store", [this] { building_.toggle(arrival_.pager(), place(), arrival_.triangles()); });
   commands_.add("turn", [this] { turn(); });
+  commands_.add("name_bookmark", [this] { name_bookmark(); });
   commands_.add("leave_out", [this] { leave_out_ahead(); });
   commands_.add("show_all", [this] { show_all(); });
   commands_.add("quit", [this] { quits_ = true; });
   roamer_->setCommandCallback([this](const std::string& name) { run(name); });
+  stage_.viewer().addEventHandler(prompt_);
   stage_.viewer().addEventHandler(new SessionHandler(*this));
   stage_.viewer().addEventHandler(new Menu(stage_, *roamer_));
   stage_.viewer().addEventHandler(tools_);
@@ -206,6 +209,21 @@ void Session::turn() {
   }
 }
 
+void Session::name_bookmark() {
+  const std::string name = records_.bookmark();
+  if (name.empty()) {
+    news_.tell("there is no bookmark to name: keep one first");
+    return;
+  }
+  prompt_->ask("Name of the bookmark", name, [this](const std::string& text) {
+    try {
+      records_.name_bookmark(text);
+    } catch (const Error& error) {
+      news_.note(error.what());
+    }
+  });
+}
+
 void Session::leave_out_ahead() {
   const std::string& name = status().around.ahead;
   if (!roaming() || name.empty()) {
@@ -244,7 +262,7 @@ bool Session::is_at_its_end() const {
 void Session::show(bool at_once) {
   graphics::Marks marks;
   tools_->add_to(marks);
-  tools_->update(roaming());
+  tools_->update(roaming(), records_.places());
   display_.update(roaming(), roaming() && !arrival_.is_ghost_only() ? roamer_->leastEyeDistance() : plan_.walker.radius,
                   std::move(marks));
   if (!at_once && !display_.is_due()) return;

@@ -13,6 +13,7 @@
 #include "view/learning.h"
 #include "view/news.h"
 #include "view/options.h"
+#include "view/prompt.h"
 #include "view/records.h"
 #include "view/replay.h"
 #include "view/scene_graph.h"
@@ -85,6 +86,7 @@ class Session {
   void see_to_store();
   void show_keys();
   void turn();
+  void name_bookmark();
   void leave_out_ahead();
   void show_all();
   [[nodiscard]] bool can_begin_anew();
@@ -107,6 +109,7 @@ class Session {
   Arrival arrival_;
   SceneGraph scene_;
   Display display_;
+  const osg::ref_ptr<Prompt> prompt_;
   const osg::ref_ptr<Tools> tools_;
   StoreBuilding building_;
   std::optional<Learning> learning_;

@@ -82,9 +82,9 @@ void Tools::toggle_section() {
               seconds);
 }
 
-void Tools::update(bool has_body) {
+void Tools::update(bool has_body, const std::vector<graphics::PlanPlace>& places) {
   section_.show(scene_.group(), scene_.origin());
-  if (has_body) plan_.update(stage_.hud().detail() != graphics::Detail::off);
+  if (has_body) plan_.update(stage_.hud().detail() != graphics::Detail::off, places);
 }
 
 Tools::Point Tools::point_of(const Adapter& event) const {

@@ -32,8 +32,8 @@ class Tools : public osgGA::GUIEventHandler {
   /// Adds "measure" and "section", which turn these tools on or off; "probe", which searches a way between the measured
   /// points; and "plan", which shows the plan smaller, larger or not.
   void add_to(Commands& commands);
-  /// Call it in each frame.
-  void update(bool has_body);
+  /// Call it in each frame. `places`: for the plan.
+  void update(bool has_body, const std::vector<graphics::PlanPlace>& places);
 
   using osgGA::GUIEventHandler::handle;
   bool handle(const osgGA::GUIEventAdapter& event, osgGA::GUIActionAdapter& action) override;
