@@ -377,6 +377,7 @@ TEST(GraphicsHud, HelpSaysWhichLineIsAtAPoint) {
 TEST(GraphicsHud, AButtonIsAtTheLowerLeft) {
   Stage stage(640, 360);
   Hud hud(stage.frame);
+  hud.set_crosshair(false);
   hud.set_button("Menu: H");
   const Region button = shown_in(stage);
   EXPECT_LT(button.right, 160);
