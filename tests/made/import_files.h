@@ -110,9 +110,7 @@ std::string bytes_of(T value, bool big_endian = false) {
 /// The folder of the test scenes; empty if there is none.
 inline std::filesystem::path test_data() {
   const char* named = std::getenv("ROAM_TEST_DATA");
-  const std::filesystem::path folder =
-      named != nullptr ? std::filesystem::path(named)
-                       : std::filesystem::path(__FILE__).parent_path().parent_path().parent_path() / "shared" / "data";
+  const std::filesystem::path folder = named != nullptr ? named : "";
   std::error_code none;
   return std::filesystem::is_directory(folder, none) ? folder : std::filesystem::path();
 }
