@@ -51,10 +51,8 @@ enum class Outcome : std::uint8_t {
 };
 [[nodiscard]] const char* to_string(Outcome outcome);  ///< "reached", "blocked", "left_scene", "fell" or "held"
 
-struct Blockage {
-  Vec3 point{0.0};   ///< on the triangle
-  Vec3 normal{0.0};  ///< from the point towards the body
-  TriangleId triangle = no_triangle;
+/// The contact that the body could not pass, from StepReport::contacts.
+struct Blockage : Contact {
   std::optional<double> opening;  ///< width of the opening that is too small, see measure_opening(); none: closed wall
 };
 

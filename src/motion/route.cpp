@@ -236,7 +236,7 @@ void Route::describe_blockage(const StepReport& report) {
   const Vec3 way = way_to(waypoints_[next_], *walker_);
   const Contact* c = most_against(report, way);
   if (c == nullptr || waits_for_space(way, report)) return;
-  Blockage blockage{c->point, c->normal, c->triangle, std::nullopt};
+  Blockage blockage{*c, std::nullopt};
   const double length = glm::length(way);
   if (length > at_waypoint && !c->unknown) {
     if (const auto opening = measure_opening(*walker_, way / length)) blockage.opening = opening->width;
