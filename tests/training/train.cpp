@@ -67,7 +67,7 @@ TEST(Training, FindsBothEndsAndTakesAPersonWhereOneFits) {
 }
 
 TEST(Training, BecomesAProfileThatHoldsAllOfTheBodyAndIsOfTheScene) {
-  const Survey survey = Survey::build({corridor_mesh({.door = 0.3})}, {.slope_degrees = 40.0, .lossless = true});
+  const Survey survey = Survey::build({corridor_mesh({.door = 0.3})}, {.lossless = true}, 40.0);
   const roam::SceneIdentity scene = roam::identity_of(survey.meshes());
   for (const auto& options :
        std::vector<TrainOptions>{{.paths = 1, .height = 1.8, .step = 0.25},
