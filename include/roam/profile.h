@@ -83,14 +83,12 @@ void check(const Profile& profile);
 /// Writes atomically: a temporary file, synced and renamed. Throws roam::Error if it cannot be written, or as check()
 /// does.
 void save_profile(const Profile& profile, const std::filesystem::path& file);
-/// Loads the file profile_path(scene), if it exists and has a body. Throws as load_profile does.
-[[nodiscard]] std::optional<Profile> find_profile(const std::filesystem::path& scene);
-[[nodiscard]] std::optional<Profile> find_profile(std::span<const std::filesystem::path> scenes);
-
-/// As above, and throws roam::Error if the profile is of another scene.
-[[nodiscard]] std::optional<Profile> find_profile(const std::filesystem::path& scene, const SceneIdentity& identity);
+/// Loads the file profile_path(scene), if it exists and has a body. Throws as load_profile does, and roam::Error if the
+/// profile is of another scene than `identity`, if that is given.
+[[nodiscard]] std::optional<Profile> find_profile(const std::filesystem::path& scene,
+                                                  const std::optional<SceneIdentity>& identity = {});
 [[nodiscard]] std::optional<Profile> find_profile(std::span<const std::filesystem::path> scenes,
-                                                  const SceneIdentity& identity);
+                                                  const std::optional<SceneIdentity>& identity = {});
 
 /// The frame in the file profile_path(scenes), to be found before the scene is read. None if there is no file, or no
 /// frame in it. Throws as load_profile does.
