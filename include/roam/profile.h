@@ -22,7 +22,6 @@
 #include "roam/math.h"
 #include "roam/mesh.h"
 #include "roam/scene_frame.h"
-#include "roam/size_region.h"
 #include "roam/walker.h"
 
 namespace roam {

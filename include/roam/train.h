@@ -22,7 +22,6 @@
 #include "roam/crack.h"
 #include "roam/opening.h"
 #include "roam/profile.h"
-#include "roam/size_region.h"
 #include "roam/survey.h"
 #include "roam/trial.h"
 #include "roam/walker_settings.h"

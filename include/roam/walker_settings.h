@@ -1,14 +1,14 @@
 #pragma once
 /// \file
-/// Settings and input of a Walker: the body, what it can do, and the wish for one step.
+/// Settings and input of a Walker: the body, what it can do, its size by region, and the wish for one step.
 
 #include <cstdint>
 #include <limits>
 #include <span>
+#include <string>
 
 #include "roam/error.h"
 #include "roam/math.h"
-#include "roam/size_region.h"
 #include "roam/sweep.h"
 
 namespace roam {
@@ -45,6 +45,15 @@ struct WalkerSettings {
   static WalkerSettings person(double radius, double height);
   /// A sphere, as in the paper: the eye at its centre, a step of at most its radius.
   static WalkerSettings sphere(double radius);
+};
+
+/// A region of a scene with its own size of the body, for Walker::set_regions(). Where regions overlap, the smallest body
+/// and the largest support disc apply.
+struct SizeRegion {
+  Box bounds = {};              ///< finite, not empty
+  double radius = 0.0;          ///< of the body, > 0; a capsule keeps its height
+  double support_radius = 0.0;  ///< of the support disc, see WalkerSettings::support_radius; 0: no disc in here
+  std::string why = {};         ///< for display: "door 0.71 m wide"
 };
 
 /// Throws roam::Error, naming the setting, its value and its range, if a setting is out of range or NaN.
