@@ -18,7 +18,6 @@
 #include <string>
 #include <vector>
 
-#include "roam/error.h"
 #include "roam/math.h"
 #include "roam/mesh.h"
 #include "roam/scene_frame.h"

@@ -19,7 +19,6 @@
 #include <span>
 #include <vector>
 
-#include "roam/error.h"
 #include "roam/math.h"
 #include "roam/standing.h"
 #include "roam/step_report.h"

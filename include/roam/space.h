@@ -31,7 +31,6 @@
 #include <span>
 #include <string>
 
-#include "roam/error.h"
 #include "roam/math.h"
 #include "roam/sweep.h"
 

@@ -14,8 +14,6 @@
 #include <span>
 #include <vector>
 
-#include "roam/error.h"
-#include "roam/math.h"
 #include "roam/mesh.h"
 #include "roam/world.h"
 
