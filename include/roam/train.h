@@ -81,18 +81,6 @@ struct UnwalkedPath {
   Vec3 at{0.0};                        ///< its feet at the end
 };
 
-/// The opening or crack that decides an end of the interval.
-struct Decisive {
-  enum class Kind : std::uint8_t { opening, split };
-  Kind kind = Kind::opening;
-  Vec3 point{0.0};
-  double width = 0.0;
-  Vec3 direction{0.0};  ///< unit, across
-};
-
-/// "opening" or "split".
-[[nodiscard]] const char* to_string(Decisive::Kind kind);
-
 /// Why a part of the scene was left out.
 enum class LeftOut : std::uint8_t {
   none,            ///< trained
@@ -176,8 +164,10 @@ struct Training {
   std::optional<PaperResult> paper;  ///< of Method::paper
 
   // The interval of radii that pass all paths; over uneven rims it begins above `smallest`.
-  double smallest = 0.0;          ///< 0: no crack
-  std::optional<double> largest;  ///< none: unlimited
+  double smallest = 0.0;             ///< 0: no crack
+  std::optional<double> largest;     ///< none: unlimited
+  std::optional<Crack> widest;       ///< decides `smallest`
+  std::optional<Opening> narrowest;  ///< decides `largest`
   /// Smallest radius that crosses all cracks of the paths both ways: `smallest`, or more over an uneven rim; infinite
   /// if no tried radius does.
   double least = 0.0;
@@ -192,7 +182,6 @@ struct Training {
   std::uint64_t uncertain_ways = 0;  ///< planned, but certified for no size; not counted as paths
   std::vector<Crack> cracks;         ///< of the reached floor, widest first
   bool all_cracks = true;            ///< false: ended before all were found
-  std::vector<Decisive> decisive;    ///< of the upper end, then of the lower
   std::vector<SizeRegion> regions;   ///< where another size is needed, and why
   std::vector<ConnectedPart> parts;  ///< trained ones first, then by number of positions
   std::uint64_t separate = 0;        ///< searched parts without a way between them, small ones included

@@ -219,8 +219,6 @@ Training trained(const Survey& survey, const TrainOptions& options) {
 
 const char* to_string(Method method) { return method == Method::paper ? "paper" : "interval"; }
 
-const char* to_string(Decisive::Kind kind) { return kind == Decisive::Kind::opening ? "opening" : "split"; }
-
 Profile profile_of(const Training& training, const SceneIdentity& scene) {
   Profile profile;
   profile.scene = scene;
