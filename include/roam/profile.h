@@ -41,23 +41,26 @@ struct SceneIdentity {
 [[nodiscard]] SceneIdentity identity_of(std::span<const Mesh> meshes);
 [[nodiscard]] SceneIdentity identity_of(const StoreInfo& store);
 
-struct Profile {
-  static constexpr int version = 1;
-
-  SceneIdentity scene;
-
+/// A body that fits a scene.
+struct FittingBody {
   Mode mode = Mode::walk;       ///< walk or fly
   double radius = 0.0;          ///< m
   double height = 0.0;          ///< m; 2 * radius for a sphere
   double support_radius = 0.0;  ///< m; 0: none
   double step = 0.3;            ///< m
   double slope_degrees = 45.0;
-  std::optional<double> largest;  ///< upper end of the feasible interval of radii, m; none: unlimited
-  double smallest = 0.0;          ///< lower end, m; 0: no crack
-  std::vector<SizeRegion> regions;
+  std::optional<double> largest;    ///< upper end of the interval of radii that pass all paths, m; none: unlimited
+  double smallest = 0.0;            ///< lower end, m; 0: no crack
+  std::vector<SizeRegion> regions;  ///< where another size is needed, and why
+  bool complete = true;             ///< false: training ended early
+};
+
+struct Profile : FittingBody {
+  static constexpr int version = 1;
+
+  SceneIdentity scene;
   std::string method = "interval";  ///< "interval" or "paper" (train.h), or "roaming" (SizeLearner)
   std::optional<SceneFrame> frame;  ///< in which the scene is to be read; none: that of its format
-  bool complete = true;             ///< false: training was interrupted
 
   /// Whether this profile is of the scene: by a hash that both have; between a scene and a store, by the number of
   /// triangles and their exact bounds. False if either has no hash.
