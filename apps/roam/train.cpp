@@ -135,7 +135,7 @@ ExitStatus train(TrainVerbOptions o) {
     o.train.progress = [&](TrainStage stage, double done) { return progress.at(stage, done); };
     report.training = train(scene.survey, o.train);
   }
-  for (const Decisive& d : report.training.decisive)
+  for (const words::Decisive& d : words::decisive(report.training))
     report.names.push_back(scene.names_at(d.point, d.direction, d.width));
   Unwritten unwritten;
   unwritten.attempt([&] { write_profile(o, profile, scene.identity, report); });

@@ -35,7 +35,7 @@ int main() {
                    .triangles = {{0, 1, 2}, {0, 2, 3}}};
   roam::Instances scene(valley);
   const roam::ObjectId platform = scene.add(std::make_shared<roam::World>(roam::World::build({&plate, 1})),
-                                            {.position = {1.6, 0.0, 0.0}}, {.name = "platform"});
+                                            {.position = {1.6, 0.0, 0.0}}, "platform");
 
   roam::Walker person(scene, {.radius = 0.3}, roam::Mode::walk, {-3.0, 0.0, 1.0});
   roam::Walker* const people[] = {&person};

@@ -40,8 +40,7 @@ int main() {
   roam::Mesh leaf{.name = "leaf"};
   add_box(leaf, {-0.02, 0.02, 0.01}, {0.02, 0.98, 2.1});
   roam::Instances scene(rooms);
-  const roam::ObjectId door =
-      scene.add(std::make_shared<roam::World>(roam::World::build({&leaf, 1})), {}, {.name = "door"});
+  const roam::ObjectId door = scene.add(std::make_shared<roam::World>(roam::World::build({&leaf, 1})), {}, "door");
 
   roam::Walker person(scene, {.radius = 0.3}, roam::Mode::walk, {-3.0, 0.5, 1.0});
   roam::Walker* const people[] = {&person};

@@ -4,7 +4,7 @@
 ///
 ///     auto door = std::make_shared<roam::World>(roam::World::build({&mesh, 1}));  // its hinge at the origin
 ///     roam::Instances scene(house);
-///     const roam::ObjectId id = scene.add(door, {.position = hinge, .heading = 0.5 * pi}, {.name = "door"});
+///     const roam::ObjectId id = scene.add(door, {.position = hinge, .heading = 0.5 * pi}, "door");
 ///     scene.set_velocity(id, {.turning = 1.0});
 ///     roam::Walker walker(scene, settings, roam::Mode::walk, start);
 ///     roam::Walker* const walkers[] = {&walker};
@@ -45,11 +45,6 @@ struct Velocity {
   [[nodiscard]] Vec3 at(const Pose& pose, const Vec3& point) const;
 };
 
-struct InstanceLabel {
-  std::string name = {};  ///< object() returns both
-  std::uint64_t user_data = 0;
-};
-
 /// A space and the instances in it. Queries may run at the same time, but not during a change. Changes allocate.
 class Instances final : public LiveSpace {
  public:
@@ -68,9 +63,11 @@ class Instances final : public LiveSpace {
   Instances& operator=(const Instances&) = delete;
 
   /// Adds an instance of `world` at rest and returns its number, at least 2^31 and never reused. Instances may share a
-  /// world. Throws roam::Error for a pose that is not finite or beyond coordinate_limit, a world that is null, too
-  /// coarse (see usual_error) or larger than 4 billion triangles, and more than 2^30 instances.
-  ObjectId add(std::shared_ptr<const World> world, const Pose& pose, InstanceLabel label = {});
+  /// world. object() returns `name` and `user_data`. Throws roam::Error for a pose that is not finite or beyond
+  /// coordinate_limit, a world that is null, too coarse (see usual_error) or larger than 4 billion triangles, and more
+  /// than 2^30 instances.
+  ObjectId add(std::shared_ptr<const World> world, const Pose& pose, std::string name = {},
+               std::uint64_t user_data = 0);
   // Functions that take a number throw roam::Error if no instance has it, except has().
   void remove(ObjectId instance);
   /// Puts it there at once; a body that it then overlaps is freed or held by its next step. Throws as add() for a pose.

@@ -16,7 +16,6 @@
 #include <string>
 #include <vector>
 
-#include "roam/error.h"
 #include "roam/math.h"
 #include "roam/walker_settings.h"
 

@@ -18,11 +18,9 @@
 #include <string>
 #include <vector>
 
-#include "roam/error.h"
 #include "roam/math.h"
 #include "roam/mesh.h"
 #include "roam/scene_frame.h"
-#include "roam/size_region.h"
 #include "roam/walker.h"
 
 namespace roam {
@@ -43,23 +41,26 @@ struct SceneIdentity {
 [[nodiscard]] SceneIdentity identity_of(std::span<const Mesh> meshes);
 [[nodiscard]] SceneIdentity identity_of(const StoreInfo& store);
 
-struct Profile {
-  static constexpr int version = 1;
-
-  SceneIdentity scene;
-
+/// A body that fits a scene.
+struct FittingBody {
   Mode mode = Mode::walk;       ///< walk or fly
   double radius = 0.0;          ///< m
   double height = 0.0;          ///< m; 2 * radius for a sphere
   double support_radius = 0.0;  ///< m; 0: none
   double step = 0.3;            ///< m
   double slope_degrees = 45.0;
-  std::optional<double> largest;  ///< upper end of the feasible interval of radii, m; none: unlimited
-  double smallest = 0.0;          ///< lower end, m; 0: no crack
-  std::vector<SizeRegion> regions;
+  std::optional<double> largest;    ///< upper end of the interval of radii that pass all paths, m; none: unlimited
+  double smallest = 0.0;            ///< lower end, m; 0: no crack
+  std::vector<SizeRegion> regions;  ///< where another size is needed, and why
+  bool complete = true;             ///< false: training ended early
+};
+
+struct Profile : FittingBody {
+  static constexpr int version = 1;
+
+  SceneIdentity scene;
   std::string method = "interval";  ///< "interval" or "paper" (train.h), or "roaming" (SizeLearner)
   std::optional<SceneFrame> frame;  ///< in which the scene is to be read; none: that of its format
-  bool complete = true;             ///< false: training was interrupted
 
   /// Whether this profile is of the scene: by a hash that both have; between a scene and a store, by the number of
   /// triangles and their exact bounds. False if either has no hash.
@@ -83,14 +84,12 @@ void check(const Profile& profile);
 /// Writes atomically: a temporary file, synced and renamed. Throws roam::Error if it cannot be written, or as check()
 /// does.
 void save_profile(const Profile& profile, const std::filesystem::path& file);
-/// Loads the file profile_path(scene), if it exists and has a body. Throws as load_profile does.
-[[nodiscard]] std::optional<Profile> find_profile(const std::filesystem::path& scene);
-[[nodiscard]] std::optional<Profile> find_profile(std::span<const std::filesystem::path> scenes);
-
-/// As above, and throws roam::Error if the profile is of another scene.
-[[nodiscard]] std::optional<Profile> find_profile(const std::filesystem::path& scene, const SceneIdentity& identity);
+/// Loads the file profile_path(scene), if it exists and has a body. Throws as load_profile does, and roam::Error if the
+/// profile is of another scene than `identity`, if that is given.
+[[nodiscard]] std::optional<Profile> find_profile(const std::filesystem::path& scene,
+                                                  const std::optional<SceneIdentity>& identity = {});
 [[nodiscard]] std::optional<Profile> find_profile(std::span<const std::filesystem::path> scenes,
-                                                  const SceneIdentity& identity);
+                                                  const std::optional<SceneIdentity>& identity = {});
 
 /// The frame in the file profile_path(scenes), to be found before the scene is read. None if there is no file, or no
 /// frame in it. Throws as load_profile does.

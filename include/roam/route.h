@@ -14,14 +14,14 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
 
-#include "roam/error.h"
 #include "roam/math.h"
 #include "roam/standing.h"
-#include "roam/tally.h"
+#include "roam/step_report.h"
 #include "roam/walker.h"
 
 namespace roam {
@@ -51,11 +51,14 @@ enum class Outcome : std::uint8_t {
 };
 [[nodiscard]] const char* to_string(Outcome outcome);  ///< "reached", "blocked", "left_scene", "fell" or "held"
 
-struct Blockage {
-  Vec3 point{0.0};   ///< on the triangle
-  Vec3 normal{0.0};  ///< from the point towards the body
-  TriangleId triangle = no_triangle;
+/// The contact that the body could not pass, from StepReport::contacts.
+struct Blockage : Contact {
   std::optional<double> opening;  ///< width of the opening that is too small, see measure_opening(); none: closed wall
+};
+
+struct RouteEvent {
+  std::uint64_t step = 0;  ///< counted from 1; 0 is the start
+  Event event;
 };
 
 struct RouteResult : Tally {
@@ -63,7 +66,8 @@ struct RouteResult : Tally {
   std::size_t waypoints = 0;           ///< how many were reached, the start included
   Vec3 end{0.0};                       ///< the centre at the end
   std::optional<Blockage> blocked_at;  ///< if blocked by a contact, or held by unknown space
-  std::vector<RouteEvent> events;      ///< in order, as EventFilter picks them
+  /// In order: of each step the first event of each kind, unless the step before had that kind too.
+  std::vector<RouteEvent> events;
 };
 
 class Route {
@@ -83,39 +87,23 @@ class Route {
   /// sight at most 2 m above its lowest point. The body still heads for the waypoint itself until something keeps it
   /// from coming nearer: it cuts no corners.
   Route(Walker& walker, std::span<const Vec3> waypoints, const RouteOptions& options = {});
-  [[nodiscard]] bool done() const { return done_; }
-  const StepReport& advance();  ///< makes one step; throws roam::Error when done()
-  [[nodiscard]] const RouteResult& result() const { return result_; }  ///< so far; complete when done()
-  [[nodiscard]] const Walker& walker() const { return *walker_; }
+  ~Route();
+  Route(const Route& other);
+  Route(Route&& other) noexcept;
+  Route& operator=(const Route& other);
+  Route& operator=(Route&& other) noexcept;
+  [[nodiscard]] bool done() const;
+  const StepReport& advance();                      ///< makes one step; throws roam::Error when done()
+  [[nodiscard]] const RouteResult& result() const;  ///< so far; complete when done()
+  [[nodiscard]] const Walker& walker() const;
 
  private:
   friend RouteResult follow(Walker& walker, LiveSpace& space, std::span<const Vec3> waypoints,
                             const RouteOptions& options);
-
-  [[nodiscard]] bool limited() const;
-  [[nodiscard]] double until_rest(const Vec3& way) const;
-  [[nodiscard]] Box scene() const { return options_.scene ? *options_.scene : walker_->space().bounds(); }
   void start_window();
-  void turn_to_next(bool hindered);
-  void judge(const StepReport& report, double distance_before, double free_way);
-  [[nodiscard]] bool gets_on() const;
-  void describe_blockage(const StepReport& report);
-  void finish(Outcome outcome);
 
-  Walker* walker_;
-  std::vector<Vec3> waypoints_;
-  RouteOptions options_;
-  RouteResult result_;
-  bool coming_down_ = false;  ///< to the ground, before it goes anywhere
-  bool inside_ = false;       ///< has been in the box of the scene
-  std::size_t next_ = 1;
-  double window_best_ = 0.0;  ///< distance to the waypoint when the window of patience began
-  Vec3 window_from_{0.0};     ///< where the body was then
-  double window_time_ = 0.0;  ///< since then
-  double window_free_ = 0.0;  ///< the way that free motion would have brought since
-  std::uint64_t window_steps_ = 0;
-  EventFilter filter_;
-  bool done_ = false;
+  class State;
+  std::unique_ptr<State> state_;  ///< null when it was moved from
 };
 
 /// Follows the whole route in a space that does not change. For a LiveSpace use the function below.

@@ -7,10 +7,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <string>
 #include <string_view>
-
-#include "roam/error.h"
 
 namespace roam {
 
@@ -30,20 +27,9 @@ inline constexpr std::array<const char*, 5> length_unit_names{"m", "cm", "mm", "
   return length_unit_names[static_cast<std::size_t>(unit)];
 }
 
-/// The reverse of to_string. Throws roam::Error for other texts.
-[[nodiscard]] inline UpAxis parse_up_axis(std::string_view text) {
-  for (std::size_t i = 0; i < up_axis_names.size(); ++i) {
-    if (up_axis_names[i] == text) return static_cast<UpAxis>(i);
-  }
-  throw Error("'" + std::string(text) + "' is no axis; give x, y, z, -x, -y or -z.");
-}
-/// The reverse of to_string. Throws roam::Error for other texts.
-[[nodiscard]] inline LengthUnit parse_length_unit(std::string_view text) {
-  for (std::size_t i = 0; i < length_unit_names.size(); ++i) {
-    if (length_unit_names[i] == text) return static_cast<LengthUnit>(i);
-  }
-  throw Error("'" + std::string(text) + "' is no unit of length; give m, cm, mm, ft or in.");
-}
+/// The reverse of to_string. Both throw roam::Error for other texts.
+[[nodiscard]] UpAxis parse_up_axis(std::string_view text);
+[[nodiscard]] LengthUnit parse_length_unit(std::string_view text);
 
 /// Metres per unit, exact.
 [[nodiscard]] constexpr double metres_per(LengthUnit unit) {
@@ -58,24 +44,7 @@ struct SceneFrame {
   friend bool operator==(const SceneFrame&, const SceneFrame&) = default;
 
   /// Rows of the matrix that turns a position in the scene, as a column (x, y, z, 1), into that of the file.
-  [[nodiscard]] std::array<std::array<double, 4>, 4> to_file() const {
-    const double k = 1.0 / metres_per(unit);
-    switch (up) {
-      case UpAxis::x:
-        return {{{0, 0, k, 0}, {0, k, 0, 0}, {-k, 0, 0, 0}, {0, 0, 0, 1}}};
-      case UpAxis::y:
-        return {{{k, 0, 0, 0}, {0, 0, k, 0}, {0, -k, 0, 0}, {0, 0, 0, 1}}};
-      case UpAxis::z:
-        break;
-      case UpAxis::minus_x:
-        return {{{0, 0, -k, 0}, {0, k, 0, 0}, {k, 0, 0, 0}, {0, 0, 0, 1}}};
-      case UpAxis::minus_y:
-        return {{{k, 0, 0, 0}, {0, 0, -k, 0}, {0, k, 0, 0}, {0, 0, 0, 1}}};
-      case UpAxis::minus_z:
-        return {{{k, 0, 0, 0}, {0, -k, 0, 0}, {0, 0, -k, 0}, {0, 0, 0, 1}}};
-    }
-    return {{{k, 0, 0, 0}, {0, k, 0, 0}, {0, 0, k, 0}, {0, 0, 0, 1}}};
-  }
+  [[nodiscard]] std::array<std::array<double, 4>, 4> to_file() const;
 };
 
 }  // namespace roam

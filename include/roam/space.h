@@ -31,7 +31,6 @@
 #include <span>
 #include <string>
 
-#include "roam/error.h"
 #include "roam/math.h"
 #include "roam/sweep.h"
 
@@ -89,12 +88,9 @@ struct Contact : Proximity {
   bool unknown = false;  ///< the contact is the border of unknown space, not a triangle
 };
 
-/// The gap between a body and everything; see Proximity.
-struct Clearance : Proximity {
+/// The gap between a body and everything: the nearest contact.
+struct Clearance : Contact {
   bool found = false;  ///< something lies within the reach; otherwise `distance` is the reach, and the rest default
-  TriangleId triangle = no_triangle;
-  ObjectId object = no_object;
-  bool unknown = false;  ///< the nearest is unknown space
 };
 
 /// The first impact of a sweep without its contact: the members that it shares with Impact have the same values.

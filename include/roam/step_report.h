@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The report of one step of a Walker: its segments, contacts and events.
+/// The report of one step of a Walker: its segments, contacts and events; the tally of a run of steps.
 ///
 /// Lengths are metres, times seconds. Axis clearances are certified lower bounds, capped at radius + clearance_reach.
 
@@ -113,6 +113,17 @@ struct StepReport {
       if (e.kind == kind) return true;
     return false;
   }
+};
+
+struct Tally {
+  std::uint64_t steps = 0;
+  double length = 0.0;                ///< of the way that the centre moved, without teleports
+  double simulated = 0.0;             ///< time
+  double least_axis_clearance = 0.0;  ///< the least StepReport::least_axis_clearance; 0: none was certified yet
+  double least_gap = 0.0;             ///< the least StepReport::least_gap, with the radius that the body had there
+  std::uint64_t throttled = 0;        ///< steps that ended early or were slowed, see EventKind
+  void add_step(const StepReport& report);
+  void add_placement(const StepReport& report);  ///< of place(), as at the start: only its clearance counts
 };
 
 }  // namespace roam

@@ -100,13 +100,11 @@ class Store {
   // The functions below read from disk and allocate: not for a thread that moves a body.
 
   /// Calls f with the stored triangles, and their numbers, of each tile whose box meets `box`. Throws roam::Error if
-  /// one cannot be read or is damaged, with tile and position.
-  void for_each_triangle(const Box& box,
-                         const std::function<void(std::span<const Triangle>, std::span<const TriangleId>)>& f) const;
-  /// As above, but passes over pages and tiles that cannot be read, and calls `missing` with a sentence for each.
+  /// one cannot be read or is damaged, with tile and position. With `missing`, passes over such pages and tiles, and
+  /// calls it with a sentence for each.
   void for_each_triangle(const Box& box,
                          const std::function<void(std::span<const Triangle>, std::span<const TriangleId>)>& f,
-                         const std::function<void(const std::string&)>& missing) const;
+                         const std::function<void(const std::string&)>& missing = {}) const;
   /// The centres of up to `count` tiles, spread evenly over all tiles, so that they are dense where triangles are
   /// dense.
   [[nodiscard]] std::vector<Vec3> sample(std::uint64_t count) const;

@@ -37,26 +37,17 @@ struct SupportDisc {
   double band = carrying_band;  ///< floor is at most this much above or below the plane
 };
 
-/// Whether a crack in the floor has room for a disc.
-enum class DiscRoom : std::uint8_t {
-  none,
-  unknown,  ///< none, if unknown space is solid
-  free,
-};
-
-/// Whether some level disc of that radius, seen from above, contains `axis` and is free of floor within the band about
-/// the plane; its centre must be in sight from the axis at the height of the knee. Returns `free` also where it
-/// cannot decide: a disc fits or fails by less than a millimetre, or the search takes too much work. Throws roam::Error
-/// as Space::floor_clearance() does.
-[[nodiscard]] DiscRoom free_disc(const Space& space, const FloorPlane& plane, const SupportDisc& disc,
-                                 const Vec3& axis);
-
-/// Whether a support disc carries a body.
 enum class Carrying : std::uint8_t {
   no,
   unknown,  ///< yes, if unknown space is solid
   yes,
 };
+
+/// Whether the floor carries a disc about `axis`: `no` if some level disc of that radius, seen from above, contains
+/// `axis` and is free of floor within the band about the plane; its centre must be in sight from the axis at the height
+/// of the knee. Returns `no` also where it cannot decide: a disc fits or fails by less than a millimetre, or the search
+/// takes too much work. Throws roam::Error as Space::floor_clearance() does.
+[[nodiscard]] Carrying carrying(const Space& space, const FloorPlane& plane, const SupportDisc& disc, const Vec3& axis);
 
 /// Whether a disc of that radius would carry the walker where it is, over the floor that it saw last: there is no floor
 /// under its axis and no room for the disc. A radius below the body's counts as the body's. `no` if it saw no floor: a

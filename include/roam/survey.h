@@ -11,29 +11,20 @@
 /// A survey is immutable; its members may be called from any threads. Target roam::ways.
 
 #include <cstdint>
-#include <functional>
 #include <span>
 #include <vector>
 
-#include "roam/error.h"
-#include "roam/math.h"
 #include "roam/mesh.h"
 #include "roam/world.h"
 
 namespace roam {
 
-struct SurveyOptions {
-  double slope_degrees = 45.0;                ///< in [0, 89]: slope limit of floor
-  int threads = 0;                            ///< as BuildOptions::threads
-  bool lossless = false;                      ///< as BuildOptions::lossless
-  std::function<bool(double)> progress = {};  ///< as BuildOptions::progress
-};
-
 class Survey {
  public:
-  /// Indexes `meshes` and keeps them. Takes 11 bytes a triangle and 20 a triangle of floor besides the meshes. Throws
-  /// as World::build does.
-  [[nodiscard]] static Survey build(std::vector<Mesh> meshes, const SurveyOptions& options = {});
+  /// Indexes `meshes` and keeps them. Takes 11 bytes a triangle and 20 a triangle of floor besides the meshes.
+  /// `slope_degrees`, in [0, 89], is the slope limit of floor. Throws as World::build does.
+  [[nodiscard]] static Survey build(std::vector<Mesh> meshes, const BuildOptions& options = {},
+                                    double slope_degrees = 45.0);
 
   /// Every triangle.
   [[nodiscard]] const World& world() const { return world_; }

@@ -15,14 +15,12 @@
 
 #include <cstdint>
 #include <functional>
-#include <limits>
 #include <optional>
 #include <vector>
 
 #include "roam/crack.h"
 #include "roam/opening.h"
 #include "roam/profile.h"
-#include "roam/size_region.h"
 #include "roam/survey.h"
 #include "roam/trial.h"
 #include "roam/walker_settings.h"
@@ -82,18 +80,6 @@ struct UnwalkedPath {
   Outcome outcome = Outcome::blocked;  ///< of the last walker
   Vec3 at{0.0};                        ///< its feet at the end
 };
-
-/// The opening or crack that decides an end of the interval.
-struct Decisive {
-  enum class Kind : std::uint8_t { opening, split };
-  Kind kind = Kind::opening;
-  Vec3 point{0.0};
-  double width = 0.0;
-  Vec3 direction{0.0};  ///< unit, across
-};
-
-/// "opening" or "split".
-[[nodiscard]] const char* to_string(Decisive::Kind kind);
 
 /// Why a part of the scene was left out.
 enum class LeftOut : std::uint8_t {
@@ -161,25 +147,18 @@ struct PaperResult {
   std::optional<Trial> blocked;  ///< smallest that was blocked
 };
 
-struct Training {
-  Mode mode = Mode::walk;
+/// The body to use, see profile_of() and apply(), and how it was found. Without positions or paths it is that of a
+/// person. Its height is TrainOptions::height, its step at most TrainOptions::step, a sphere's at most its radius. Over
+/// uneven rims the interval begins above `smallest`.
+struct Training : FittingBody {
   Method method = Method::interval;
-  // The body to use; see profile_of() and apply(). Without positions or paths it is that of a person.
-  double radius = 0.0;
-  double height = 0.0;          ///< TrainOptions::height; 2 * radius for a sphere
-  double support_radius = 0.0;  ///< 0: none needed
-  double step = 0.3;            ///< at most TrainOptions::step; a sphere's at most its radius
-  double slope_degrees = 45.0;  ///< of the survey
-
   bool feasible = false;             ///< one body without a support disc passes all paths
-  bool complete = true;              ///< false: ended early
   std::optional<TrainStage> ended;   ///< the stage that ended early
   std::optional<Nowhere> nowhere;    ///< why no free position was found
   std::optional<PaperResult> paper;  ///< of Method::paper
 
-  // The interval of radii that pass all paths; over uneven rims it begins above `smallest`.
-  double smallest = 0.0;          ///< 0: no crack
-  std::optional<double> largest;  ///< none: unlimited
+  std::optional<Crack> widest;       ///< decides `smallest`
+  std::optional<Opening> narrowest;  ///< decides `largest`
   /// Smallest radius that crosses all cracks of the paths both ways: `smallest`, or more over an uneven rim; infinite
   /// if no tried radius does.
   double least = 0.0;
@@ -194,8 +173,6 @@ struct Training {
   std::uint64_t uncertain_ways = 0;  ///< planned, but certified for no size; not counted as paths
   std::vector<Crack> cracks;         ///< of the reached floor, widest first
   bool all_cracks = true;            ///< false: ended before all were found
-  std::vector<Decisive> decisive;    ///< of the upper end, then of the lower
-  std::vector<SizeRegion> regions;   ///< where another size is needed, and why
   std::vector<ConnectedPart> parts;  ///< trained ones first, then by number of positions
   std::uint64_t separate = 0;        ///< searched parts without a way between them, small ones included
   std::vector<Contradiction> contradictions;

@@ -19,7 +19,6 @@
 #include <span>
 
 #include "roam/math.h"
-#include "roam/size_region.h"
 #include "roam/space.h"
 #include "roam/stance.h"
 #include "roam/step_report.h"

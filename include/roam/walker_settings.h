@@ -1,15 +1,13 @@
 #pragma once
 /// \file
-/// Settings and input of a Walker: the body, what it can do, and the wish for one step.
+/// Settings and input of a Walker: the body, what it can do, its size by region, and the wish for one step.
 
-#include <algorithm>
 #include <cstdint>
 #include <limits>
 #include <span>
+#include <string>
 
-#include "roam/error.h"
 #include "roam/math.h"
-#include "roam/size_region.h"
 #include "roam/sweep.h"
 
 namespace roam {
@@ -43,27 +41,18 @@ struct WalkerSettings {
   [[nodiscard]] Body body() const { return Body::capsule(radius, height); }  ///< the standing body
 
   /// Another size: eye and crouch height in proportion, step at most height / 2. sphere() if height is 2 * radius.
-  static WalkerSettings person(double radius, double height) {
-    if (height == 2.0 * radius) return sphere(radius);
-    WalkerSettings s;
-    const double scale = height / s.height;
-    s.radius = radius;
-    s.height = height;
-    s.eye *= scale;
-    s.crouch_height *= scale;
-    s.step = std::min(s.step, 0.5 * height);
-    return s;
-  }
-
+  static WalkerSettings person(double radius, double height);
   /// A sphere, as in the paper: the eye at its centre, a step of at most its radius.
-  static WalkerSettings sphere(double radius) {
-    WalkerSettings s;
-    s.radius = radius;
-    s.height = 2.0 * radius;
-    s.eye = radius;
-    s.step = s.step < radius ? s.step : radius;
-    return s;
-  }
+  static WalkerSettings sphere(double radius);
+};
+
+/// A region of a scene with its own size of the body, for Walker::set_regions(). Where regions overlap, the smallest body
+/// and the largest support disc apply.
+struct SizeRegion {
+  Box bounds = {};              ///< finite, not empty
+  double radius = 0.0;          ///< of the body, > 0; a capsule keeps its height
+  double support_radius = 0.0;  ///< of the support disc, see WalkerSettings::support_radius; 0: no disc in here
+  std::string why = {};         ///< for display: "door 0.71 m wide"
 };
 
 /// Throws roam::Error, naming the setting, its value and its range, if a setting is out of range or NaN.

@@ -14,11 +14,10 @@
 /// Walker moves the body, as along a Route. Nothing is random: the same scene and settings give the same walk.
 
 #include <cstddef>
-#include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <span>
-#include <unordered_map>
 #include <vector>
 
 #include "roam/route.h"
@@ -61,7 +60,13 @@ class Wander {
   /// never updated here. Throws roam::Error for options out of range and for a walker in ghost mode.
   Wander(Walker& walker, const WanderOptions& options = {});
 
-  [[nodiscard]] bool done() const { return done_; }
+  ~Wander();
+  Wander(const Wander& other);
+  Wander(Wander&& other) noexcept;
+  Wander& operator=(const Wander& other);
+  Wander& operator=(Wander&& other) noexcept;
+
+  [[nodiscard]] bool done() const;
 
   /// Chooses a new heading when the last one is used up. Moves nothing. advance() does so itself: a caller that times
   /// steps calls it before.
@@ -73,40 +78,11 @@ class Wander {
   /// The result so far; complete when done(). Its events are the first 10,000, the last of them the last of all.
   /// `reached` when the time is over; `held` when the body cannot move then, or not for 2 s before, or when every
   /// heading has failed; `left_scene` as for a route. `waypoints` is 0 and `blocked_at` none.
-  [[nodiscard]] const RouteResult& result() const { return result_; }
+  [[nodiscard]] const RouteResult& result() const;
 
  private:
-  struct Look {
-    double way = 0.0;      ///< metres that are free
-    double novelty = 0.0;  ///< of the cells along it
-  };
-  [[nodiscard]] Look probe(const Vec3& direction) const;
-  [[nodiscard]] std::uint64_t cell(const Vec3& place) const;
-  [[nodiscard]] bool is_barred(const Vec3& direction) const;
-  void note(const StepReport& report);
-
-  /// A way that ended in the void.
-  struct Leg {
-    Vec3 from{0.0};
-    Vec3 heading{0.0};
-  };
-
-  Walker* walker_;
-  WanderOptions options_;
-  RouteResult result_;
-  std::unordered_map<std::uint64_t, std::uint32_t> visits_;  ///< of each cell
-  std::uint64_t last_cell_ = 0;
-  Vec3 heading_{0.0};            ///< unit; zero before the first look
-  double way_left_ = 0.0;        ///< metres to go along heading_
-  double window_seconds_ = 0.0;  ///< since getting on was last judged
-  double window_length_ = 0.0;   ///< metres moved since
-  bool stuck_ = false;
-  Vec3 leg_start_{0.0};
-  std::vector<Leg> voids_;
-  double held_seconds_ = 0.0;
-  bool was_inside_ = false;  ///< has been in the box of the scene
-  EventFilter filter_;
-  bool done_ = false;
+  class State;
+  std::unique_ptr<State> state_;  ///< null when it was moved from
 };
 
 }  // namespace roam

@@ -14,11 +14,7 @@
 #include <functional>
 #include <memory>
 #include <span>
-#include <string>
-#include <vector>
 
-#include "roam/error.h"
-#include "roam/math.h"
 #include "roam/mesh.h"
 #include "roam/space.h"
 

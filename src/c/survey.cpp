@@ -27,7 +27,7 @@ namespace {
 constexpr std::size_t bytes_a_triangle = 120;
 
 roam_survey* new_survey(std::vector<Mesh> meshes, const roam_world_options& options, Progress& progress) {
-  SurveyOptions how;
+  BuildOptions how;
   how.threads = options.threads;
   how.lossless = true;
   how.progress = [&](double done) { return progress.goes_on(done); };

@@ -161,19 +161,19 @@ class Search {
 
 }  // namespace
 
-DiscRoom walking::find_disc(const Space& space, const FloorPlane& plane, const SupportDisc& disc, const Vec3& axis,
+Carrying walking::find_disc(const Space& space, const FloorPlane& plane, const SupportDisc& disc, const Vec3& axis,
                             DiscFound& last) {
   Search search(space, plane, disc, axis);
-  if (search.is_free(last)) return DiscRoom::free;
+  if (search.is_free(last)) return Carrying::no;
   last = {};
   Search::Result result = search.run(true, last);
   // Walls only exclude discs, so they are looked for only if there is a disc.
   if (result == Search::Result::hidden) result = search.run(false, last);
-  if (result != Search::Result::none) return DiscRoom::free;
-  return search.met_unknown() ? DiscRoom::unknown : DiscRoom::none;
+  if (result != Search::Result::none) return Carrying::no;
+  return search.met_unknown() ? Carrying::unknown : Carrying::yes;
 }
 
-DiscRoom free_disc(const Space& space, const FloorPlane& plane, const SupportDisc& disc, const Vec3& axis) {
+Carrying carrying(const Space& space, const FloorPlane& plane, const SupportDisc& disc, const Vec3& axis) {
   const DefaultFloatingPoint guard;
   walking::DiscFound none;
   return walking::find_disc(space, plane, disc, axis, none);

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The search behind free_disc(), for a support disc that moves.
+/// The search behind carrying(), for a support disc that moves.
 
 #include "roam/support.h"
 
@@ -12,9 +12,9 @@ struct DiscFound {
   double x = 0.0, y = 0.0;  ///< centre of the disc, metres
 };
 
-/// See free_disc(). `last` is the position of an earlier disc, if any, and is set to that of the disc found now. For a
+/// See carrying(). `last` is the position of an earlier disc, if any, and is set to that of the disc found now. For a
 /// body that hardly moves, two queries suffice.
-[[nodiscard]] DiscRoom find_disc(const Space& space, const FloorPlane& plane, const SupportDisc& disc, const Vec3& axis,
+[[nodiscard]] Carrying find_disc(const Space& space, const FloorPlane& plane, const SupportDisc& disc, const Vec3& axis,
                                  DiscFound& last);
 
 }  // namespace roam::walking

@@ -8,6 +8,7 @@
 #include "math/finite.h"
 #include "math/floating_point.h"
 #include "motion/demand.h"
+#include "motion/event_filter.h"
 #include "motion/pace.h"
 #include "roam/error.h"
 #include "roam/opening.h"
@@ -97,7 +98,42 @@ const char* to_string(Outcome outcome) {
   return name_in({"reached", "blocked", "left_scene", "fell", "held"}, outcome);
 }
 
-Route::Route(Walker& walker, std::span<const Vec3> waypoints, const RouteOptions& options)
+class Route::State {
+ public:
+  State(Walker& walker, std::span<const Vec3> waypoints, const RouteOptions& options);
+  [[nodiscard]] bool done() const { return done_; }
+  [[nodiscard]] const RouteResult& result() const { return result_; }
+  [[nodiscard]] const Walker& walker() const { return *walker_; }
+  const StepReport& advance();
+  void start_window();
+
+ private:
+  [[nodiscard]] bool limited() const;
+  [[nodiscard]] double until_rest(const Vec3& way) const;
+  [[nodiscard]] Box scene() const { return options_.scene ? *options_.scene : walker_->space().bounds(); }
+  void turn_to_next(bool hindered);
+  void judge(const StepReport& report, double distance_before, double free_way);
+  [[nodiscard]] bool gets_on() const;
+  void describe_blockage(const StepReport& report);
+  void finish(Outcome outcome);
+
+  Walker* walker_;
+  std::vector<Vec3> waypoints_;
+  RouteOptions options_;
+  RouteResult result_;
+  bool coming_down_ = false;  ///< to the ground, before it goes anywhere
+  bool inside_ = false;       ///< has been in the box of the scene
+  std::size_t next_ = 1;
+  double window_best_ = 0.0;  ///< distance to the waypoint when the window of patience began
+  Vec3 window_from_{0.0};     ///< where the body was then
+  double window_time_ = 0.0;  ///< since then
+  double window_free_ = 0.0;  ///< the way that free motion would have brought since
+  std::uint64_t window_steps_ = 0;
+  EventFilter filter_;
+  bool done_ = false;
+};
+
+Route::State::State(Walker& walker, std::span<const Vec3> waypoints, const RouteOptions& options)
     : walker_(&walker), waypoints_(waypoints.begin(), waypoints.end()), options_(options) {
   const DefaultFloatingPoint guard;
   check(options, waypoints, walker);
@@ -116,14 +152,14 @@ Route::Route(Walker& walker, std::span<const Vec3> waypoints, const RouteOptions
   }
 }
 
-void Route::start_window() {
+void Route::State::start_window() {
   window_best_ = next_ < waypoints_.size() ? glm::length(way_to(waypoints_[next_], *walker_)) : 0.0;
   window_from_ = walker_->position();
   window_time_ = window_free_ = 0.0;
   window_steps_ = 0;
 }
 
-void Route::turn_to_next(bool hindered) {
+void Route::State::turn_to_next(bool hindered) {
   while (next_ < waypoints_.size()) {
     const Vec3& goal = waypoints_[next_];
     if (!counts_as_reached(goal, *walker_)) return;
@@ -136,13 +172,13 @@ void Route::turn_to_next(bool hindered) {
   finish(Outcome::reached);
 }
 
-bool Route::limited() const {
+bool Route::State::limited() const {
   return walking::limits({.acceleration = options_.acceleration, .braking = options_.braking});
 }
 
 /// Metres to where the body must be at rest, if the next waypoint is `way` off. Not computed farther than the braking
 /// distance.
-double Route::until_rest(const Vec3& way) const {
+double Route::State::until_rest(const Vec3& way) const {
   const double enough = options_.speed * options_.dt + 0.5 * options_.speed * options_.speed / options_.braking;
   double sum = glm::length(way);
   Vec3 before = way / sum;
@@ -158,7 +194,7 @@ double Route::until_rest(const Vec3& way) const {
   return sum;
 }
 
-const StepReport& Route::advance() {
+const StepReport& Route::State::advance() {
   const DefaultFloatingPoint guard;
   if (done_)
     throw Error("the route has ended (" + std::string(to_string(result_.outcome)) + "): ask done() before each step");
@@ -187,7 +223,7 @@ const StepReport& Route::advance() {
   return report;
 }
 
-void Route::judge(const StepReport& report, double distance_before, double free_way) {
+void Route::State::judge(const StepReport& report, double distance_before, double free_way) {
   const Box scene = this->scene();
   if (report.has(EventKind::fell))
     return finish(above_or_below(report.to, scene) ? Outcome::fell : Outcome::left_scene);
@@ -223,7 +259,7 @@ void Route::judge(const StepReport& report, double distance_before, double free_
 }
 
 /// Whether the body came nearer during the window, or slides along an obstacle.
-bool Route::gets_on() const {
+bool Route::State::gets_on() const {
   const double least = progress_part * window_free_;
   const double nearer = window_best_ - glm::length(way_to(waypoints_[next_], *walker_));
   Vec3 moved = walker_->position() - window_from_;
@@ -232,11 +268,11 @@ bool Route::gets_on() const {
   return nearer >= least || (glm::length(moved) >= least && nearer >= progress_part * least);
 }
 
-void Route::describe_blockage(const StepReport& report) {
+void Route::State::describe_blockage(const StepReport& report) {
   const Vec3 way = way_to(waypoints_[next_], *walker_);
   const Contact* c = most_against(report, way);
   if (c == nullptr || waits_for_space(way, report)) return;
-  Blockage blockage{c->point, c->normal, c->triangle, std::nullopt};
+  Blockage blockage{*c, std::nullopt};
   const double length = glm::length(way);
   if (length > at_waypoint && !c->unknown) {
     if (const auto opening = measure_opening(*walker_, way / length)) blockage.opening = opening->width;
@@ -244,10 +280,23 @@ void Route::describe_blockage(const StepReport& report) {
   result_.blocked_at = blockage;
 }
 
-void Route::finish(Outcome outcome) {
+void Route::State::finish(Outcome outcome) {
   result_.outcome = outcome;
   done_ = true;
 }
+
+Route::Route(Walker& walker, std::span<const Vec3> waypoints, const RouteOptions& options)
+    : state_(std::make_unique<State>(walker, waypoints, options)) {}
+Route::~Route() = default;
+Route::Route(const Route& other) : state_(std::make_unique<State>(*other.state_)) {}
+Route::Route(Route&& other) noexcept = default;
+Route& Route::operator=(const Route& other) { return *this = Route(other); }
+Route& Route::operator=(Route&& other) noexcept = default;
+bool Route::done() const { return state_->done(); }
+const StepReport& Route::advance() { return state_->advance(); }
+const RouteResult& Route::result() const { return state_->result(); }
+const Walker& Route::walker() const { return state_->walker(); }
+void Route::start_window() { state_->start_window(); }
 
 RouteResult follow(Walker& walker, std::span<const Vec3> waypoints, const RouteOptions& options) {
   Route route(walker, waypoints, options);

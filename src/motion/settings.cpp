@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <string>
@@ -33,6 +34,29 @@ void demand(const char* whose, const char* what, double value, const char* unit,
   if (range.upper < positive.upper) text += " and at most " + number_text(range.upper) + " " + unit;
   if (*hint) text += std::string(": ") + hint;
   throw Error(text);
+}
+
+WalkerSettings WalkerSettings::person(double radius, double height) {
+  const DefaultFloatingPoint guard;
+  if (height == 2.0 * radius) return sphere(radius);
+  WalkerSettings s;
+  const double scale = height / s.height;
+  s.radius = radius;
+  s.height = height;
+  s.eye *= scale;
+  s.crouch_height *= scale;
+  s.step = std::min(s.step, 0.5 * height);
+  return s;
+}
+
+WalkerSettings WalkerSettings::sphere(double radius) {
+  const DefaultFloatingPoint guard;
+  WalkerSettings s;
+  s.radius = radius;
+  s.height = 2.0 * radius;
+  s.eye = radius;
+  s.step = s.step < radius ? s.step : radius;
+  return s;
 }
 
 void check(const WalkerSettings& s) {

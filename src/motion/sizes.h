@@ -6,7 +6,7 @@
 
 #include "motion/gait.h"
 #include "motion/move.h"
-#include "roam/size_region.h"
+#include "roam/walker_settings.h"
 
 namespace roam::walking {
 

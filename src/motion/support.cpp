@@ -91,15 +91,7 @@ Carrying carrying(const Space& space, const WalkerSettings& settings, double ski
                   const FloorPlane& plane, const Vec3& place, DiscFound& last) {
   const SupportDisc foot = foot_of(settings, skin, height);
   if (has_floor(space, foot.slope_degrees, foot.band, plane, place)) return Carrying::no;
-  switch (find_disc(space, plane, foot, place, last)) {
-    case DiscRoom::none:
-      return Carrying::yes;
-    case DiscRoom::unknown:
-      return Carrying::unknown;
-    case DiscRoom::free:
-      break;
-  }
-  return Carrying::no;
+  return find_disc(space, plane, foot, place, last);
 }
 
 bool has_foot(const Move& move) { return move.settings.support_radius > 0.0; }

@@ -1,9 +1,8 @@
-#include "roam/tally.h"
-
 #include <algorithm>
 #include <glm/geometric.hpp>
 
 #include "math/floating_point.h"
+#include "roam/step_report.h"
 
 namespace roam {
 namespace {
@@ -41,16 +40,6 @@ void Tally::add_placement(const StepReport& report) {
   least_axis_clearance =
       first ? report.least_axis_clearance : std::min(least_axis_clearance, report.least_axis_clearance);
   least_gap = first ? report.least_gap : std::min(least_gap, report.least_gap);
-}
-
-void EventFilter::append(std::vector<RouteEvent>& events, std::uint64_t step, const StepReport& report) {
-  std::uint32_t kinds = 0;
-  for (const Event& e : report.events) {
-    const std::uint32_t bit = 1U << static_cast<unsigned>(e.kind);
-    if (((kinds | last_kinds_) & bit) == 0) events.push_back({step, e});
-    kinds |= bit;
-  }
-  last_kinds_ = kinds;
 }
 
 }  // namespace roam

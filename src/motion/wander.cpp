@@ -6,10 +6,12 @@
 #include <iterator>
 #include <numbers>
 #include <optional>
+#include <unordered_map>
 
 #include "math/floating_point.h"
 #include "math/slope.h"
 #include "motion/demand.h"
+#include "motion/event_filter.h"
 #include "roam/error.h"
 #include "text/number.h"
 
@@ -167,7 +169,49 @@ std::optional<WanderStart> wander_start(const Space& space, const WalkerSettings
   return best;
 }
 
-Wander::Wander(Walker& walker, const WanderOptions& options) : walker_(&walker), options_(options) {
+class Wander::State {
+ public:
+  State(Walker& walker, const WanderOptions& options);
+  [[nodiscard]] bool done() const { return done_; }
+  [[nodiscard]] const RouteResult& result() const { return result_; }
+  void look();
+  const StepReport& advance();
+
+ private:
+  struct Look {
+    double way = 0.0;      ///< metres that are free
+    double novelty = 0.0;  ///< of the cells along it
+  };
+  [[nodiscard]] Look probe(const Vec3& direction) const;
+  [[nodiscard]] std::uint64_t cell(const Vec3& place) const;
+  [[nodiscard]] bool is_barred(const Vec3& direction) const;
+  void note(const StepReport& report);
+
+  /// A way that ended in the void.
+  struct Leg {
+    Vec3 from{0.0};
+    Vec3 heading{0.0};
+  };
+
+  Walker* walker_;
+  WanderOptions options_;
+  RouteResult result_;
+  std::unordered_map<std::uint64_t, std::uint32_t> visits_;  ///< of each cell
+  std::uint64_t last_cell_ = 0;
+  Vec3 heading_{0.0};            ///< unit; zero before the first look
+  double way_left_ = 0.0;        ///< metres to go along heading_
+  double window_seconds_ = 0.0;  ///< since getting on was last judged
+  double window_length_ = 0.0;   ///< metres moved since
+  bool stuck_ = false;
+  Vec3 leg_start_{0.0};
+  std::vector<Leg> voids_;
+  double held_seconds_ = 0.0;
+  bool was_inside_ = false;  ///< has been in the box of the scene
+  EventFilter filter_;
+  bool done_ = false;
+};
+
+Wander::State::State(Walker& walker, const WanderOptions& options) : walker_(&walker), options_(options) {
   const DefaultFloatingPoint guard;
   constexpr const char* whose = "the wandering's";
   demand(whose, "speed", options.speed, "m/s", {0.0, Route::highest_speed, true});
@@ -186,7 +230,7 @@ Wander::Wander(Walker& walker, const WanderOptions& options) : walker_(&walker),
   note(start);
 }
 
-std::uint64_t Wander::cell(const Vec3& place) const {
+std::uint64_t Wander::State::cell(const Vec3& place) const {
   constexpr std::uint64_t bits = 21;
   constexpr std::uint64_t mask = (1ull << bits) - 1;
   const Box& scene = walker_->space().bounds();
@@ -199,7 +243,7 @@ std::uint64_t Wander::cell(const Vec3& place) const {
   return key;
 }
 
-Wander::Look Wander::probe(const Vec3& direction) const {
+Wander::State::Look Wander::State::probe(const Vec3& direction) const {
   Look look;
   stride_ahead({walker_->space(), walker_->settings(), walker_->mode(), walker_->body()}, walker_->position(),
                direction, most_strides, [&](const Vec3& place, double length) {
@@ -210,7 +254,7 @@ Wander::Look Wander::probe(const Vec3& direction) const {
   return look;
 }
 
-bool Wander::is_barred(const Vec3& direction) const {
+bool Wander::State::is_barred(const Vec3& direction) const {
   constexpr double same_place = 1.0;    // m
   constexpr double same_heading = 0.9;  // cosine
   // Where the body got stuck it does not try the same at once; where it fell into the void, never again.
@@ -220,7 +264,7 @@ bool Wander::is_barred(const Vec3& direction) const {
   });
 }
 
-void Wander::look() {
+void Wander::State::look() {
   const DefaultFloatingPoint guard;
   if (way_left_ > 0.0 && !stuck_) return;
   const bool fly = walker_->mode() == Mode::fly;
@@ -250,7 +294,7 @@ void Wander::look() {
   stuck_ = false;
 }
 
-const StepReport& Wander::advance() {
+const StepReport& Wander::State::advance() {
   const DefaultFloatingPoint guard;
   if (done_) throw Error("the wandering has ended: ask done() before each step");
   look();
@@ -273,7 +317,7 @@ const StepReport& Wander::advance() {
   return report;
 }
 
-void Wander::note(const StepReport& report) {
+void Wander::State::note(const StepReport& report) {
   result_.end = report.to;
   filter_.append(result_.events, result_.steps, report);
   auto& events = result_.events;
@@ -313,5 +357,16 @@ void Wander::note(const StepReport& report) {
   }
   was_inside_ = was_inside_ || inside;
 }
+
+Wander::Wander(Walker& walker, const WanderOptions& options) : state_(std::make_unique<State>(walker, options)) {}
+Wander::~Wander() = default;
+Wander::Wander(const Wander& other) : state_(std::make_unique<State>(*other.state_)) {}
+Wander::Wander(Wander&& other) noexcept = default;
+Wander& Wander::operator=(const Wander& other) { return *this = Wander(other); }
+Wander& Wander::operator=(Wander&& other) noexcept = default;
+bool Wander::done() const { return state_->done(); }
+void Wander::look() { state_->look(); }
+const StepReport& Wander::advance() { return state_->advance(); }
+const RouteResult& Wander::result() const { return state_->result(); }
 
 }  // namespace roam

@@ -341,12 +341,6 @@ void save_profile(const Profile& profile, const std::filesystem::path& file) {
   files::write_whole(file, json_of(profile).dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
 }
 
-std::optional<Profile> find_profile(const std::filesystem::path& scene) { return find_profile({&scene, 1}); }
-
-std::optional<Profile> find_profile(std::span<const std::filesystem::path> scenes) {
-  return contents_of(scenes).profile;
-}
-
 std::optional<SceneFrame> find_frame(std::span<const std::filesystem::path> scenes) {
   return contents_of(scenes).frame;
 }
@@ -362,13 +356,14 @@ bool save_frame(const SceneFrame& frame, const std::filesystem::path& file) {
   return before.profile.has_value();
 }
 
-std::optional<Profile> find_profile(const std::filesystem::path& scene, const SceneIdentity& identity) {
+std::optional<Profile> find_profile(const std::filesystem::path& scene, const std::optional<SceneIdentity>& identity) {
   return find_profile({&scene, 1}, identity);
 }
 
-std::optional<Profile> find_profile(std::span<const std::filesystem::path> scenes, const SceneIdentity& identity) {
-  std::optional<Profile> profile = find_profile(scenes);
-  if (profile && !profile->belongs_to(identity)) {
+std::optional<Profile> find_profile(std::span<const std::filesystem::path> scenes,
+                                    const std::optional<SceneIdentity>& identity) {
+  std::optional<Profile> profile = contents_of(scenes).profile;
+  if (profile && identity && !profile->belongs_to(*identity)) {
     throw Error::at(
         profile_path(scenes).string(),
         fmt::format("{} is of another scene, or of this one before it changed or read in another way (up, unit "

@@ -81,8 +81,7 @@ Surveyed survey_scene(const SceneOptions& options, double slope_degrees) {
     identity = identity_of(meshes);
   }
   stop_if_interrupted();
-  SurveyOptions how;
-  how.slope_degrees = slope_degrees;
+  BuildOptions how;
   how.threads = options.threads;
   how.lossless = true;
   Progress progress("surveying", "triangles");
@@ -90,7 +89,8 @@ Surveyed survey_scene(const SceneOptions& options, double slope_degrees) {
     const auto done = static_cast<double>(identity.triangles) * share;
     return progress.goes_on(static_cast<std::uint64_t>(done), identity.triangles);
   };
-  return {Survey::build(std::move(meshes), how), std::move(identity), std::move(store), std::move(numbers)};
+  return {Survey::build(std::move(meshes), how, slope_degrees), std::move(identity), std::move(store),
+          std::move(numbers)};
 }
 
 std::string Surveyed::name(TriangleId triangle) const {

@@ -89,11 +89,6 @@ const StoreInfo& Store::info() const { return state_->info; }
 const std::string& Store::name() const { return state_->name; }
 bool Store::is_authentic(const StoreKey& key) const { return store::has_code(*state_->bytes, state_->info.hash, key); }
 
-void Store::for_each_triangle(
-    const Box& box, const std::function<void(std::span<const Triangle>, std::span<const TriangleId>)>& f) const {
-  for_each_triangle(box, f, {});
-}
-
 void Store::for_each_triangle(const Box& box,
                               const std::function<void(std::span<const Triangle>, std::span<const TriangleId>)>& f,
                               const std::function<void(const std::string&)>& missing) const {

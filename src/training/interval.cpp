@@ -192,13 +192,9 @@ void choose(const ways::BodyKind& kind, const TrainOptions& options, const Evide
 void describe_decisive(const Layout& layout, const Evidence& evidence, Training& training) {
   if (evidence.limiting_path) {
     const Passage& passage = layout.paths[*evidence.limiting_path].passage;
-    const Opening opening = passage.opening.value_or(Opening{.width = 2.0 * passage.radius});
-    training.decisive.push_back({Decisive::Kind::opening, opening.point, opening.width, opening.direction});
+    training.narrowest = passage.opening.value_or(Opening{.width = 2.0 * passage.radius});
   }
-  if (evidence.limiting_crack) {
-    const Crack& crack = evidence.cracks[*evidence.limiting_crack];
-    training.decisive.push_back({Decisive::Kind::split, crack.point, 2.0 * crack.radius, crack.direction});
-  }
+  if (evidence.limiting_crack) training.widest = evidence.cracks[*evidence.limiting_crack];
 }
 
 }  // namespace

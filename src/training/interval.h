@@ -64,8 +64,8 @@ struct BodySize {
 [[nodiscard]] BodySize body_of_paths(const ways::BodyKind& kind, const TrainOptions& options, const Evidence& evidence,
                                      const Crossings& crossings, const Layout& layout);
 
-/// Fills in paths, cracks, both ends, trapped_radius and decisive. If the number of paths is left open, a crack wider
-/// than those on the paths that cannot be walked around gets a path of its own.
+/// Fills in paths, cracks, both ends, trapped_radius, narrowest and widest. If the number of paths is left open, a
+/// crack wider than those on the paths that cannot be walked around gets a path of its own.
 void find_ends(const Survey& survey, const TrainOptions& options, Layout& layout, Evidence& evidence,
                Training& training);
 

@@ -235,7 +235,7 @@ class Proof {
       const double looks = std::max(1.0, std::ceil(std::hypot(along.x, along.y) / apart));
       for (double k = 0.0; k < looks; k += 1.0) {
         const Vec3 place = way[i - 1] + (k / looks) * along;
-        if (!stands_on_floor(survey_, place) && free_disc(survey_.world(), {place}, disc, place) != DiscRoom::none)
+        if (!stands_on_floor(survey_, place) && carrying(survey_.world(), {place}, disc, place) != Carrying::yes)
           return false;
       }
     }

@@ -219,23 +219,13 @@ Training trained(const Survey& survey, const TrainOptions& options) {
 
 const char* to_string(Method method) { return method == Method::paper ? "paper" : "interval"; }
 
-const char* to_string(Decisive::Kind kind) { return kind == Decisive::Kind::opening ? "opening" : "split"; }
-
 Profile profile_of(const Training& training, const SceneIdentity& scene) {
   Profile profile;
+  static_cast<FittingBody&>(profile) = training;
   profile.scene = scene;
-  profile.mode = training.mode;
-  profile.radius = training.radius;
-  profile.height = training.height;
-  profile.support_radius = training.support_radius;
   // For a flying body, any step was accepted.
   profile.step = std::min(training.step, 0.5 * training.height);
-  profile.slope_degrees = training.slope_degrees;
-  profile.largest = training.largest;
-  profile.smallest = training.smallest;
-  profile.regions = training.regions;
   profile.method = to_string(training.method);
-  profile.complete = training.complete;
   return profile;
 }
 

@@ -40,25 +40,25 @@ Mesh floor_of(const Survey& survey, const Mesh& mesh, TriangleId first, std::vec
 
 }  // namespace
 
-Survey Survey::build(std::vector<Mesh> meshes, const SurveyOptions& options) {
+Survey Survey::build(std::vector<Mesh> meshes, const BuildOptions& options, double slope_degrees) {
   const DefaultFloatingPoint guard;
-  if (!(options.slope_degrees >= 0.0 && options.slope_degrees <= steepest))
-    throw Error(fmt::format("the slope limit of a survey is {:g} degrees; it must be from 0 to {:g}",
-                            options.slope_degrees, steepest));
+  if (!(slope_degrees >= 0.0 && slope_degrees <= steepest))
+    throw Error(
+        fmt::format("the slope limit of a survey is {:g} degrees; it must be from 0 to {:g}", slope_degrees, steepest));
   if (options.threads < 0)
     throw Error(fmt::format("the number of threads of a survey is {}; it must be at least 1, or 0 for one per core",
                             options.threads));
   // Most of the work is the whole scene; the floors are a part of it.
   constexpr double whole_share = 0.8;
   const auto part = [&](double begin, double share) {
-    BuildOptions build{.threads = options.threads, .lossless = options.lossless, .progress = {}};
+    BuildOptions build = options;
     if (options.progress)
       build.progress = [&, begin, share](double done) { return options.progress(begin + share * done); };
     return build;
   };
   Survey survey;
-  survey.slope_degrees_ = options.slope_degrees;
-  survey.least_upright_ = least_upright(options.slope_degrees);
+  survey.slope_degrees_ = slope_degrees;
+  survey.least_upright_ = least_upright(slope_degrees);
   survey.meshes_ = std::move(meshes);
   survey.world_ = World::build(survey.meshes_, part(0.0, whole_share));  // which also checks the indices
   std::vector<Mesh> floors;

@@ -35,22 +35,16 @@ std::string all_paths(const Training& training) {
   return training.paths.size() == 1 ? "the path" : fmt::format("all {} paths", training.paths.size());
 }
 
-const Decisive* decisive(const Training& training, Decisive::Kind kind) {
-  for (const Decisive& d : training.decisive)
-    if (d.kind == kind) return &d;
-  return nullptr;
-}
-
 /// The opening that limits a body, as part of a sentence: "the opening 0.752 m wide at (1.00, 2.00, 3.00)".
 std::string opening_words(const Training& training) {
-  const Decisive* opening = decisive(training, Decisive::Kind::opening);
+  const auto& opening = training.narrowest;
   return opening ? fmt::format("the opening {:.3f} m wide at {}", opening->width, at(opening->point))
                  : std::string("the narrowest opening");
 }
 
 std::string split_words(const Training& training) {
-  const Decisive* split = decisive(training, Decisive::Kind::split);
-  return split ? fmt::format("the crack {:.3f} m wide at {}", split->width, at(split->point))
+  const auto& split = training.widest;
+  return split ? fmt::format("the crack {:.3f} m wide at {}", 2.0 * split->radius, at(split->point))
                : std::string("the widest crack");
 }
 
@@ -296,6 +290,14 @@ std::string paper_answer(const PaperResult& result, const Training& training) {
 }
 
 }  // namespace
+
+std::vector<Decisive> decisive(const Training& training) {
+  std::vector<Decisive> all;
+  if (const auto& opening = training.narrowest)
+    all.push_back({false, opening->point, opening->width, opening->direction});
+  if (const auto& crack = training.widest) all.push_back({true, crack->point, 2.0 * crack->radius, crack->direction});
+  return all;
+}
 
 std::string answer(const Training& training, const TrainOptions& options) {
   const DefaultFloatingPoint guard;

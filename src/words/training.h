@@ -14,7 +14,18 @@ namespace roam::words {
 /// count.
 [[nodiscard]] std::string answer(const Training& training, const TrainOptions& options = {});
 
-/// Names of the objects on both sides of each of Training::decisive; empty if unknown.
+/// The opening or crack that decides an end of the interval.
+struct Decisive {
+  bool split = false;  ///< of the lower end: Training::widest; else Training::narrowest
+  Vec3 point{0.0};
+  double width = 0.0;
+  Vec3 direction{0.0};  ///< unit, across
+  [[nodiscard]] const char* kind() const { return split ? "split" : "opening"; }
+};
+/// Of the upper end, then of the lower, as far as there are any.
+[[nodiscard]] std::vector<Decisive> decisive(const Training& training);
+
+/// Names of the objects on both sides of each of decisive(); empty if unknown.
 using TrainingNames = std::vector<std::pair<std::string, std::string>>;
 
 /// The report: the answer in one line, and labelled lines. `profile`: the file that was written, or empty.

@@ -43,11 +43,10 @@ std::string headline(const Training& t) {
 }
 
 std::string narrowest(const Training& t, const TrainingNames& names) {
-  for (std::size_t i = 0; i < t.decisive.size(); ++i) {
-    const Decisive& d = t.decisive[i];
-    if (d.kind != Decisive::Kind::opening) continue;
-    const std::string objects = i < names.size() ? between(names[i].first, names[i].second) : std::string();
-    return fmt::format("{:.3f} m wide opening{} at {}", d.width, objects.empty() ? "" : " " + objects, at(d.point));
+  if (t.narrowest) {
+    const std::string objects = names.empty() ? std::string() : between(names[0].first, names[0].second);
+    return fmt::format("{:.3f} m wide opening{} at {}", t.narrowest->width, objects.empty() ? "" : " " + objects,
+                       at(t.narrowest->point));
   }
   return t.paths.empty() ? "" : "no opening limits the width";
 }

@@ -88,7 +88,8 @@ struct Instances::State {
     const WorldData* data = nullptr;
     Pose pose;
     Velocity velocity;
-    InstanceLabel label;
+    std::string name;
+    std::uint64_t user_data = 0;
     query::Frame frame;
   };
 
@@ -165,7 +166,8 @@ Instances::Instances(const Space& space) : state_(std::make_unique<State>(space)
 Instances::Instances(LiveSpace& space) : Instances(static_cast<const Space&>(space)) { state_->live = &space; }
 Instances::~Instances() = default;
 
-ObjectId Instances::add(std::shared_ptr<const World> world, const Pose& pose, InstanceLabel label) {
+ObjectId Instances::add(std::shared_ptr<const World> world, const Pose& pose, std::string name,
+                        std::uint64_t user_data) {
   const DefaultFloatingPoint guard;
   State& s = *state_;
   check(pose);
@@ -181,7 +183,7 @@ ObjectId Instances::add(std::shared_ptr<const World> world, const Pose& pose, In
   const auto i = static_cast<std::uint32_t>(s.instances.size());
   s.lossless |= world->data_->lossless;
   const WorldData* const data = world->data_.get();
-  s.instances.push_back({std::move(world), data, pose, {}, std::move(label), {}});
+  s.instances.push_back({std::move(world), data, pose, {}, std::move(name), user_data, {}});
   s.put(i);
   return first_instance + i;
 }
@@ -247,7 +249,7 @@ Object Instances::object(TriangleId triangle) const {
   if (i >= state_->instances.size() || !state_->instances[i].world) return {};
   const State::Instance& it = state_->instances[i];
   if ((triangle & query::source_bits) >= it.world->stats().triangles) return {};
-  return {first_instance + i, it.label.name, it.label.user_data};
+  return {first_instance + i, it.name, it.user_data};
 }
 
 TriangleId Instances::source_triangle(TriangleId triangle) {

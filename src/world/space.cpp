@@ -40,13 +40,9 @@ Clearance as_clearance(const Collector& collector, double distance) {
   Clearance result;
   result.distance = collector.initial_reach();
   if (collector.count() == 0) return result;
-  const Contact& nearest = collector.kept()[0];
-  static_cast<Proximity&>(result) = nearest;
+  static_cast<Contact&>(result) = collector.kept()[0];
   result.distance = distance;
   result.found = true;
-  result.triangle = nearest.triangle;
-  result.object = nearest.object;
-  result.unknown = nearest.unknown;
   return result;
 }
 

@@ -25,7 +25,7 @@ using cracks::FoundCrack;
 constexpr double moved_tolerance = 2e-4;  ///< m, of radii in a scene that was moved, turned, split or doubled
 
 Survey survey_of(Mesh mesh, bool lossless = true) {
-  return Survey::build({std::move(mesh)}, {.slope_degrees = 50.0, .threads = 1, .lossless = lossless});
+  return Survey::build({std::move(mesh)}, {.threads = 1, .lossless = lossless}, 50.0);
 }
 
 std::vector<double> radii(const std::vector<FoundCrack>& cracks, Crack::Kind kind) {

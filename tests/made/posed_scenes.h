@@ -2,7 +2,9 @@
 /// \file
 /// Scenes with moving parts, and their triangles in their poses, for brute force.
 
+#include <cstdint>
 #include <memory>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -42,9 +44,9 @@ struct Scene {
       : still(std::move(mesh)), base(scenes::build(still, lossless)), space(base) {}
   Scene(const Scene&) = delete;
 
-  ObjectId add(const Mesh& mesh, const Pose& pose, roam::InstanceLabel label = {}) {
+  ObjectId add(const Mesh& mesh, const Pose& pose, std::string name = {}, std::uint64_t user_data = 0) {
     parts.push_back(mesh);
-    ids.push_back(space.add(shared(mesh), pose, std::move(label)));
+    ids.push_back(space.add(shared(mesh), pose, std::move(name), user_data));
     return ids.back();
   }
   /// All triangles in their present places: first the fixed ones, then those of the instances.

@@ -12,7 +12,7 @@
 namespace {
 
 using namespace scenes;
-using roam::DiscRoom;
+using roam::Carrying;
 
 /// A plane that rises along x, with a rectangular hole about the origin: `wide` metres along x, `deep` along y.
 Mesh floor_with_hole(double degrees, double wide, double deep) {
@@ -50,8 +50,8 @@ TEST(FreeDisc, IsFoundInAHoleThatItFitsIntoAndInNoSmallerOne) {
         const bool fits = radius < 0.5 * least;
         if (fits && std::abs(std::hypot(axis.x - x, axis.y - y) - radius) < 0.01) continue;
         const bool expected = fits && std::hypot(axis.x - x, axis.y - y) < radius;
-        const DiscRoom room = roam::free_disc(world, plane, {radius, 85.0, 0.3}, axis);
-        EXPECT_EQ(room, expected ? DiscRoom::free : DiscRoom::none)
+        const Carrying floor = roam::carrying(world, plane, {radius, 85.0, 0.3}, axis);
+        EXPECT_EQ(floor, expected ? Carrying::no : Carrying::yes)
             << degrees << " degrees, hole of " << wide << " x " << deep << ", radius " << radius << ", axis " << axis.x
             << ' ' << axis.y;
         ++(expected ? free : none);
@@ -72,7 +72,7 @@ TEST(FreeDisc, IsFoundNowhereInWholeFloorHoweverSteep) {
       const Vec3 axis(2.0 * std::cos(turn), 2.0 * std::sin(turn), 0.0);
       const double lean = degrees == 0.0 ? 0.0 : angle + random.between(-0.03, 0.03);
       const roam::FloorPlane plane{{axis.x, axis.y, axis.x * std::tan(angle)}, {-std::sin(lean), 0.0, std::cos(lean)}};
-      EXPECT_EQ(roam::free_disc(world, plane, {radius, 85.0, 0.3}, axis), DiscRoom::none)
+      EXPECT_EQ(roam::carrying(world, plane, {radius, 85.0, 0.3}, axis), Carrying::yes)
           << degrees << " degrees, radius " << radius << ", axis " << axis.x << ' ' << axis.y;
     }
   }

@@ -79,6 +79,7 @@ TEST(Route, AWaypointBehindAWallIsBlockedByThatWall) {
     EXPECT_NEAR(r.blocked_at->point.x, 2.0, 1e-3);
     EXPECT_NEAR(r.blocked_at->normal.x, -1.0, 1e-3);
     EXPECT_GE(r.blocked_at->triangle, 2u);
+    EXPECT_EQ(r.blocked_at->object, 0u);
     EXPECT_FALSE(r.blocked_at->opening);
     EXPECT_EQ(r.waypoints, 1u);
     EXPECT_GE(r.least_axis_clearance, 0.3 - 1e-6);

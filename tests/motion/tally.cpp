@@ -1,7 +1,8 @@
 // Sums over a run of steps: its length, its time, the least clearance, and the events that are picked.
-#include "roam/tally.h"
-
 #include <gtest/gtest.h>
+
+#include "motion/event_filter.h"
+#include "roam/step_report.h"
 
 namespace {
 

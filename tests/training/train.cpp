@@ -57,17 +57,16 @@ TEST(Training, FindsBothEndsAndTakesAPersonWhereOneFits) {
   EXPECT_DOUBLE_EQ(t.support_radius, 0.0);
   EXPECT_TRUE(t.complete);
   EXPECT_TRUE(t.contradictions.empty()) << answer(t);
-  ASSERT_EQ(t.decisive.size(), 2u);
-  EXPECT_EQ(t.decisive[0].kind, roam::Decisive::Kind::opening);
-  EXPECT_NEAR(t.decisive[0].width, 1.0, 1e-3);
-  EXPECT_NEAR(t.decisive[0].point.x, 7.1, 0.2);
-  EXPECT_EQ(t.decisive[1].kind, roam::Decisive::Kind::split);
-  EXPECT_NEAR(t.decisive[1].width, 0.4, 1e-3);
-  EXPECT_NEAR(t.decisive[1].point.x, 3.0, 0.01);
+  ASSERT_TRUE(t.narrowest && t.widest);
+  EXPECT_EQ(t.narrowest->kind, roam::Opening::Kind::door);
+  EXPECT_NEAR(t.narrowest->width, 1.0, 1e-3);
+  EXPECT_NEAR(t.narrowest->point.x, 7.1, 0.2);
+  EXPECT_NEAR(t.widest->radius, 0.2, 5e-4);
+  EXPECT_NEAR(t.widest->point.x, 3.0, 0.01);
 }
 
 TEST(Training, BecomesAProfileThatHoldsAllOfTheBodyAndIsOfTheScene) {
-  const Survey survey = Survey::build({corridor_mesh({.door = 0.3})}, {.slope_degrees = 40.0, .lossless = true});
+  const Survey survey = Survey::build({corridor_mesh({.door = 0.3})}, {.lossless = true}, 40.0);
   const roam::SceneIdentity scene = roam::identity_of(survey.meshes());
   for (const auto& options :
        std::vector<TrainOptions>{{.paths = 1, .height = 1.8, .step = 0.25},

@@ -19,8 +19,7 @@ using roam::words::answer;
 constexpr double wanted_error = 5e-4;  // m
 
 Training trained(const Mesh& mesh, double spacing = 0.2) {
-  const roam::Survey survey =
-      roam::Survey::build({mesh}, {.slope_degrees = 45.0, .threads = 1, .lossless = true, .progress = {}});
+  const roam::Survey survey = roam::Survey::build({mesh}, {.threads = 1, .lossless = true, .progress = {}});
   return roam::train(survey, {.mode = Mode::fly, .spacing = spacing, .threads = 1});
 }
 

@@ -23,7 +23,7 @@ constexpr double wanted_error = 2e-4;  // m
 const PassageOptions flying{.mode = Mode::fly};
 
 Survey survey_of(const Mesh& mesh) {
-  return Survey::build({mesh}, {.slope_degrees = 45.0, .threads = 1, .lossless = true, .progress = {}});
+  return Survey::build({mesh}, {.threads = 1, .lossless = true, .progress = {}});
 }
 
 /// Two rooms of 4 m by 3 m by 2.6 m and a wall of 0.2 m between them, from x = -0.1 to 0.1, with an opening.

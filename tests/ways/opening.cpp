@@ -89,8 +89,8 @@ TEST(FreeDisc, FitsIntoAGapThatIsAsWide) {
   const roam::Survey survey = corridor(options);
   const Vec3 axis(3.0, 0.0, 0.0);
   const roam::FloorPlane floor{axis};
-  EXPECT_EQ(roam::free_disc(survey.world(), floor, {0.44, 45.0, 0.3}, axis), roam::DiscRoom::free);
-  EXPECT_EQ(roam::free_disc(survey.world(), floor, {0.46, 45.0, 0.3}, axis), roam::DiscRoom::none);
+  EXPECT_EQ(roam::carrying(survey.world(), floor, {0.44, 45.0, 0.3}, axis), roam::Carrying::no);
+  EXPECT_EQ(roam::carrying(survey.world(), floor, {0.46, 45.0, 0.3}, axis), roam::Carrying::yes);
 }
 
 }  // namespace

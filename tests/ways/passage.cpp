@@ -21,7 +21,7 @@ constexpr double wanted_error = 2e-4;  // m
 const PassageOptions person{.height = 1.9};
 
 Survey survey_of(const Mesh& mesh) {
-  return Survey::build({mesh}, {.slope_degrees = 50.0, .threads = 1, .lossless = true, .progress = {}});
+  return Survey::build({mesh}, {.threads = 1, .lossless = true, .progress = {}}, 50.0);
 }
 
 Passage widest(const Mesh& mesh, const Vec3& from, const Vec3& to, const PassageOptions& options = person) {

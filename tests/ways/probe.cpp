@@ -19,7 +19,7 @@ using namespace roam;
 using Kind = ProbeLimit::Kind;
 
 Survey survey_of(const Mesh& mesh) {
-  return Survey::build({mesh}, {.slope_degrees = 45.0, .threads = 1, .lossless = true, .progress = {}});
+  return Survey::build({mesh}, {.threads = 1, .lossless = true, .progress = {}});
 }
 
 /// From x = 0 to 20, 4 m wide and 3 m high, with a wall across it at x = 10 that has a door of `width`, 2.1 m high.

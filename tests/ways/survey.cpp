@@ -46,7 +46,7 @@ TEST(Survey, FloorIsWhatIsNoSteeperThanTheLimitWhicheverSideIsUp) {
 TEST(Survey, ARampAtTheLimitIsFloorWhateverItsSize) {
   Mesh mesh;
   add_ramp(mesh, {0.0, 0.0, 0.0}, 0.0);
-  const Survey survey = Survey::build({mesh}, {.slope_degrees = 45.0});
+  const Survey survey = Survey::build({mesh}, {}, 45.0);
   for (const auto& [run, width] : {std::pair{1.0, 1.0}, {4.0, 2.0}, {0.5, 1.0}, {2.0, 3.0}, {10.0, 3.0}}) {
     EXPECT_TRUE(survey.is_floor({Vec3(0.0), Vec3(run, 0.0, run), Vec3(0.0, width, 0.0)})) << run << " x " << width;
   }
@@ -89,11 +89,11 @@ TEST(Survey, SpecksAreNoFloorAndNothingIsNothing) {
 }
 
 TEST(Survey, RefusesWhatIsOutOfRangeAndWhatWorldRefuses) {
-  EXPECT_THROW(static_cast<void>(Survey::build({}, {.slope_degrees = 89.5})), roam::Error);
-  EXPECT_THROW(static_cast<void>(Survey::build({}, {.slope_degrees = std::nan("")})), roam::Error);
+  EXPECT_THROW(static_cast<void>(Survey::build({}, {}, 89.5)), roam::Error);
+  EXPECT_THROW(static_cast<void>(Survey::build({}, {}, std::nan(""))), roam::Error);
   EXPECT_THROW(static_cast<void>(Survey::build({}, {.threads = -1})), roam::Error);
   try {
-    static_cast<void>(Survey::build({}, {.slope_degrees = 95.0}));
+    static_cast<void>(Survey::build({}, {}, 95.0));
     ADD_FAILURE() << "a slope of 95 degrees was taken";
   } catch (const roam::Error& error) {
     EXPECT_NE(std::string(error.what()).find("95 degrees"), std::string::npos) << error.what();

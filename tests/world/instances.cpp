@@ -133,8 +133,8 @@ TEST(Instances, NameWhatIsMet) {
   floor.user_data = 70;
   scenes::add_floor(floor, -9.0, -9.0, 9.0, 9.0, 0.0);
   Scene scene(floor);
-  const ObjectId a = scene.add(door(), {{2.0, 0.0, 0.0}}, {"door", 7});
-  const ObjectId b = scene.add(door(), {{4.0, 0.0, 0.0}}, {"second door", 8});
+  const ObjectId a = scene.add(door(), {{2.0, 0.0, 0.0}}, "door", 7);
+  const ObjectId b = scene.add(door(), {{4.0, 0.0, 0.0}}, "second door", 8);
   EXPECT_NE(a, b);
   const Impact first = scene.space.ray({0.0, 0.5, 1.0}, {8.0, 0.0, 0.0});
   EXPECT_EQ(first.object, a);
@@ -221,7 +221,7 @@ TEST(Instances, StandInWhatIsNotKnownYet) {
   roam::Patchwork patchwork;
   const roam::PatchId patch = patchwork.expect({{5.0, -1.0, -1.0}, {6.0, 1.0, 1.0}});
   Instances space(patchwork);
-  const ObjectId id = space.add(posed::shared(door()), {{2.0, -0.5, -1.0}}, {"door"});
+  const ObjectId id = space.add(posed::shared(door()), {{2.0, -0.5, -1.0}}, "door");
   EXPECT_TRUE(space.update({.radius = 0.1}, Vec3(0.0), Vec3(0.0)));
   EXPECT_EQ(space.ray(Vec3(0.0), {9.0, 0.0, 0.0}).object, id);
   const Impact unknown = space.ray({3.0, 0.0, 0.0}, {9.0, 0.0, 0.0});

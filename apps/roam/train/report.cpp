@@ -80,12 +80,10 @@ Json json_report(const TrainReport& report) {
   const Training& t = report.training;
   Json paths = Json::array(), decisive = Json::array(), regions = Json::array(), cracks = Json::array();
   for (const TrainedPath& path : t.paths) paths.push_back(json_of(path));
-  for (std::size_t i = 0; i < t.decisive.size(); ++i) {
-    const Decisive& d = t.decisive[i];
-    decisive.push_back({{"kind", to_string(d.kind)},
-                        {"point", to_json(d.point)},
-                        {"width_m", d.width},
-                        {"direction", to_json(d.direction)}});
+  for (const words::Decisive& d : words::decisive(t)) {
+    const std::size_t i = decisive.size();
+    decisive.push_back(
+        {{"kind", d.kind()}, {"point", to_json(d.point)}, {"width_m", d.width}, {"direction", to_json(d.direction)}});
     if (i < report.names.size()) decisive.back()["objects"] = {report.names[i].first, report.names[i].second};
   }
   for (const SizeRegion& r : t.regions) {
@@ -161,8 +159,8 @@ std::string stats_report(const TrainReport& report) {
   }
   if (t.trapped_radius > 0.0)
     line("trapped", fmt::format("a rolling sphere below {:.3f} m cannot climb out of that crack", t.trapped_radius));
-  for (const Decisive& d : t.decisive)
-    line(to_string(d.kind), fmt::format("{:.4f} m wide at {}", d.width, at(d.point)));
+  for (const words::Decisive& d : words::decisive(t))
+    line(d.kind(), fmt::format("{:.4f} m wide at {}", d.width, at(d.point)));
   std::map<std::string, std::size_t> kinds;
   for (const Crack& c : t.cracks) ++kinds[to_string(c.kind)];
   for (const auto& [kind, count] : kinds) line(kind, fmt::format("{}", count));
@@ -180,9 +178,9 @@ std::string stats_report(const TrainReport& report) {
 std::vector<draw::OpeningView> views_of(const TrainReport& report) {
   const Training& t = report.training;
   std::vector<draw::OpeningView> views;
-  for (const Decisive& d : t.decisive) {
+  for (const words::Decisive& d : words::decisive(t)) {
     draw::OpeningView view;
-    const bool split = d.kind == Decisive::Kind::split;
+    const bool split = d.split;
     view.kind = split ? draw::OpeningView::Kind::crack : draw::OpeningView::Kind::passage;
     view.heading = fmt::format("{} {:.3f} m wide", split ? "Crack" : "Opening", d.width);
     view.text = split ? fmt::format("Carries no body or foot below a radius of {:.3f} m.", t.smallest)

@@ -8,7 +8,7 @@
 
 #include "cli/histogram.h"
 #include "cli/trace_file.h"
-#include "roam/tally.h"
+#include "roam/step_report.h"
 #include "roam/walker.h"
 #include "verify/piece_log.h"
 #include "view/view_report.h"

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "roam/passage.h"
-#include "roam/size_region.h"
+#include "roam/walker_settings.h"
 #include "training/places/places.h"
 
 namespace roam::training {

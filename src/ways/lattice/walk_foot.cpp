@@ -53,7 +53,7 @@ Clearance floor_beside(const Survey& survey, const Vec3& axis, double reach) {
 }
 
 /// Tests one level disc of the largest foot, on the far side of the axis from `floor` and just clear of it. True if the
-/// disc holds the axis, is free of floor, and sees its middle from the axis. free_disc() finds the same with more work.
+/// disc holds the axis, is free of floor, and sees its middle from the axis. carrying() finds the same with more work.
 bool is_free_beyond(const Survey& survey, const Vec3& axis, const Vec3& floor, double radius, double knee) {
   constexpr double sight = 0.01;  // m, radius of the sphere that looks for walls
   constexpr double apart = 0.01;  // m; the rims of most drops are not quite straight
@@ -75,7 +75,7 @@ bool is_open_drop(const Survey& survey, const Measure& measure, const Vec3& rim,
   const Clearance nearest = floor_beside(survey, axis, radius);
   if (nearest.found && is_free_beyond(survey, axis, nearest.point, radius, knee)) return true;
   const auto look = [&](const Vec3& over) {
-    return free_disc(survey.world(), {over}, {radius, survey.slope_degrees(), knee}, over) == DiscRoom::free;
+    return carrying(survey.world(), {over}, {radius, survey.slope_degrees(), knee}, over) == Carrying::no;
   };
   return gaps != nullptr ? gaps->is_open(axis, look) : look(axis);
 }
