@@ -46,7 +46,7 @@ enum class Outcome : std::uint8_t {
   reached,     ///< was at every waypoint in turn
   blocked,     ///< no longer came nearer to a waypoint; see RouteOptions::patience
   left_scene,  ///< left the box of the scene: flying, by more than its own size; walking, fell over its side
-  fell,        ///< walking: dropped by more than Walker::fall_limit() below where it last stood
+  fell,        ///< walking: dropped by more than Walker::fall_limit() below its last ground
   held,        ///< cannot move: did not fit where it was put, found no ground below, or waits for unknown space
 };
 [[nodiscard]] const char* to_string(Outcome outcome);  ///< "reached", "blocked", "left_scene", "fell" or "held"

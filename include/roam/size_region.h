@@ -8,7 +8,7 @@
 
 namespace roam {
 
-/// Where regions overlap, the smallest body and the largest support disc apply.
+/// A box and the size of the body in it. If regions overlap, the smallest body and the largest support disc apply.
 struct SizeRegion {
   Box bounds = {};              ///< finite, not empty
   double radius = 0.0;          ///< of the body, > 0; a capsule keeps its height
