@@ -25,7 +25,7 @@ constexpr const char* help = R"(Kinds:
   scale     the time of a step from 100 thousand to 100 million triangles
 
 They are in a program of their own, roam-bench, which is built with -DROAM_BENCH=ON. `roam help bench engines` lists
-the options of one.
+the options of a kind.
 
 Examples:
   roam bench engines
