@@ -70,7 +70,7 @@ void add_bench(CLI::App& program, Run& run) {
   verb->prefix_command();
   verb->callback([verb, &run] {
     const std::vector<std::string> arguments = verb->remaining();
-    if (arguments.empty()) throw UsageError("bench", "what is to be measured? Say engines, paper or scale");
+    if (arguments.empty()) throw UsageError("bench", "a kind is missing: engines, paper or scale");
     run = [arguments] { return become(arguments); };
   });
 }
