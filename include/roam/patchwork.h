@@ -55,9 +55,9 @@ class Patchwork final : public LiveSpace {
   /// box that is empty, not finite or beyond coordinate_limit, and for a `refines` that was never expected.
   ///
   /// Patches that refine the same one must cover it together. They replace it together, when each has come or is itself
-  /// refined by patches that have; if one fails, the coarse patch stays. They may be delivered before that one. Call
-  /// expect() for all of them before you deliver the last. A patch that is announced after `refines` was replaced, or
-  /// below most_levels, is not part of the replacement: its box is unknown at first.
+  /// refined by patches that have; if one fails, the coarse patch stays. They may be delivered before the coarse one.
+  /// Call expect() for all of them before you deliver the last. A patch that is announced after `refines` was replaced,
+  /// or more than most_levels deep, is not part of the replacement: its box is unknown at first.
   PatchId expect(const Box& where, PatchId refines = PatchId::none);
 
   /// Delivers an expected patch; an empty world means that nothing is there. Drops it if it has been replaced. Worlds

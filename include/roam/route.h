@@ -32,8 +32,8 @@ struct RouteOptions {
   /// m/s^2, > 0: see WalkerInput. With a limit the body comes to rest at each turn and at the end.
   double acceleration = std::numeric_limits<double>::infinity();
   double braking = std::numeric_limits<double>::infinity();
-  /// > 0: the body is blocked if in this time, and at least 8 steps, it neither came nearer to its waypoint by 1/20 of
-  /// free motion, nor slid so far aside and a little nearer, as along a wall met 3 degrees off head-on.
+  /// > 0: the body is blocked if in this time, and at least 8 steps, it came nearer to its waypoint by less than 1/20
+  /// of free motion; unless it slid so far and came a little nearer, as along a wall met 3 degrees from head-on.
   double patience = 1.0;
   double wait = 10.0;             ///< >= 0, real time: how long follow() waits for a LiveSpace after its last change
   std::optional<Box> scene = {};  ///< the box for Outcome::left_scene; none: that of the space

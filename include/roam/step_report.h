@@ -15,13 +15,13 @@ namespace roam {
 
 enum class EventKind : std::uint8_t {
   slid,          ///< touched something and went on along it
-  blocked,       ///< touched something and could not go on; once, and again after it could (StepReport::blocked)
+  blocked,       ///< touched something and could not go on; once for each time (StepReport::blocked: in each step)
   stepped_up,    ///< walked up a kerb, stair or sill
   stepped_down,  ///< walked down one
   jumped,        ///< left the ground by a jump
   airborne,      ///< left the ground otherwise
   landed,        ///< came back to ground
-  fell,          ///< is more than Walker::fall_limit() below its last ground; once a fall
+  fell,          ///< is more than Walker::fall_limit() below its last ground; once for each fall
   crouched,      ///< became low, to pass under something or on command
   stood,         ///< found head-room and stood up again
   placed,        ///< put at a position by the caller
