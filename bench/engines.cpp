@@ -227,8 +227,8 @@ app::ExitStatus run(const Options& options) {
 }
 
 constexpr const char* help =
-    "Missing engines are named, with what to install. PhysX and Jolt come from npm as WebAssembly and run under node,\n"
-    "slower than their native builds:\n"
+    "Missing engines are named, with the package to install. PhysX and Jolt come from npm as WebAssembly and run\n"
+    "under node, slower than their native builds:\n"
     "  npm install --prefix DIR physx-js-webidl jolt-physics\n\n"
     "Exit status 3: roam itself missed something or stopped late; 1: also when roam itself failed.\n\n"
     "Examples:\n"

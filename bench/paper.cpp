@@ -111,10 +111,9 @@ app::ExitStatus run(const Options& options) {
 }
 
 constexpr const char* help =
-    "The scene is written into a scratch folder, in the file formats of the chosen rows: PLY and a store for roam, "
-    "osgb\n"
-    "for OpenSceneGraph, Bullet and PhysX, .mesh for OGRE. Each row is a process of its own. Rows that cannot run\n"
-    "here, and rows that exceed a limit, are named. At the end all ways are checked against the scene.\n"
+    "The scene is written into a scratch folder, in the file formats of the chosen rows: PLY and a store for roam,\n"
+    "osgb for OpenSceneGraph, Bullet and PhysX, .mesh for OGRE. Each row is a process of its own. Rows that cannot\n"
+    "run here, and rows that exceed a limit, are named. At the end all ways are checked against the scene.\n"
     "docs/paper.md explains the cells and compares them with the printed tables.\n\n"
     "Exit status 3: roam itself was in a wall; 1: also when one of roam's own rows failed.\n\n"
     "Examples:\n"

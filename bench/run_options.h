@@ -20,16 +20,16 @@ struct RunOptions {
 
   void add_to(CLI::App& app) {
     app.add_option("--scene", scene.scene, "gallery, terrain, city, or a file")->capture_default_str();
-    app::add_triangles(app, "--triangles", scene.triangles, "of a made scene");
-    app.add_option("--origin", origin_, "where the scene's centre is moved, metres: x,y,z")
+    app::add_triangles(app, "--triangles", scene.triangles, "triangles of a made scene");
+    app.add_option("--origin", origin_, "new position of the scene's centre, metres: x,y,z")
         ->delimiter(',')
         ->expected(3)
         ->check(app::from_to(-generate::origin_limit, generate::origin_limit))
         ->capture_default_str();
-    app.add_option("--sets", sets, "which query sets, separated by commas (default: all)")
+    app.add_option("--sets", sets, "query sets, separated by commas (default: all)")
         ->delimiter(',')
         ->check(app::one_of(query_set_names()));
-    app.add_option("--queries", queries, "of each set")->capture_default_str()->check(app::at_least_one());
+    app.add_option("--queries", queries, "queries of each set")->capture_default_str()->check(app::at_least_one());
     app.add_option("--rounds", rounds, "each query's time is the median over these")
         ->capture_default_str()
         ->check(app::at_least_one());

@@ -25,7 +25,7 @@ constexpr const char* help = R"(Kinds:
   scale     the time of a step from 100 thousand to 100 million triangles
 
 They are in a program of their own, roam-bench, which is built with -DROAM_BENCH=ON. `roam help bench engines` lists
-the options of one.
+the options of a kind.
 
 Examples:
   roam bench engines
@@ -70,7 +70,7 @@ void add_bench(CLI::App& program, Run& run) {
   verb->prefix_command();
   verb->callback([verb, &run] {
     const std::vector<std::string> arguments = verb->remaining();
-    if (arguments.empty()) throw UsageError("bench", "what is to be measured? Say engines, paper or scale");
+    if (arguments.empty()) throw UsageError("bench", "a kind is missing: engines, paper or scale");
     run = [arguments] { return become(arguments); };
   });
 }

@@ -267,13 +267,14 @@ ExitStatus build(BuildVerb verb) {
 
 constexpr const char* help =
     R"(A store is a folder that `roam walk`, `view`, `sweep` and `info` take like a scene. You walk in it at
-full detail in little memory. A build may be stopped or killed at any moment: the same command continues it, and the
+full detail, in little memory. A build may be stopped or killed at any moment: the same command continues it, and the
 result is the same to the last byte. After a change of the scene only the changed parts are built again.
 
-A store that exists is updated if you built it; a key in $XDG_DATA_HOME/roam or ~/.local/share/roam proves that. Any
-other may lack a wall, and is refused unless --adopt says that you trust it.
+An existing store is updated if you built it; a key in $XDG_DATA_HOME/roam or ~/.local/share/roam proves that. Any
+other store may lack a wall, and is refused unless --adopt says that you trust it.
 
-Many machines that share a folder can build one store: first --plan, then each --shard in any order, then --merge.
+Many machines that share a folder can build one store: first --plan, then each --shard (part of the work) in any order,
+then --merge.
 
 Examples:
   roam build mine.dae
@@ -297,16 +298,16 @@ void add_build(CLI::App& program, Run& run) {
   verb->add_option("-o,--output", options->output, "Folder of the store (default: SCENE.roam beside the scene)")
       ->type_name("FOLDER");
   verb->add_flag("--adopt", options->adopt, "Trust and update a store that somebody else built; it is yours then");
-  verb->add_option("--near", options->near, "Build first what is near this position; the store is the same")
+  verb->add_option("--near", options->near, "Build the parts near this position first; the store is the same")
       ->expected(3)
       ->delimiter(',')
       ->check(from_to(-coordinate_limit, coordinate_limit))
       ->type_name("X,Y,Z");
   verb->add_flag("--json", options->json, "Print one JSON object");
   verb->add_flag("--json-lines", options->json_lines,
-                 "Print the progress as JSON objects, one a line, and at last the object of --json");
+                 "Print the progress as JSON objects, one a line, and at the end the object of --json");
   verb->option_defaults()->group("Many machines");
-  CLI::Option* plan = verb->add_flag("--plan", options->plan, "Only read what has changed, and plan the shards");
+  CLI::Option* plan = verb->add_flag("--plan", options->plan, "Only read changed parts, and plan the shards");
   CLI::Option* shard = verb->add_option("--shard", options->shard, "Only build this shard of the plan, counted from 0")
                            ->check(from_to<std::uint64_t>(0, 1'000'000'000))
                            ->type_name("I");

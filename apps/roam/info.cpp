@@ -224,9 +224,9 @@ ExitStatus info(SceneOptions options, bool json, bool stats) {
 }
 
 constexpr const char* help =
-    R"(The report has the scene's triangles, objects and box; what was left out, and why; the memory of the
-index, and how far it moves a vertex at most. The hash is of the triangles: two files of any formats share it if their
-triangles are the same to the last digit, in the same order.
+    R"(The report has the scene's triangles, objects and box, and the parts left out. --stats adds the memory of
+the index, the largest movement of a vertex in it, and the hash of the triangles: two files of any formats share it if
+their triangles are the same to the last digit, in the same order.
 
 Examples:
   roam info mine.dae
@@ -237,7 +237,7 @@ Examples:
 }  // namespace
 
 void add_info(CLI::App& program, Run& run) {
-  CLI::App* verb = program.add_subcommand("info", "Report what a scene holds and how much memory its index takes");
+  CLI::App* verb = program.add_subcommand("info", "Report the contents of a scene and the memory of its index");
   verb->footer(help);
   struct Options {
     SceneOptions scene;

@@ -253,12 +253,12 @@ ExitStatus probe(ProbeOptions o) {
 constexpr const char* help =
     R"(The answer is yes with the way and its narrowest place, or no with the opening that stops the body
 and the missing width. The widest way decides. It is certified, and a walker follows it before the answer is yes. Exit
-status 0 for yes; 3 for no, and if the walker does not get through; with --matrix, 0 if all sizes get there.
+status 0 for yes; 3 for no, and if the walker does not get through; with --matrix, 0 if all sizes get through.
 
 Places are of a person's feet or eyes, and are moved down to the floor; in flight, of the centre. The body steps over
 anything lower than --step; a sphere climbs at most its radius. --path writes the way of the body's centre, with the
-body, for `roam walk --path FILE --verify`. --matrix takes sizes R or RxH with commas between, or a file of them. R is
-a person of this radius, as with --radius; with --sphere a sphere. Ways through the air are found for spheres.
+body, for `roam walk --path FILE --verify`. --matrix takes sizes R or RxH, separated by commas, or a file of them. R is
+a person of this radius, as with --radius; with --sphere it is a sphere. Ways through the air are found for spheres.
 
 Examples:
   roam probe house.glb --from 1,2,1 --to 8,3,1 --radius 0.3 --height 1.9

@@ -216,7 +216,7 @@ constexpr const char* help =
 
 The body's centre moves from (x,y,z) by (dx,dy,dz) while t runs from 0 to 1. half_height is half the length of a
 vertical capsule's axis; 0, or none, means a sphere. distance is a certified lower bound of the gap between body and
-scene: at t for a hit, over the whole motion for a miss. It is never more than 10 m. With a store it may be too low
+scene: at t for a hit, over the whole motion for a miss; it is at most 10 m. With a store it may be too low
 if --memory does not hold the surroundings of the motion. A malformed row ends the program with status 1; the message
 names its line.
 

@@ -139,7 +139,7 @@ store is solid there; everywhere else you can walk in it.
 --repair builds only the damaged shards again, from the scene that the store was made of. The store knows its --up,
 --unit, --ignore and --lossless. The report also says whether you built the store or somebody else.
 
-Exit status 0 when the store is whole, 3 when it is not, or when its build is not finished.
+Exit status 0 if the store is whole, 3 if it is not, or if its build is not finished.
 
 Examples:
   roam verify dam.roam

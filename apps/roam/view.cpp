@@ -153,12 +153,12 @@ display says what stops you. The window opens at once; you are held until the wa
 Positions are of the body's centre, in metres, with z up. The body is a person of radius 0.3 m and height 1.8 m,
 or the one that `roam train` saved. A path that was recorded here names its body.
 
-A collision store (`roam build`) beside the scene is used if you built it: then the walls are there at once, in little
+A collision store (`roam build`) beside the scene is used if you built it: then the walls are loaded at once, in little
 memory, for scenes of any size.
 
 Keys, mouse and body can be changed in roam/settings.json in $XDG_CONFIG_HOME or ~/.config. Bookmarks are kept beside
-it. With --path, --screenshot or --time the program ends by itself, and works with --headless. Exit status 3 when a
-path does not reach its end.
+it. With --path, --screenshot or --time the program ends by itself, and works with --headless. Exit status 3 if the
+body does not reach the end of its path.
 
 Examples:
   roam view mine.dae

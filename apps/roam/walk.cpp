@@ -349,17 +349,17 @@ ExitStatus walk(WalkOptions options) {
 
 constexpr const char* help =
     R"(The report says how the walk ended: reached, blocked (where and by what), fell, left_scene
-or held; then the tightest place of the way and the headroom. Exit status 0 when the end is reached, 3 when not. After
-Ctrl-C, report, trace and picture of the way so far are still written (130).
+or held; then the narrowest place of the way and the headroom. Exit status 0 if the end is reached, 3 if not. After
+Ctrl-C, report, trace and picture of the way so far are still written (status 130).
 
 A path file has one waypoint `x y z` in each line, or the lines `t x y z qx qy qz qw` that osgViewer records. Times and
-rotations are ignored: --speed and --dt set the pace. Positions are of the body's centre. A waypoint is reached when
-it is in the body; on foot also when it is at most the step height above or below it. A path that `roam view` recorded
+rotations are ignored: --speed and --dt set the pace. Positions are of the body's centre. A waypoint is reached if
+it is in the body; on foot also if it is at most the step height above or below it. A path that `roam view` recorded
 names its body and mode; --radius, --sphere and --mode override them.
 
 The body is a person of radius 0.3 m and height 1.8 m, or the one that `roam train` saved beside the scene, in
-SCENE.roam.json. That is smaller in places where only a smaller one fits; --height, --step and --slope change it. A
-profile of another scene is refused.
+SCENE.roam.json. The saved body is smaller in places where only a smaller one fits; --height, --step and --slope
+change it. A profile of another scene is refused.
 
 Examples:
   roam walk mine.dae --path tour.path

@@ -33,8 +33,8 @@
 
 namespace osgRoam {
 
-/// Metres by which triangles under `node` reach beyond the bounding spheres above them, for setBoundsMargin. Visits the
-/// whole loaded graph.
+/// The metres by which triangles under `node` reach beyond the bounding spheres above them, for setBoundsMargin. Visits
+/// the whole loaded graph.
 double boundsMargin(osg::Node& node);
 
 class BoxIntersector : public osgUtil::Intersector {
@@ -115,13 +115,13 @@ class BoxIntersector : public osgUtil::Intersector {
   struct KdTreeSearch;
 
   BoxIntersector& root() { return _parent ? *_parent : *this; }
-  /// The earliest impact so far, where only that is wanted: nothing later is of interest.
+  /// The time of the earliest impact so far, if only that is wanted: later ones are dropped.
   void shrinkTo(double time);
   /// Whether a ball, or a box, in the frame of the drawables below is beyond the box of the swept body.
   bool beyond(const osg::Vec3d& centre, double radius);
   bool beyond(const osg::BoundingBox& box);
 
-  BoxIntersector* _parent = nullptr;  ///< the intersector that this one was cloned for; it gets what is found
+  BoxIntersector* _parent = nullptr;  ///< the intersector that this one was cloned for; it gets the results
   roam::Body _body;
   osg::Vec3d _start, _end;
   bool _gather = false;
@@ -130,9 +130,9 @@ class BoxIntersector : public osgUtil::Intersector {
 
   bool _identity = true;  ///< the two matrices are
   osg::Matrixd _matrix;   ///< from the frame of the drawables below to the intersector's
-  osg::Matrixd _inverse;  ///< meaningless where that has none
+  osg::Matrixd _inverse;  ///< meaningless if that has none
   bool _invertible = true;
-  double _stretch = 1.0;  ///< no length in that frame becomes longer than so many times
+  double _stretch = 1.0;  ///< factor by which a length in that frame grows at most
 
   Intersections _intersections;
   std::vector<Candidate> _candidates;

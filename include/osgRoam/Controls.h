@@ -7,9 +7,9 @@
 ///     controls.rebind("forward = Z, Up\nleft = Q, Left\ndown = Page_Down");  // a French keyboard
 ///     std::cout << controls.text();
 ///
-/// A command has any number of keys; a key belongs to one command. Key names are what is printed on the key: "W", "1",
-/// "[", "Up", "Page_Down", "Shift", "F1", "Space", "Comma", "Plus", "Ctrl+1", in either case. Left and right Shift,
-/// Ctrl and Alt are one key each; the keypad without Num Lock counts as the keys that it stands for.
+/// A command has any number of keys; a key belongs to one command. Keys have the names printed on them, in either case:
+/// "W", "1", "[", "Up", "Page_Down", "Shift", "F1", "Space", "Comma", "Plus", "Ctrl+1". Left and right Shift, Ctrl and
+/// Alt are one key each; the keypad without Num Lock counts as the keys that it stands for.
 ///
 /// References to commands are valid until the next add() or rebind(). Not thread-safe.
 

@@ -149,14 +149,14 @@ class Manipulator : public osgGA::CameraManipulator {
   /// scenes. Sets a ClampProjectionMatrixCallback on the camera, unless it has another one.
   void setAdjustNearFarRatio(bool on);
   [[nodiscard]] bool adjustNearFarRatio() const;
-  /// Sets where home() goes, and so where a viewer begins. setHomePosition does so in the graph's frame.
+  /// Sets the pose of home(), in which a viewer begins. setHomePosition does so in the graph's frame.
   void setHomePose(const roam::Vec3& eye, double yaw, double pitch);
 
   // --- going without keys
 
   /// Goes straight to `point`, with collision, as a double click does, and rests beside the surface there. `normal` is
   /// the unit normal of that surface towards the body. Walking counts only horizontal distance. Ends on arrival, when
-  /// the body gets no nearer, or at the first key that moves. Does nothing without a space, with a pilot, or after a
+  /// the body gets no nearer, or at the first key that moves it. Does nothing without a space, with a pilot, or after a
   /// problem(). Throws roam::Error if an argument is not finite or `normal` is not of length 1 +- 1e-3.
   void goTo(const roam::Vec3& point, const roam::Vec3& normal);
   [[nodiscard]] bool going() const;

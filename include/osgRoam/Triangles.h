@@ -4,10 +4,10 @@
 ///
 ///     const roam::World world = osgRoam::buildWorld(*osgDB::readRefNodeFile("cow.osgt"));
 ///
-/// Taken are triangles, strips, fans, quads, quad strips and polygons of all geometries, in floats or doubles, through
-/// transforms in doubles. Of switches and sequences the visible child counts. Left out are billboards, text, particles,
+/// These are the triangles, strips, fans, quads, quad strips and polygons of all geometries, in floats or doubles,
+/// through transforms in doubles. In switches and sequences the visible child counts. Billboards, text, particles,
 /// lights, points, lines, cameras with a frame of their own (head-up displays, render to texture) and nodes with node
-/// mask 0. Of a paged scene, loaded nodes are taken; no file is read.
+/// mask 0 are left out. A paged scene counts as far as it is loaded; no file is read.
 ///
 /// The graph must not change meanwhile: with a database pager, call these from the viewer's update thread.
 

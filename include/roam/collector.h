@@ -1,12 +1,12 @@
 #pragma once
 /// \file
-/// The collector of contacts: for authors of spaces, the receiver of what Space::find_near() finds.
+/// The collector of contacts: the receiver of the results of Space::find_near(), for authors of spaces.
 ///
 ///     void find_near(const roam::Query& query, roam::Collector& collector, roam::Vicinity*) const override {
 ///       for (std::size_t i = 0; i < triangles.size(); ++i) collector.offer(query, triangles[i], i);
 ///     }
 ///
-/// A space with an index may leave out what lies beyond reach() or enough(), which shrink. Nothing here allocates.
+/// A space with an index may leave out triangles beyond reach() or enough(), which shrink. Nothing here allocates.
 
 #include <cstddef>
 #include <limits>
@@ -37,17 +37,17 @@ class Collector {
 
   [[nodiscard]] Kind kind() const { return kind_; }
   [[nodiscard]] double reach() const { return reach_; }    ///< from the body; nothing beyond it changes the result
-  [[nodiscard]] double enough() const { return enough_; }  ///< leave out what is beyond it if left_out() gets a bound
+  [[nodiscard]] double enough() const { return enough_; }  ///< leave out triangles beyond it, with left_out()
   /// For Kind::one_contact: the first impact whose triangle alone is wanted, at the query's position. Else null.
   [[nodiscard]] const FirstImpact* only() const { return only_; }
 
-  /// Offers a triangle, to be measured here unless its object is ignored.
+  /// Offers a triangle. The collector measures it unless its object is ignored.
   void offer(const Query& query, const Triangle& triangle, TriangleId id, ObjectId object = no_object);
   /// Offers a measured contact: its distance is certified, at most `doubt` too low. Kind::floor_clearance takes floor.
   void offer(const Contact& contact, double doubt = 0.0) {
     frame_ == nullptr ? keep(contact, doubt) : keep_seen(contact, doubt);
   }
-  /// Reports that something was left out. `gap` is a certified lower bound of its distance, beyond enough().
+  /// Reports that a triangle was left out. `gap` is a certified lower bound of its distance, beyond enough().
   void left_out(double gap) { left_out_ = gap < left_out_ ? gap : left_out_; }
   /// Before any offer(): how much too low a clearance may be, 1.99 mm by default. 0: clearances and gaps are exact.
   void demand(double tolerance);

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Crack: a hole or slit in a floor that bodies can fall into. train.h finds those of a scene.
+/// Crack: a hole or slit in a floor that bodies can fall into. train.h finds the cracks of a scene.
 
 #include <cstdint>
 

@@ -15,7 +15,7 @@ class Error : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 
-  /// The message is "where: what". An empty `where` is no place, and the message is then `what`.
+  /// The message is "where: what", or `what` alone if `where` is empty.
   Error(std::string_view where, std::string_view what) : Error(at(where, joined(where, what))) {}
 
   /// For a sentence that names the place elsewhere: "cannot read house.obj: No such file or directory".

@@ -6,7 +6,8 @@
 ///     open.ignore(door);  // the number of the door's mesh, or Impact::object of a ray that hit it
 ///     roam::Walker walker(open, settings, roam::Mode::walk, start);
 ///
-/// The promises of space.h hold for the rest. Unknown space is never ignored; a Pager has no numbers of objects.
+/// The promises of space.h hold for the other objects. Unknown space is never ignored; a Pager has no numbers of
+/// objects.
 
 #include <cstdint>
 #include <span>
@@ -19,13 +20,13 @@ namespace roam {
 /// Use one for each body: it holds no triangles. Queries may run at the same time, but not during update() or a change.
 class Filtered final : public LiveSpace {
  public:
-  /// Ignores nothing yet. `space` must outlive this and stay where it is. A Filtered made from a Filtered is its copy.
+  /// Ignores nothing yet. `space` must outlive this and keep its address. A Filtered made from a Filtered is its copy.
   explicit Filtered(const Space& space);
   explicit Filtered(LiveSpace& space);
   explicit Filtered(Space&& space) = delete;
 
-  /// Ignores an object, or no longer. no_object is never ignored; a number of a Patchwork means that object in every
-  /// patch. A body inside an object that is back is freed or held by its next step, see Walker::place().
+  /// Ignores an object, or ends that. no_object is never ignored; a number of a Patchwork means that object in every
+  /// patch. A body inside an object that is no longer ignored is freed or held by its next step, see Walker::place().
   void ignore(ObjectId object);
   void stop_ignoring(ObjectId object);
   void ignore_only(std::span<const ObjectId> objects);  ///< replaces the set of ignored objects

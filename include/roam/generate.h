@@ -25,7 +25,7 @@
 
 namespace roam::generate {
 
-inline constexpr std::uint64_t least_triangles = 10'000;  ///< of a request, which a scene meets within 3 %
+inline constexpr std::uint64_t least_triangles = 10'000;  ///< of a request; a scene meets its request within 3 %
 inline constexpr std::uint64_t most_triangles = 1'000'000'000;
 inline constexpr std::uint64_t piece_triangles = 65'536;  ///< largest number in one mesh of a scene
 inline constexpr double origin_limit = 1e7;               ///< largest absolute coordinate of an origin
@@ -83,7 +83,7 @@ inline constexpr double gallery_door_height = 1.8;
 /// `lower_gallery/{start,end,tube,split,drainage_grotto_0/{door,room}}`. Further meshes of one are called `NAME/2` etc.
 struct GalleryOptions {
   std::uint64_t triangles = 500'000;  ///< 500 k gives cells of 0.35 m, 5 M of 0.11 m
-  std::uint64_t seed = 1;             ///< of the roughness and of what stands in the grottos
+  std::uint64_t seed = 1;             ///< of the roughness and of the objects in the grottos
   Vec3 origin{0.0};                   ///< added to all coordinates; 0 keeps those of Table 1
 };
 [[nodiscard]] Scene gallery(const GalleryOptions& options);

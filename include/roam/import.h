@@ -10,8 +10,9 @@
 /// (SECURITY.md). A file that makes it crash or hang costs a roam::Error, not the program. docs/importing.md lists the
 /// formats.
 ///
-/// The reader is searched in this order: ImportOptions::reader; the environment variable ROAM_READER; beside the
-/// running program; `../libexec/roam` from there; where it was installed; `../libexec/roam` from the folders of PATH.
+/// The reader is looked for in this order: ImportOptions::reader; the environment variable ROAM_READER; beside the
+/// running program; in `../libexec/roam` from there; in the folder of its installation; in `../libexec/roam` from the
+/// folders of PATH.
 ///
 /// Coordinates are those of the file, except that glTF is turned from y up to z up, and that a second folder of
 /// photogrammetry tiles is shifted into the frame of the first by their SRSOrigins. ImportOptions can turn and scale.
@@ -55,7 +56,7 @@ struct ImportOptions {
   /// Folders that the scene may refer to, besides its own. References that lead elsewhere are left out and counted in
   /// ImportReport::outside_references.
   std::vector<std::filesystem::path> allow{};
-  std::filesystem::path reader{};  ///< the program roam-reader; empty: searched as above
+  std::filesystem::path reader{};  ///< the program roam-reader; empty: looked for as above
   /// Called from the calling thread at least twice a second. Returning false ends the reader and throws Cancelled.
   std::function<bool(const ImportProgress&)> progress{};
 };
@@ -72,14 +73,14 @@ struct LeftOutObject {
   std::uint64_t triangles = 0;  ///< with such a vertex, or of an ignored object
 };
 
-/// Where the scene lies on the Earth: position in `srs` = position in the scene + origin. From metadata.xml of the
-/// first folder of tiles.
+/// Place of the scene on the Earth: position in `srs` = position in the scene + origin. From metadata.xml of the first
+/// folder of tiles.
 struct Georeference {
   std::string srs;  ///< spatial reference system, e.g. "EPSG:32632" or "ENU:46.2,8.1"
   Vec3 origin{0.0};
 };
 
-/// The walls around a reader that this kernel supports. SECURITY.md says what each one stops.
+/// The walls around a reader that this kernel supports. SECURITY.md describes each.
 struct Confinement {
   int landlock = 0;                ///< ABI version of Landlock; 0: not supported
   bool system_calls = false;       ///< seccomp
@@ -100,13 +101,13 @@ struct ImportReport {
   std::uint64_t ignored_triangles = 0;     ///< left out by ImportOptions::ignore
   std::uint64_t missing_pages = 0;         ///< files that the scene refers to and that are absent or unreadable
   std::uint64_t outside_references = 0;    ///< left out; see ImportOptions::allow
-  std::optional<Confinement> confinement;  ///< of the reader; with several readers, what all of them had
+  std::optional<Confinement> confinement;  ///< of the reader; with several readers, those that all had
   std::vector<LeftOutObject> bad_objects;
   std::vector<LeftOutObject> ignored_objects;
   std::vector<std::string> missing_page_files;
   std::vector<std::string> outside_files;
   std::optional<Georeference> georeference;
-  /// Sentences for the user: what was left out, an up axis or unit that the file states and that was not applied,
+  /// Sentences for the user: about parts left out, an up axis or unit that the file states and that was not applied,
   /// patterns of `ignore` that matched nothing. Empty if all is well.
   std::vector<std::string> notes;
 };
@@ -144,7 +145,7 @@ inline constexpr std::uint64_t piece_triangles = 65'536;
 /// rest in unnamed files in TMPDIR or /tmp. Other formats must fit into memory_limit.
 ///
 /// Pieces are the same for any memory_limit and machine. The report is that of import_scene, except that `vertices`
-/// counts a vertex once per piece that uses it. Throws what import_scene throws; earlier pieces stay valid.
+/// counts a vertex once per piece that uses it. Throws as import_scene does; earlier pieces stay valid.
 ImportReport stream_scene(std::span<const std::filesystem::path> paths, const ImportOptions& options,
                           const PieceSink& sink);
 

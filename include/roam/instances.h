@@ -14,7 +14,7 @@
 ///     }
 ///
 /// Lengths are metres, angles radians, counterclockwise seen from above. An instance stays upright and turns about +z.
-/// Each is one object, with the number that add() returned. Instances pass through each other and through the scene;
+/// Each is one object, with the number that add() returns. Instances pass through each other and through the scene;
 /// only bodies stop them. The promises of space.h hold for the current poses, except that a hit of an instance is
 /// within 2.001 mm instead of 2 mm, up to 1e8 m from it.
 
@@ -52,7 +52,7 @@ class Instances final : public LiveSpace {
   /// 7 m, are refused: build them lossless.
   static constexpr double usual_error = 1e-4;
 
-  /// `space` is what does not move, as a World or a Pager. It must outlive this and stay where it is. Its objects and
+  /// `space`, such as a World or a Pager, stands still. It must outlive this and keep its address. Its objects and
   /// triangles keep their numbers: those of triangles must be below 2^62, those of objects below 2^31. Throws
   /// roam::Error for a space of instances.
   explicit Instances(const Space& space);

@@ -3,7 +3,7 @@
 /// Points and boxes; units and axes.
 ///
 /// Lengths are metres, angles radians unless a name says otherwise; +z is up. Positions are doubles in the scene's own
-/// frame. roam neither shifts nor rotates what a caller passes; import.h describes what happens to files.
+/// frame. roam neither shifts nor rotates them; import.h describes the frames of files.
 
 #include <glm/vec3.hpp>
 

@@ -1,6 +1,7 @@
 #pragma once
 /// \file
-/// Openings: the narrowest place of a way (see passage.h), or what stops a walker (measure_opening()). In metres.
+/// Openings: the narrowest place of a way (see passage.h), or the one that stops a walker (measure_opening()). In
+/// metres.
 
 #include <cstdint>
 #include <optional>

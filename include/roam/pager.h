@@ -12,13 +12,13 @@
 ///       pager.update(walker.body(), walker.position(), walker.velocity());  // between two steps
 ///     }
 ///
-/// A tile is resident or unknown. An unknown tile is solid where it may have triangles: the store says in which cells
-/// of 8 x 8 x 8 over its box, grown by Pager::margin; unknown pages of the index are solid in their boxes. Tiles that
-/// cannot be read or are damaged are solid, too; reading is retried with increasing delay.
+/// A tile is resident or unknown. The store records which of 8 x 8 x 8 cells of a tile's box may have triangles; in an
+/// unknown tile these are solid, grown by Pager::margin. Unknown pages of the index are solid in their boxes. Tiles
+/// that cannot be read or are damaged are solid, too; reading is retried with increasing delay.
 ///
-/// Loading threads read what the body can reach first: in a ball around it and a cone ahead. update() alone takes
-/// loaded tiles into use. All memory is allocated by the constructor. If it holds the whole store, results are those of
-/// a World of its tiles; docs/stores.md lists the exceptions.
+/// Loading threads begin with the tiles that the body can reach first: in a ball around it and a cone ahead. Only
+/// update() takes loaded tiles into use. The constructor allocates all memory. If it holds the whole store, results are
+/// those of a World of its tiles; docs/stores.md lists the exceptions.
 ///
 /// Threads: update(), wait() and the destructor belong to the thread that moves the body. Queries may run in any
 /// threads, but not during update() and wait(). Queries never lock, wait, read or allocate. object() and stats() may be
@@ -78,8 +78,7 @@ class Pager final : public LiveSpace {
   /// The speed limit is (ready_radius - radius) / (latency + 1/60 s), with the latency of a read that starts now: a
   /// body slows down before unknown space instead of hitting it.
   [[nodiscard]] SpaceFacts facts() const override;
-  /// The name alone. A loading thread reads it: "" until it is there, so call again later. For unknown space it is the
-  /// reason.
+  /// The name alone. A loading thread reads it: "" until then, so call again later. For unknown space it is the reason.
   [[nodiscard]] Object object(TriangleId triangle) const override;
 
   [[nodiscard]] const Store& store() const;

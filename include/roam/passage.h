@@ -12,7 +12,7 @@
 /// at least r all along it.
 ///
 /// The way is certified: sweeps along it with `radius` - 0.5 mm meet nothing. Passage::bound and `proven` tell how wide
-/// another way could be. probe.h answers for one size of a body, and what stops it.
+/// another way could be. probe.h tests one size of a body, and names its obstacle.
 ///
 /// Metres, up is +z. The same input gives the same bits on every machine and for any number of threads. Thread-safe.
 /// Target roam::ways.
@@ -30,7 +30,7 @@
 namespace roam {
 
 struct PassageOptions {
-  Mode mode = Mode::walk;  ///< walk or fly
+  Mode mode = Mode::walk;    ///< walk or fly
   double height = 0.0;       ///< of a walking body, >= step: 1.8 for a person; 0: a sphere
   double step = 0.3;         ///< see WalkerSettings::step. A sphere climbs at most its radius.
   double widest = 1.0;       ///< > 0: largest radius searched for

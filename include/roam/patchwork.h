@@ -10,9 +10,8 @@
 ///     space.update(walker.body(), walker.position());                // between two steps: now it is there
 ///
 /// Before the first update() all space is free. Expected, delivered and forgotten patches take effect at the next
-/// update().
-/// Patches that refine another replace it together, once the body is free in them. A body that does not fit where it is
-/// anyway (a ghost in a wall, a body in unknown space) delays nothing.
+/// update(). Patches that refine another replace it together, once the body is free in them. A body that does not fit
+/// in the old patches either (a ghost in a wall, a body in unknown space) delays nothing.
 ///
 /// expect(), deliver(), fail(), forget() and stats() may be called from any thread at any time. All else belongs to the
 /// thread that moves the body; queries may run at the same time, but not during update(). Results depend, to the bit,
@@ -56,9 +55,9 @@ class Patchwork final : public LiveSpace {
   /// box that is empty, not finite or beyond coordinate_limit, and for a `refines` that was never expected.
   ///
   /// Patches that refine the same one must cover it together. They replace it together, when each has come or is itself
-  /// refined by patches that have; if one fails, the coarse patch stays. They may be delivered before that one. Call
-  /// expect() for all of them before you deliver the last. A patch that is announced after `refines` was replaced, or
-  /// below most_levels, is not part of the replacement: its box is unknown at first.
+  /// refined by patches that have; if one fails, the coarse patch stays. They may be delivered before the coarse one.
+  /// Call expect() for all of them before you deliver the last. A patch that is announced after `refines` was replaced,
+  /// or more than most_levels deep, is not part of the replacement: its box is unknown at first.
   PatchId expect(const Box& where, PatchId refines = PatchId::none);
 
   /// Delivers an expected patch; an empty world means that nothing is there. Drops it if it has been replaced. Worlds
@@ -77,8 +76,8 @@ class Patchwork final : public LiveSpace {
   /// Throws roam::Error for a patch that was not expected or is not delivered.
   void forget(PatchId patch);
 
-  /// Takes what was delivered into use; finer patches must leave `body` free at `place`. Returns whether a triangle or
-  /// an unknown box came or went. Throws roam::Error, and takes nothing, for a body or position that no query takes.
+  /// Takes delivered patches into use; finer ones must leave `body` free at `place`. Returns whether a triangle or an
+  /// unknown box came or went. Throws roam::Error, and takes nothing, for a body or position that no query takes.
   bool update(const Body& body, const Vec3& place);
   bool update(const Body& body, const Vec3& place, const Vec3& /*velocity*/) override { return update(body, place); }
   bool update();                                    ///< the same without a body

@@ -39,8 +39,8 @@ struct Waypoint {
 };
 
 /// Reads a path; messages call it `name`. Throws roam::Error, naming the line, for anything but finite numbers, a wrong
-/// count of them, and a time that runs backwards; also for fewer than two waypoints, beyond the limits above, and if
-/// reading fails. load_path() does so from a file or a pipe.
+/// count of them, and a time that runs backwards. Also throws it for fewer than two waypoints, beyond the limits above,
+/// and if reading fails. load_path() reads from a file or a pipe.
 [[nodiscard]] std::vector<Waypoint> read_path(std::istream& in, const std::string& name);
 [[nodiscard]] std::vector<Waypoint> load_path(const std::filesystem::path& file);
 

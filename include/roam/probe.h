@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Probe: whether a body of a given size gets from one position to another, and what stops it if not.
+/// Probe: whether a body of a given size gets from one position to another, and its obstacle if not.
 ///
 ///     const roam::ProbeQuestion question{.from = {2, 0.3, 1}, .to = {18, -0.4, 1}};
 ///     const roam::ProbeAnswer answer = roam::probe(survey, question, {.radius = 0.3, .height = 1.9});
@@ -11,8 +11,8 @@
 ///     }
 ///
 /// `passable` means that a way is wide enough (passage.h) and that a Walker has gone it. Otherwise `limit` names the
-/// obstacle: a door, a headroom, a step, a wall beside an end. `roam probe` is its program;
-/// docs/probing.md explains the answers.
+/// obstacle: a door, a headroom, a step, a wall beside an end. The program is `roam probe`; docs/probing.md explains
+/// the answers.
 ///
 /// Metres, up is +z. The same input gives the same bits. Thread-safe. Target roam::ways.
 
@@ -82,7 +82,7 @@ struct ProbeLimit {
   Vec3 heading{0.0};     ///< unit, level, along the way; 0: unknown
   Vec3 feet{0.0};        ///< of the body there; flying: its centre
   double size = 0.0;     ///< available
-  double needed = 0.0;   ///< by the body; for a step, what it climbs
+  double needed = 0.0;   ///< by the body; for a step, the highest that it climbs
   double width = 0.0;    ///< for a height: width for a body that passes; 0: unknown or not narrow
   double along = 0.0;    ///< length of the way up to there
   bool too_low = false;  ///< for an end: `size` is a headroom
@@ -100,7 +100,7 @@ struct ProbeAnswer {
   /// If wide_enough: Passage::proven. Otherwise: it is certified that no way for this radius exists, or that an end is
   /// too low.
   bool proven = false;
-  Vec3 start{0.0}, target{0.0};  ///< where the body stands for `from` and `to`: at most 2 m aside, in sight
+  Vec3 start{0.0}, target{0.0};  ///< the body's places for `from` and `to`: at most 2 m aside, in sight
   /// None if nothing limits the way, or if no way was found and both ends are far apart.
   std::optional<ProbeLimit> limit;
   double missing = 0.0;           ///< max(0, needed - size) of the limit; 0 for `apart`
@@ -118,7 +118,7 @@ class NoRoomAtEnd : public Error {
 };
 
 /// Answers for all sizes, in their order. Sizes of the same height and step share one search. Throws Error for sizes
-/// that a Walker refuses, and, flying, for one that is no sphere; what widest_way throws; NoRoomAtEnd; Cancelled.
+/// that a Walker refuses, flying for one that is no sphere, and as widest_way() does; NoRoomAtEnd; Cancelled.
 [[nodiscard]] std::vector<ProbeAnswer> probe(const Survey& survey, const ProbeQuestion& question,
                                              std::span<const ProbedSize> sizes);
 /// As above, for one size.

@@ -94,8 +94,8 @@ void save_profile(const Profile& profile, const std::filesystem::path& file);
 /// The frame in the file profile_path(scenes), to be found before the scene is read. None if there is no file, or no
 /// frame in it. Throws as load_profile does.
 [[nodiscard]] std::optional<SceneFrame> find_frame(std::span<const std::filesystem::path> scenes);
-/// Keeps a frame in a profile, whose body stays if it is of the same frame. Otherwise it is of a scene that was read
-/// in another way, and is left out: returns whether it was. Throws as load_profile and save_profile do.
+/// Keeps a frame in a profile. A body of another frame no longer fits the scene and is left out: returns whether one
+/// was. Throws as load_profile and save_profile do.
 bool save_frame(const SceneFrame& frame, const std::filesystem::path& file);
 
 /// `settings` with the profile's radius, height, step, slope and support radius. The eye stays, but at most at the top

@@ -19,10 +19,10 @@
  *
  * In CMake: find_package(roam COMPONENTS c) and the target roam::c.
  *
- * Units and axes. Lengths are metres, times seconds, +z is up. Positions are doubles in the scene's own frame. A body is
- * a sphere or an upright capsule: all points within `radius` of a vertical segment of length 2 * half_height about its
- * centre. Radius 0 makes a point. The promises about the results are those of roam/space.h: over [0, time] the body is
- * free, and space that is not loaded counts as solid.
+ * Units and axes. Lengths are metres, times seconds, +z is up. Positions are doubles in the scene's own frame. A body
+ * is a sphere or an upright capsule: all points within `radius` of a vertical segment of length 2 * half_height about
+ * its centre. Radius 0 makes a point. The promises about the results are those of roam/space.h: over [0, time] the body
+ * is free, and space that is not loaded counts as solid.
  *
  * Errors. A function that can fail returns a roam_status, and on failure writes no result unless it says so.
  * roam_error() is then a text: what is wrong, where, and what to do. No C++ exception leaves the library.
@@ -34,7 +34,7 @@
  * such structs all have the size of the first.
  *
  * Handles. A handle is created by a function whose last parameter is its address, and ends by the function _free of its
- * type, which also takes NULL. It keeps alive what it needs: handles may be freed in any order.
+ * type, which also takes NULL. It keeps alive all that it needs: handles may be freed in any order.
  *
  * Threads. Calls that take a handle as pointer to const may run at the same time in any threads. Calls that take it
  * otherwise need it alone. The library keeps no global state but the text of roam_error(), which each thread has.
@@ -80,7 +80,7 @@ enum {
 /** The text of the last failure in this thread, UTF-8; "" if there was none. Valid until the next failure in it. */
 ROAM_API const char* roam_error(void);
 
-/** Gets the fraction done, in [0, 1], and the `progress_data` that was passed with it. See "Callbacks" above. */
+/** Receives the fraction done, in [0, 1], and the `progress_data` that was passed with it. See "Callbacks" above. */
 typedef int32_t (*roam_progress)(double done, void* data);
 
 typedef struct roam_vec3 {
@@ -157,7 +157,7 @@ typedef struct roam_space_facts {
   uint64_t triangles;
   uint64_t objects;
   uint64_t bytes;         /**< of memory; of a store: all that it may take */
-  double largest_error;   /**< farthest that a stored vertex lies from the caller's */
+  double largest_error;   /**< largest distance of a stored vertex from the caller's */
   double speed_limit;     /**< m/s: up to this speed a store loads ahead in time; infinite for a world */
   uint64_t failed;        /**< tiles and pages of a store that cannot be read now, and so are solid */
   double ready;           /**< of a store: all within this distance of the body is known */
@@ -196,7 +196,7 @@ typedef struct roam_impact {
   uint64_t triangle;
   uint32_t object;
   uint8_t hit;       /**< 0 or 1, as `unknown` */
-  uint8_t unknown;   /**< what was hit is the border of space that is not loaded */
+  uint8_t unknown;   /**< the hit is the border of space that is not loaded */
   uint8_t feature;   /**< ROAM_FACE, ROAM_EDGE or ROAM_VERTEX */
   uint8_t reserved;
 } roam_impact;
@@ -326,7 +326,7 @@ enum {
   ROAM_MET_UNKNOWN, ROAM_SLOWED, ROAM_NARROWED, ROAM_WIDENED, ROAM_BRIDGED
 };
 
-/** What a step, or another call that moves a walker, did. */
+/** The result of a step, or of another call that moves a walker. */
 typedef struct roam_step {
   size_t size;
   roam_vec3 from, to;    /**< the centre before and after */
@@ -350,7 +350,7 @@ typedef struct roam_walker_state {
   roam_vec3 velocity;            /**< m/s, over the last call */
   double radius, height;
   double rise_speed;             /**< m/s, in the air */
-  double skin;                   /**< the gap that it keeps from what it slides along */
+  double skin;                   /**< the gap that it keeps from surfaces along which it slides */
   int32_t mode;                  /**< ROAM_WALK, ROAM_FLY or ROAM_GHOST */
   uint8_t grounded, crouched, held, reserved;
 } roam_walker_state;
@@ -380,7 +380,7 @@ ROAM_API roam_status roam_walker_get_contacts(const roam_walker* walker, roam_co
                                               size_t* count);
 
 /**
- * Takes what a store has loaded into use, and loads ahead of the walker: call it between two steps. `changed` may be
+ * Takes loaded tiles of a store into use, and loads ahead of the walker: call it between two steps. `changed` may be
  * NULL. Does nothing in a world. No query or step may run in the space meanwhile.
  */
 ROAM_API roam_status roam_space_update(roam_space* space, const roam_walker* walker, int32_t* changed);
@@ -424,7 +424,7 @@ typedef struct roam_route_result {
 ROAM_API roam_status roam_route_follow(roam_walker* walker, const roam_vec3* waypoints, size_t count,
                                        const roam_route_options* options, roam_route_result* result);
 
-/* ------------------------------------------------------------------------------------ probes, training, profiles --- */
+/* ----------------------------------------------------------------------------------- probes, training, profiles --- */
 
 /** A scene with all that probes and training need: a lossless world, its floors, and the triangles. */
 typedef struct roam_survey roam_survey;
@@ -463,7 +463,7 @@ typedef struct roam_probe_answer {
   uint8_t wide_enough;       /**< a way is wide enough */
   uint8_t proven;            /**< certified: see roam/probe.h */
   uint8_t found;             /**< there is a way for some radius */
-  int32_t limit;             /**< what limits the way: ROAM_LIMIT_DOOR, ... */
+  int32_t limit;             /**< kind of the limit of the way: ROAM_LIMIT_DOOR, ... */
   double widest_radius;      /**< the largest that passes; infinite if nothing limits it */
   double length;             /**< of the way */
   roam_vec3 limit_point;     /**< the middle of the measured distance */
@@ -472,7 +472,7 @@ typedef struct roam_probe_answer {
   double limit_needed;       /**< by the body */
 } roam_probe_answer;
 
-/** Whether a body gets from one position to another, and what stops it. `way` may be NULL; else the centre's way. */
+/** Whether a body gets from one position to another, and its obstacle. `way` may be NULL; else the centre's way. */
 ROAM_API roam_status roam_probe(const roam_survey* survey, const roam_probe_options* options, roam_probe_answer* answer,
                                 roam_path** way);
 /** The positions of a path and their number. Valid as long as the path. */

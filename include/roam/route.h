@@ -32,8 +32,9 @@ struct RouteOptions {
   /// m/s^2, > 0: see WalkerInput. With a limit the body comes to rest at each turn and at the end.
   double acceleration = std::numeric_limits<double>::infinity();
   double braking = std::numeric_limits<double>::infinity();
-  /// > 0: the body is blocked if in this time, and at least 8 steps, it neither came nearer to its waypoint by 1/20 of
-  /// free motion, nor slid so far aside and a little nearer, as along a wall met 3 degrees off head-on.
+  /// > 0: the body is blocked if in this time, and at least 8 steps, it came nearer to its waypoint by less than 1/20
+  /// of free motion. A slide so long that comes a little nearer is progress, too, as along a wall met 3 degrees from
+  /// head-on.
   double patience = 1.0;
   double wait = 10.0;             ///< >= 0, real time: how long follow() waits for a LiveSpace after its last change
   std::optional<Box> scene = {};  ///< the box for Outcome::left_scene; none: that of the space
@@ -46,7 +47,7 @@ enum class Outcome : std::uint8_t {
   reached,     ///< was at every waypoint in turn
   blocked,     ///< no longer came nearer to a waypoint; see RouteOptions::patience
   left_scene,  ///< left the box of the scene: flying, by more than its own size; walking, fell over its side
-  fell,        ///< walking: dropped by more than Walker::fall_limit() below where it last stood
+  fell,        ///< walking: dropped by more than Walker::fall_limit() below its last ground
   held,        ///< cannot move: did not fit where it was put, found no ground below, or waits for unknown space
 };
 [[nodiscard]] const char* to_string(Outcome outcome);  ///< "reached", "blocked", "left_scene", "fell" or "held"

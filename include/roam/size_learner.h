@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Size learner: adapts a body's size while it roams, where training is incomplete or missing.
+/// Size learner: adapts a body's size while it roams, if training is incomplete or missing.
 ///
 ///     roam::SizeLearner learner(profile, {.radius_min = 0.2});
 ///     for (;;) {
@@ -56,7 +56,8 @@ class SizeLearner {
   /// lesson once each time that the body meets its cause.
   [[nodiscard]] std::optional<Lesson> watch(const Walker& walker, const Vec3& wish, double seconds);
 
-  /// Gives the size to the walker and the profile. After a fall, puts the walker back to where it last stood firmly.
+  /// Gives the size to the walker and the profile. After a fall, puts the walker back to the place where it last stood
+  /// firmly.
   void take(Walker& walker, const Lesson& lesson);
 
   [[nodiscard]] const Profile& profile() const { return profile_; }

@@ -102,7 +102,7 @@ struct FirstImpact {
   TriangleId triangle = no_triangle;
   ObjectId object = no_object;
   // For authors of spaces: how Space::completed() finds the contact.
-  std::array<std::uint32_t, 4> locator{};  ///< whatever the space finds the triangle by
+  std::array<std::uint32_t, 4> locator{};  ///< the space's own reference to the triangle
   std::optional<Contact> contact;          ///< at `time`, if the space has found it already
   std::uint64_t revision = 0;              ///< of the space; set by Space
 };
@@ -117,7 +117,7 @@ struct Floor {
 
 struct SpaceFacts {
   Box bounds = {};             ///< of everything, known or unknown; empty for an empty space
-  double largest_error = 0.0;  ///< farthest that a stored vertex lies from where the caller put it; never grows
+  double largest_error = 0.0;  ///< largest distance of a stored vertex from the caller's; never grows
   /// Changes whenever something came or went. A held body then tries again. While it stays the same, Walker reuses
   /// results of gap_bound(). None: the space may change without notice.
   std::optional<std::uint64_t> revision = {};
@@ -157,7 +157,7 @@ class Space {
   /// mm. A value <= 0 means touching, overlapping or a gap below 2 mm; it is not a depth.
   [[nodiscard]] double gap_bound(const Query& query, double reach) const { return gap_over(query, reach, nullptr); }
 
-  /// Batches on all cores; they allocate. results[i] is, to the bit, what the function above returns for queries[i];
+  /// Batches on all cores; they allocate. results[i] is, to the bit, the result of the function above for queries[i];
   /// both spans have one size. An error names the query by its index, and no result is written.
   void sweep(std::span<const Query> queries, std::span<Impact> results) const;
   void clearance(std::span<const Query> queries, double reach, std::span<Clearance> results) const;

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The stance of a walker: what carries it. See Walker::stance().
+/// The stance of a walker: the ground, rim or disc that carries it. See Walker::stance().
 
 #include <cstdint>
 #include <optional>
@@ -10,7 +10,7 @@
 
 namespace roam {
 
-/// What carries a body in walk mode; `air` in the other modes.
+/// The support of a body in walk mode; `air` in the other modes.
 enum class Footing : std::uint8_t {
   air,      ///< nothing: the body jumps, falls or slides down a steep slope
   falling,  ///< nothing, and it has dropped by more than Walker::fall_limit()

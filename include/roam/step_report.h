@@ -15,17 +15,17 @@ namespace roam {
 
 enum class EventKind : std::uint8_t {
   slid,          ///< touched something and went on along it
-  blocked,       ///< touched something and could not go on; once, and again after it could (StepReport::blocked)
+  blocked,       ///< touched something and could not go on; once for each time (StepReport::blocked: in each step)
   stepped_up,    ///< walked up a kerb, stair or sill
   stepped_down,  ///< walked down one
   jumped,        ///< left the ground by a jump
   airborne,      ///< left the ground otherwise
   landed,        ///< came back to ground
-  fell,          ///< is more than Walker::fall_limit() below where it last stood; once a fall
+  fell,          ///< is more than Walker::fall_limit() below its last ground; once for each fall
   crouched,      ///< became low, to pass under something or on command
   stood,         ///< found head-room and stood up again
   placed,        ///< put at a position by the caller
-  freed,         ///< put where it did not fit and moved to where it does; not for corrections of a few millimetres
+  freed,         ///< put where it did not fit, and moved to a free place; not for corrections of a few millimetres
   held,          ///< cannot move: does not fit and cannot be freed, or has nothing below it (see put_back)
   put_back,      ///< fell below everything and was put back over its last ground; `held` follows if that fails
   returned,      ///< left ghost mode inside a wall and was put to the nearest safe position
@@ -89,7 +89,7 @@ struct StepReport {
   /// Each feature of a triangle once, the last touched last; of more than 8, the first 7 and the last. `distance` is
   /// the gap to the plane of the contact where the body stopped.
   InlineList<Contact, 8> contacts;
-  InlineList<Event, 24> events;  ///< in order. A very long step may leave out slides and steps, never what ends it
+  InlineList<Event, 24> events;  ///< in order. A very long step may leave out slides and steps, never those that end it
   Vec3 from{0.0};                ///< the centre before
   Vec3 to{0.0};                  ///< the centre now
   double height = 0.0;           ///< of the body now

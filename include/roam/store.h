@@ -30,7 +30,8 @@
 namespace roam {
 
 /// A user's secret key. A store whose manifest has an authentication code of this key was built or adopted by somebody
-/// who has the key. Make it of 32 bytes from a cryptographic generator, and keep it where only its user can read it.
+/// who has the key. Make it of 32 bytes from a cryptographic generator, and keep it in a file that only its user can
+/// read.
 struct StoreKey {
   std::array<std::byte, 32> bytes{};
 };
@@ -48,7 +49,7 @@ struct StoreInfo {
   std::uint64_t number_bytes = 0;    ///< of the map from stored to source triangles
   std::uint64_t resident_bytes = 0;  ///< of all tiles in memory
   Box bounds;                        ///< of the source triangles
-  double largest_error = 0.0;        ///< m: farthest that a stored vertex lies from its source position
+  double largest_error = 0.0;        ///< m: largest distance of a stored vertex from its source
   bool lossless = false;
   std::string hash;           ///< SHA-256 of the manifest, 64 hexadecimal digits; covers the whole store
   std::string geometry_hash;  ///< of the quantized triangles in any order, 16 hexadecimal digits
@@ -123,7 +124,7 @@ class Store {
 
 /// Damage in a store.
 struct StoreDamage {
-  std::string what;  ///< "tile 17 of page 3 (its box)", "page 3 (its box)", "packs/0123abcd....pack",
+  std::string what;  ///< "tile 17 of page 3 (its box)", "page 3 (its box)" or "packs/0123abcd....pack"
   std::string why;
   Box where;  ///< solid because of it; empty: unknown
 };

@@ -61,7 +61,7 @@ struct StoreBuildOptions {
   static constexpr std::uint64_t least_memory = 256ull << 20;
 };
 
-/// What a build did.
+/// The work of a build.
 struct StoreBuildReport {
   bool unchanged = false;          ///< the store was up to date: nothing was done
   std::uint64_t triangles = 0;     ///< of the scene
@@ -80,7 +80,7 @@ class NotAuthentic : public Error {
   using Error::Error;
 };
 
-/// Runs plan_store, build_shard for each shard, and merge_store. Throws what they throw.
+/// Runs plan_store, build_shard for each shard, and merge_store. Throws as they do.
 StoreBuildReport build_store(const StoreBuildOptions& options);
 
 /// Reads changed parts and divides the scene into shards. Returns how many shards must be built; 0 if `unchanged`.

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What carries a body over cracks of the floor: their rims, and its support disc (WalkerSettings::support_radius).
+/// Support of a body over cracks of the floor: by their rims, or by its support disc (WalkerSettings::support_radius).
 ///
 /// Lengths are metres, angles degrees. All functions are thread-safe and allocate nothing. docs/walking.md: "The foot".
 
@@ -33,7 +33,7 @@ struct FloorPlane {
 struct SupportDisc {
   double radius = 0.0;          ///< (0, Space::reach_limit]
   double slope_degrees = 0.0;   ///< [0, 89]: the steepest floor
-  double knee = 0.0;            ///< height above the plane of what counts as a wall: cracks behind it do not count
+  double knee = 0.0;            ///< height above the plane: cracks behind walls so high do not count
   double band = carrying_band;  ///< floor is at most this much above or below the plane
 };
 

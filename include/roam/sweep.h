@@ -3,7 +3,7 @@
 /// Certified time of impact of a moving sphere or upright capsule with one triangle.
 ///
 /// The body's centre is at from + t * motion, t in [0, 1]. Triangles are two-sided and may be degenerate. Lengths are
-/// metres. What is reported free is free in exact arithmetic on the same input: for any unit vector n and corners v_i
+/// metres. A motion reported free is free in exact arithmetic on the same input: for any unit vector n and corners v_i
 ///
 ///     distance(axis at t, triangle) >= min_i n . (centre(t) - v_i) - half_height * |n.z|
 ///
@@ -50,8 +50,7 @@ struct SweepResult {
 
 /// First impact of `body`, moved from `from` by `motion`, with `triangle`.
 [[nodiscard]] SweepResult sweep(const Body& body, const Vec3& from, const Vec3& motion, const Triangle& triangle);
-/// The first impact up to time `until`, in [0, 1]. Of a miss, `time` is `until` and `distance` 0, which makes misses
-/// faster.
+/// The first impact up to time `until`, in [0, 1]. A miss has `time` = `until` and `distance` 0, which makes it faster.
 [[nodiscard]] SweepResult sweep(const Body& body, const Vec3& from, const Vec3& motion, const Triangle& triangle,
                                 double until);
 

@@ -7,9 +7,9 @@
 ///     if (t.places > 0) roam::save_profile(roam::profile_of(t, survey), roam::profile_path("dam.ply"));  // profile.h
 ///
 /// Method::paper is figure 6 of Xie & Niu 2020 (PLoS ONE 15(2): e0229038): it roams random paths, with a smaller radius
-/// where the body cannot enter, and a larger one where it falls. Method::interval finds both ends of the interval from
-/// the widest ways (passage.h) and the cracks of the floor, and confirms them by trials with a Walker. docs/training.md
-/// has the definitions, docs/cracks.md the measured errors.
+/// if the body cannot enter, and a larger one if it falls. Method::interval finds both ends of the interval from the
+/// widest ways (passage.h) and the cracks of the floor, and confirms them by trials with a Walker. docs/training.md has
+/// the definitions, docs/cracks.md the measured errors.
 ///
 /// Lengths in metres. The same survey, options and seed give the same bits. Thread-safe. Target roam::training.
 
@@ -57,7 +57,7 @@ struct TrainOptions {
   double step = 0.3;         ///< see WalkerSettings
   double spacing = 0.2;      ///< see PassageOptions
   double speed = 1.4;        ///< of the trials, m/s
-  int threads = 0;       ///< >= 0; 0: one per core
+  int threads = 0;           ///< >= 0; 0: one per core
   /// Called now and then, from one thread at a time, with the stage and the fraction of all of training that is done:
   /// in [0, 1], never falling, 1 only at the end. Returning false ends training; the result so far has
   /// Training::complete false.

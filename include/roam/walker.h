@@ -28,7 +28,7 @@ namespace roam {
 
 class Walker {
  public:
-  /// Puts a body into `space`, which must outlive it and stay where it is. Throws roam::Error as check() and place().
+  /// Puts a body into `space`, which must outlive it and keep its address. Throws roam::Error as check() and place().
   Walker(const Space& space, const WalkerSettings& settings, Mode mode, const Vec3& start);
   Walker(Space&& space, const WalkerSettings& settings, Mode mode, const Vec3& start) = delete;
   ~Walker();
@@ -86,12 +86,12 @@ class Walker {
   /// For LiveSpace::update(): the average over the last call and the move_instances() before it, without teleports,
   /// m/s. It includes the motion of the ground; pace() does not.
   [[nodiscard]] Vec3 velocity() const;
-  /// The velocity from which limits of acceleration start: at the end of the last step, along what the body slid on,
-  /// relative to moving ground, horizontal in walk mode. 0 if the body was stopped, held or put.
+  /// The velocity from which limits of acceleration start: at the end of the last step, along the surface that the body
+  /// slid on, relative to moving ground, horizontal in walk mode. 0 if the body was stopped, held or put.
   [[nodiscard]] Vec3 pace() const;
   [[nodiscard]] const StepReport& report() const;  ///< of the last call
-  /// The gap kept from what the body slides along: 2 * largest_error() + 0.1 mm. The body also passes openings that
-  /// leave it a smaller gap.
+  /// The gap kept from surfaces that the body slides along: 2 * largest_error() + 0.1 mm. The body also passes openings
+  /// that leave it a smaller gap.
   [[nodiscard]] double skin() const;
   [[nodiscard]] double fall_limit() const;  ///< radius + step: a larger drop below the ground last stood on is a fall
 

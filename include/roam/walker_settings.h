@@ -46,7 +46,7 @@ struct WalkerSettings {
   static WalkerSettings sphere(double radius);
 };
 
-/// A region of a scene with its own size of the body, for Walker::set_regions(). Where regions overlap, the smallest body
+/// A region of a scene with its own size of the body, for Walker::set_regions(). If regions overlap, the smallest body
 /// and the largest support disc apply.
 struct SizeRegion {
   Box bounds = {};              ///< finite, not empty

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Roaming a scene of which no path is known, and where to start.
+/// Wandering: roaming a scene without a known path, and a place to start.
 ///
 ///     const roam::WalkerSettings person;
 ///     const auto start = roam::wander_start(world, person, roam::Mode::walk, roam::floor_samples(meshes));
@@ -10,8 +10,9 @@
 ///     while (!wander.done()) wander.advance();
 ///     std::cout << wander.result().length << " m\n";
 ///
-/// A look ahead probes strides in all directions with the body itself and heads where it has been least. On the way the
-/// Walker moves the body, as along a Route. Nothing is random: the same scene and settings give the same walk.
+/// A look ahead probes strides in all directions with the body itself, and heads for places where the body has been
+/// least. On the way the Walker moves the body, as along a Route. Nothing is random: the same scene and settings give
+/// the same walk.
 
 #include <cstddef>
 #include <functional>
@@ -27,7 +28,7 @@ namespace roam {
 
 /// The middles of up to `count` triangles that lie flat enough to stand on and face up, in metres. They are spread
 /// evenly over all such triangles, in the order of the meshes. So a gallery in a wide landscape, with most of the
-/// triangles, has most of the samples. In meshes of which nothing faces up, those that face down. Thread-safe.
+/// triangles, has most of the samples. If no triangle faces up, those that face down count. Thread-safe.
 [[nodiscard]] std::vector<Vec3> floor_samples(std::span<const Mesh> meshes, std::size_t count = 512);
 
 /// A free place, and how much room there is.
@@ -36,13 +37,13 @@ struct WanderStart {
   double room = 0.0;  ///< metres that the body can stride from there, weighted by the walls in sight; >= 0
 };
 
-/// Where the body can stride farthest in eight directions. The candidates are `floors`, and all floors under a grid of
-/// `columns` x `columns` (>= 0) over the space. Walls in sight count; a place within walls and under a ceiling counts
-/// fourfold, unless it is only a closet. So a walk starts in a tunnel, not on top of it. None where the body fits at no
-/// candidate.
+/// The candidate from which the body can stride farthest, in eight directions. Candidates are `floors`, and all floors
+/// under a grid of `columns` x `columns` (>= 0) over the space. Walls in sight count; a place within walls and under a
+/// ceiling counts fourfold, unless it is only a closet. So a walk starts in a tunnel, not on top of it. None if the
+/// body fits at no candidate.
 ///
-/// Takes some microseconds to milliseconds a candidate. `goes_on` is called before each; it ends the search by false.
-/// Throws roam::Cancelled then, and roam::Error for settings out of range. Thread-safe as the space's queries are.
+/// Takes some microseconds to milliseconds a candidate. `goes_on` is called before each; if it returns false,
+/// roam::Cancelled is thrown. Throws roam::Error for settings out of range. Thread-safe as the space's queries are.
 [[nodiscard]] std::optional<WanderStart> wander_start(const Space& space, const WalkerSettings& settings, Mode mode,
                                                       std::span<const Vec3> floors = {}, int columns = 32,
                                                       const std::function<bool()>& goes_on = {});
@@ -53,11 +54,11 @@ struct WanderOptions {
   double seconds = 60.0;   ///< simulated, > 0: after these it is done
 };
 
-/// One walk without an aim, step by step.
+/// One walk without a goal, step by step.
 class Wander {
  public:
-  /// Begins where the walker is. The walker must outlive it and must not be moved by others meanwhile; its space is
-  /// never updated here. Throws roam::Error for options out of range and for a walker in ghost mode.
+  /// Begins at the walker's position. The walker must outlive it and must not be moved by others meanwhile; its space
+  /// is never updated here. Throws roam::Error for options out of range and for a walker in ghost mode.
   Wander(Walker& walker, const WanderOptions& options = {});
 
   ~Wander();
@@ -68,16 +69,16 @@ class Wander {
 
   [[nodiscard]] bool done() const;
 
-  /// Chooses a new heading when the last one is used up. Moves nothing. advance() does so itself: a caller that times
-  /// steps calls it before.
+  /// Chooses a new heading if the last one is used up. Moves nothing. advance() calls it; a caller that times steps
+  /// calls it before.
   void look();
 
-  /// One step. Where no heading is left it moves nothing, and is done. Throws roam::Error when done().
+  /// One step. If no heading is left, it moves nothing and is done. Throws roam::Error when done().
   const StepReport& advance();
 
-  /// The result so far; complete when done(). Its events are the first 10,000, the last of them the last of all.
-  /// `reached` when the time is over; `held` when the body cannot move then, or not for 2 s before, or when every
-  /// heading has failed; `left_scene` as for a route. `waypoints` is 0 and `blocked_at` none.
+  /// The result so far; complete when done(). It has at most 10,000 events: the first ones, and the last of all.
+  /// `reached` when the time is over; `held` if the body cannot move then, or could not for 2 s, or if every heading
+  /// has failed; `left_scene` as for a route. `waypoints` is 0 and `blocked_at` none.
   [[nodiscard]] const RouteResult& result() const;
 
  private:

@@ -32,7 +32,7 @@ struct WorldStats {
   std::uint64_t objects = 0;
   std::uint64_t tiles = 0;
   std::uint64_t bytes = 0;     ///< resident: geometry, hierarchy and triangle numbers, without names
-  double largest_error = 0.0;  ///< m: farthest that a stored vertex lies from where the caller put it
+  double largest_error = 0.0;  ///< m: largest distance of a stored vertex from the caller's
 };
 
 struct WorldData;
@@ -57,7 +57,7 @@ class World final : public Space {
   void find_near(const Query& query, Collector& collector, Vicinity* vicinity) const override;
 
  private:
-  friend class Patchwork;  // these ask many worlds as one
+  friend class Patchwork;  // these query many worlds as one
   friend class Instances;
 
   std::unique_ptr<const WorldData> data_;

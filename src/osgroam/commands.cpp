@@ -45,13 +45,13 @@ Manipulator::State::State() : look_speed(default_look_speed) {
   keys.add("jump", "Space", "jumps (walking)", pressed);
   keys.add("crouch", "C", "crouches (walking)", held);
   keys.add("gravity", "G", "changes between walking and flying", pressed);
-  keys.add("ghost", "N", "passes through walls, or no longer", pressed);
+  keys.add("ghost", "N", "turns passing through walls on and off", pressed);
   keys.add("home", "Home", "goes back to the start", pressed);
   keys.add("grab", "M", "lets the mouse look without a button", pressed);
   keys.add("release", "Escape", "lets go of the mouse", pressed);
   keys.add("look", "Drag", "looks around", gesture);
-  keys.add("speed", "Wheel", "makes faster or slower", gesture);
-  keys.add("go", "Double click", "goes to what was clicked", gesture);
+  keys.add("speed", "Wheel", "changes the speed", gesture);
+  keys.add("go", "Double click", "goes to the clicked place", gesture);
 }
 
 bool Manipulator::State::key_down(const Adapter& event) {

@@ -67,7 +67,8 @@ void SceneOptions::add_reading_to(CLI::App& verb) {
       ->type_name("DIR")
       ->expected(1)
       ->take_all();
-  verb.add_flag("--no-profile", no_profile, "Ignore SCENE.roam.json: the trained body, and the axis that is up");
+  verb.add_flag("--no-profile", no_profile,
+                "Ignore SCENE.roam.json: the trained body, the axis that is up and the unit");
   // For the child process of roam view.
   verb.add_flag("--no-scene-link{false}", through_link)->group("");
   verb.add_option("--threads", threads, "Threads for indexing and queries (default: one per core)")

@@ -189,7 +189,7 @@ TEST(Session, CyclesTheDisplayAndShowsTheHelp) {
   EXPECT_TRUE(contains(d.hud(), "feet"));
   EXPECT_FALSE(contains(d.hud(), "memory"));
   d.tap('h');
-  EXPECT_TRUE(contains(d.hud(), "goes to what was clicked"));
+  EXPECT_TRUE(contains(d.hud(), "goes to the clicked place"));
   EXPECT_TRUE(contains(d.hud(), "keeps this place as a bookmark"));
   d.tap('h');
   EXPECT_FALSE(contains(d.hud(), "bookmark"));

@@ -149,9 +149,9 @@ void ViewOptions::add_to(CLI::App& verb) {
   verb.option_defaults()->group("Start");
   auto* from = verb.add_option_function<std::string>(
                        "--at", [this](const std::string& text) { at = parse_place(text); },
-                       "Place of the body's centre, and where it looks, in degrees: yaw 0 is +x, 90 is +y")
+                       "Place of the body's centre, and its gaze in degrees: yaw 0 is +x, 90 is +y")
                    ->type_name("X,Y,Z[,YAW[,PITCH]]");
-  verb.add_option("--bookmark", bookmark, "Start at a place that was kept with the key B")
+  verb.add_option("--bookmark", bookmark, "Start at a bookmark, a place that the key B kept")
       ->excludes(from)
       ->type_name("NAME");
   verb.add_option("--mode", mode, "walk, fly or ghost (default: walk)")
@@ -188,9 +188,10 @@ void ViewOptions::add_to(CLI::App& verb) {
           "Drawing: auto, full, light or plain (default: auto: full; plain in a window without a graphics card)")
       ->check(one_of({quality_names.begin(), quality_names.end()}))
       ->type_name("Q");
-  verb.add_option("--section", section,
-                  "Show only what is there, to look into buildings: 'z<2.5', 'x>10'; may be repeated. The body still "
-                  "meets the rest")
+  verb.add_option(
+          "--section", section,
+          "Show only this side of a plane, to look into buildings: 'z<2.5', 'x>10'; may be repeated. The body still "
+          "meets the rest")
       ->type_name("PLANE")
       ->expected(1)
       ->take_all();
@@ -203,7 +204,7 @@ void ViewOptions::add_to(CLI::App& verb) {
   verb.add_option("--screenshot", screenshot,
                   "Write a picture (.png, .jpg) without the display when all is loaded or the path ends, and end")
       ->type_name("FILE");
-  verb.add_option("--record", record, "Write a film (.mp4) of all that is shown; needs ffmpeg")->type_name("FILE");
+  verb.add_option("--record", record, "Write a film (.mp4) of the session; needs ffmpeg")->type_name("FILE");
   verb.add_option("--record-path", record_path, "Write the way as a path file, as the key R does")->type_name("FILE");
   verb.add_option("--trace", trace, "Write every step to this CSV file (-: standard output)")->type_name("FILE");
   verb.add_flag("--verify", verify, "At the end, check every move against all triangles, without the index");
@@ -212,7 +213,7 @@ void ViewOptions::add_to(CLI::App& verb) {
   verb.add_option("--settings", settings,
                   "Settings file (default: roam/settings.json in $XDG_CONFIG_HOME or ~/.config)")
       ->type_name("FILE");
-  verb.add_flag("--keys", keys, "Print the keys, as the settings have them, and end");
+  verb.add_flag("--keys", keys, "Print the keys, as set in the settings, and end");
 }
 
 ViewPlan make_plan(const ViewOptions& options, const ViewSettings& settings,
