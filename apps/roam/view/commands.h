@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The commands of `roam view` besides moving: their keys and their actions.
+/// The commands of `roam view`: their keys and their actions. Keys that move are in src/osgroam/commands.cpp.
 
 #include <functional>
 #include <map>

@@ -11,7 +11,7 @@
 
 #include "roam/sweep.h"
 #include "ways/lattice/walk_place.h"
-#include "ways/probe/search.h"
+#include "ways/probe/parts.h"
 
 namespace roam::ways {
 namespace {

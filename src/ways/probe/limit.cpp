@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "ways/lattice/walk_place.h"
-#include "ways/probe/search.h"
+#include "ways/probe/parts.h"
 #include "ways/refine/stations.h"
 #include "ways/trials/on_way.h"
 

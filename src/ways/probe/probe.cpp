@@ -13,7 +13,7 @@
 #include "math/parallel_floating_point.h"
 #include "roam/standing.h"
 #include "text/names.h"
-#include "ways/probe/search.h"
+#include "ways/probe/parts.h"
 #include "ways/trials/on_way.h"
 
 namespace roam {

@@ -1,5 +1,5 @@
-// The search for the widest way from A to B.
-#include "ways/probe/search.h"
+// The body of one search, and its widest way.
+#include "ways/probe/parts.h"
 
 #include <algorithm>
 
