@@ -9,8 +9,10 @@
 #include <cmath>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <sstream>
 #include <tuple>
+#include <utility>
 
 #include "cli/interrupt.h"
 #include "cli/output_file.h"
@@ -80,6 +82,9 @@ std::vector<ProbedSize> matrix_sizes(const std::string& text, bool spheres) {
       throw UsageError(Error::at(error.where(), fmt::format("{}; and there is no file \"{}\"", error.what(), text)));
     }
   }
+  // A file may repeat a size a million times.
+  std::set<std::pair<double, double>> seen;
+  std::erase_if(sizes, [&](const ProbedSize& size) { return !seen.emplace(size.radius, size.height).second; });
   if (sizes.empty()) throw UsageError(text.empty() ? "--matrix \"\"" : "--matrix " + text, "there are no sizes in it");
   return sizes;
 }

@@ -36,7 +36,7 @@ struct PassageOptions {
   double widest = 1.0;       ///< > 0: largest radius searched for
   double narrowest = 0.05;   ///< > 0, < widest: smallest radius searched for
   double support_max = 1.0;  ///< > 0: a way does not cross cracks of the floor that a disc of this radius fits into
-  double spacing = 0.2;      ///< > 0: of the search grid. Openings narrower than 0.7 * spacing may be overlooked.
+  double spacing = 0.2;      ///< >= 0.001: of the search grid. Openings narrower than 0.7 * it may be overlooked.
   /// Limit of the number of searched positions, which take 100 bytes each, or 60 when flying. Beyond it the best way so
   /// far is returned, with Passage::complete false.
   std::uint64_t most_places = 20'000'000;

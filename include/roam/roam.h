@@ -294,7 +294,7 @@ enum { ROAM_WALK = 0, ROAM_FLY = 1, ROAM_GHOST = 2 };
 /** The body and what it can do. roam_walker_person() fills in an adult. Ranges: roam/walker_settings.h. */
 typedef struct roam_walker_settings {
   size_t size;
-  double radius;          /**< > 0 */
+  double radius;          /**< >= 0.001 */
   double height;          /**< >= 2 * radius; equal: a sphere */
   double eye;             /**< height of the camera above the lowest point */
   double step;            /**< height of the steps that it walks up and down */
@@ -442,7 +442,7 @@ ROAM_API void roam_survey_free(roam_survey* survey);
 typedef struct roam_probe_options {
   size_t size;
   roam_vec3 from, to;     /**< of the feet or eyes, which drop to the floor; flying: of the centre */
-  double radius;          /**< > 0 */
+  double radius;          /**< >= 0.001 */
   double height;          /**< >= 2 * radius; 0: a sphere. A flying body is a sphere */
   int32_t mode;           /**< ROAM_WALK or ROAM_FLY */
   int32_t reserved;       /**< 0 */

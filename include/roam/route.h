@@ -33,8 +33,8 @@ struct RouteOptions {
   double acceleration = std::numeric_limits<double>::infinity();
   double braking = std::numeric_limits<double>::infinity();
   /// > 0: the body is blocked if in this time, and at least 8 steps, it came nearer to its waypoint by less than 1/20
-  /// of free motion. A slide so long that comes a little nearer is progress, too, as along a wall met 3 degrees from
-  /// head-on.
+  /// of free motion, or if 64 steps in a row end within 1e-6 s. A slide so long that comes a little nearer is
+  /// progress, too, as along a wall met 3 degrees from head-on.
   double patience = 1.0;
   double wait = 10.0;             ///< >= 0, real time: how long follow() waits for a LiveSpace after its last change
   std::optional<Box> scene = {};  ///< the box for Outcome::left_scene; none: that of the space

@@ -19,7 +19,7 @@ enum class Mode : std::uint8_t { fly, walk, ghost };
 /// The body and what it can do; the defaults are an adult on foot. Lengths are metres, angles degrees. No radius or
 /// height exceeds Space::reach_limit / 4.
 struct WalkerSettings {
-  double radius = 0.3;  ///< > 0. Too large a body is kept out of rooms; too small a body falls into cracks
+  double radius = 0.3;  ///< >= 0.001. Too large a body is kept out of rooms; too small a body falls into cracks
   /// >= 0: radius of the support disc, in walk mode; 0: none. The disc carries the body, at the height of the floor,
   /// over each crack that has no room for the disc. Its radius must exceed half the width of the widest crack by 2 mm.
   /// Walls do not stop it. A value between 0 and `radius` counts as `radius`. Unknown space carries it as floor does;
@@ -50,7 +50,7 @@ struct WalkerSettings {
 /// and the largest support disc apply.
 struct SizeRegion {
   Box bounds = {};              ///< finite, not empty
-  double radius = 0.0;          ///< of the body, > 0; a capsule keeps its height
+  double radius = 0.0;          ///< of the body, >= 0.001; a capsule keeps its height
   double support_radius = 0.0;  ///< of the support disc, see WalkerSettings::support_radius; 0: no disc in here
   std::string why = {};         ///< for display: "door 0.71 m wide"
 };

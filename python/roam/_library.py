@@ -1,10 +1,11 @@
 """libroam.so: calls without the GIL, which Ctrl-C and a progress function can end, and errors as exceptions."""
 
+import atexit
 import ctypes
 import pathlib
 import sysconfig
 import threading
-from typing import Any, Callable, Optional
+from typing import Any, Callable, Dict, Optional
 
 from ._structs import PROGRESS
 
@@ -72,6 +73,45 @@ def _error(status: int) -> Exception:
     return _EXCEPTIONS.get(status, RuntimeError)(text)
 
 
+class _Running:
+    """The work that run() has begun. It ends before the interpreter does.
+
+    A thread that comes back to Python later is ended in the middle of C++, which aborts the whole process.
+    """
+
+    def __init__(self) -> None:
+        self._lock = threading.Lock()
+        self._cancelled_of: Dict[threading.Event, threading.Event] = {}
+        self._closed = False
+        atexit.register(self.close)
+
+    def ends_here(self) -> bool:
+        """Whether the interpreter is about to end this daemon thread. Functions at exit still work."""
+        return self._closed and threading.current_thread() is not threading.main_thread()
+
+    def add(self, ended: threading.Event, cancelled: threading.Event) -> None:
+        with self._lock:
+            if self.ends_here():
+                raise SystemExit  # ends a thread without a word
+            self._cancelled_of[ended] = cancelled
+
+    def remove(self, ended: threading.Event) -> None:
+        with self._lock:
+            self._cancelled_of.pop(ended, None)
+
+    def close(self) -> None:
+        with self._lock:
+            self._closed = True
+            all_running = dict(self._cancelled_of)
+        for cancelled in all_running.values():
+            cancelled.set()
+        for ended in all_running:
+            ended.wait()
+
+
+_running = _Running()
+
+
 def run(progress: Optional[Callable[[float], object]], work: Callable[[Any], None],
         lock: Optional[threading.Lock] = None) -> None:
     """Runs `work` in a thread of its own, with `lock` if given, and passes it a PROGRESS.
@@ -107,18 +147,22 @@ def run(progress: Optional[Callable[[float], object]], work: Callable[[Any], Non
 
     thread = threading.Thread(target=body, name="roam", daemon=True)
     try:
+        _running.add(ended, cancelled)
         thread.start()
         while not ended.wait(_BETWEEN_SIGNALS):
             if progress is not None:
                 progress(state["done"])
     except BaseException:
         cancelled.set()
-        if thread.ident is not None:
-            _join(ended)
+        if thread.ident is None:
+            ended.set()
+        _join(ended)
+        _running.remove(ended)
         raise
+    _running.remove(ended)
     thread.join()
     if failure:
-        raise failure[0]
+        raise SystemExit if _running.ends_here() else failure[0]
 
 
 def _join(ended: threading.Event) -> None:

@@ -6,6 +6,8 @@
 #include <atomic>
 #include <cstring>
 #include <limits>
+#include <mutex>
+#include <string>
 
 #include "c/progress.h"
 #include "c/query.h"
@@ -100,14 +102,18 @@ template <class Compute>
 void compute_all(const roam_batch& batch, const Compute& compute) {
   Progress progress(batch.progress, batch.progress_data);
   std::atomic<std::size_t> done{0}, refused{batch.count};
+  std::mutex refusing;
+  std::string why;  // of the first; computed again, its input might have changed
   std::atomic<bool> cancelled{false};
   const auto compute_some = [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end && i < refused && !cancelled; ++i) {
       try {
         compute(i);
-      } catch (const Error&) {
-        std::size_t first = refused;
-        while (i < first && !refused.compare_exchange_weak(first, i)) continue;
+      } catch (const Error& error) {
+        const std::lock_guard lock(refusing);
+        if (i >= refused) continue;
+        refused = i;
+        why = error.what();
       }
     }
     done += end - begin;
@@ -125,12 +131,7 @@ void compute_all(const roam_batch& batch, const Compute& compute) {
     });
   }
   if (cancelled) throw Cancelled();
-  if (refused == batch.count) return;
-  try {
-    compute(refused);
-  } catch (const Error& error) {
-    throw Invalid("query " + std::to_string(refused), error.what());
-  }
+  if (refused != batch.count) throw Invalid("query " + std::to_string(refused), why);
 }
 
 template <class Compute>

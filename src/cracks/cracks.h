@@ -35,8 +35,8 @@ struct FoundCrack : Crack {
   /// m, the depth of a gap whose bottom is so near below the rim that a walker's foot takes it for floor. No foot
   /// bridges such a gap, and no step reaches its bottom. 0: the gap is deeper.
   double shallow_depth = 0.0;
-  /// Places along the rim, sorted. Along a triangle's edge, each is at most 2 * smallest from the next. A way of the
-  /// feet that crosses the gap passes between or over them.
+  /// Places along the rim, sorted. Along a triangle's edge, each is at most 2 * smallest, or 1/65536 of the edge, from
+  /// the next. A way of the feet that crosses the gap passes between or over them.
   std::vector<Vec3> rim;
 };
 

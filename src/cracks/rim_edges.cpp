@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <atomic>
 #include <exception>
+#include <glm/geometric.hpp>
 #include <mutex>
 #include <vector>
 
@@ -20,6 +21,8 @@ namespace {
 constexpr int last_phase = SharedEdges::phases;
 /// Floors between two calls of `goes_on`: some milliseconds of work.
 constexpr std::size_t edges_of_a_block = 2048;
+/// Places at edges between two calls of `goes_on`, where edges are long.
+constexpr double places_together = 32768.0;
 
 }  // namespace
 
@@ -36,9 +39,9 @@ struct RimEdges::State {
   std::vector<std::uint8_t> edges;  ///< set in the last phase
   int phase = 0;                    ///< of the next piece; last_phase + 1 when all is done
   std::size_t piece = 0;
-  std::size_t looked_at = 0;  ///< floors
-  std::mutex mutex;           ///< held while a piece is done ahead
-  bool ended = false;
+  std::size_t looked_at = 0;       ///< floors
+  std::mutex mutex;                ///< held while a piece is done ahead
+  std::atomic<bool> ended{false};  ///< set before the mutex is taken, so that a piece being done ends soon
 
   [[nodiscard]] std::size_t pieces(int of_phase) const {
     if (of_phase < last_phase) return shared.pieces(of_phase);
@@ -48,9 +51,11 @@ struct RimEdges::State {
   void look_at(std::size_t block) {
     const auto floors = survey->floor_triangles();
     const std::size_t end = std::min(floors.size(), (block + 1) * floors_together);
-    for (std::size_t f = block * floors_together; f < end; ++f)
-      edges[f] = edges_without_void(probe, options, survey->triangle(floors[f]), edges[f]);
-    looked_at = end;
+    for (std::size_t f = block * floors_together; f < end; ++f) {
+      edges[f] = edges_without_void(probe, options, survey->triangle(floors[f]), edges[f], ended);
+      if (ended) return;
+      looked_at = f + 1;
+    }
   }
   void next_phase() {
     piece = 0;
@@ -72,8 +77,15 @@ struct RimEdges::State {
     }
   }
   void end() {
-    const std::lock_guard lock(mutex);
     ended = true;
+    const std::lock_guard lock(mutex);
+  }
+  /// Places to examine at the edges of a floor, at most.
+  [[nodiscard]] double work(std::size_t floor) const {
+    const Triangle t = survey->triangle(survey->floor_triangles()[floor]);
+    double places = 0.0;
+    for (std::size_t k = 0; k < 3; ++k) places += rim_places(glm::distance(t[k], t[(k + 1) % 3]), options.smallest);
+    return places;
   }
 };
 
@@ -103,13 +115,23 @@ bool RimEdges::look_at_all(const Look& look, const std::function<bool(double)>& 
   std::atomic<bool> is_ended{false};
   std::mutex progress;
   std::size_t done = 0;
-  tbb::parallel_for(std::size_t{0}, blocks, [&](std::size_t block) {
-    if (is_ended) return;
-    const std::size_t end = std::min((block + 1) * edges_of_a_block, s.edges.size());
-    for (std::size_t f = block * edges_of_a_block; f < end; ++f) look(f, s.edges[f], f < s.looked_at);
+  const auto report = [&](std::size_t more) {
     if (!goes_on) return;
     const std::lock_guard lock(progress);
-    if (!is_ended && !goes_on(double(++done) / double(blocks))) is_ended = true;
+    done += more;
+    if (!is_ended && !goes_on(double(done) / double(blocks))) is_ended = true;
+  };
+  tbb::parallel_for(std::size_t{0}, blocks, [&](std::size_t block) {
+    const std::size_t end = std::min((block + 1) * edges_of_a_block, s.edges.size());
+    double places = 0.0;
+    for (std::size_t f = block * edges_of_a_block; f < end && !is_ended; ++f) {
+      look(f, s.edges[f], f < s.looked_at);
+      places += s.work(f);
+      if (places < places_together) continue;
+      places = 0.0;
+      report(0);
+    }
+    if (!is_ended) report(1);
   });
   if (!is_ended) s.looked_at = s.edges.size();
   return !is_ended;

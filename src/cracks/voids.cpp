@@ -59,7 +59,7 @@ bool VoidProbe::sinks(const Vec3& place, double radius) const {
 }
 
 std::optional<Vec3> VoidProbe::bottom(const Vec3& place) const {
-  const double depth = place.z - survey_.world().bounds().lower.z + 1.0;
+  const double depth = std::min(place.z - survey_.world().bounds().lower.z + 1.0, Space::motion_limit);
   const Impact down = survey_.world().ray(place, {0.0, 0.0, -depth});
   if (!down.hit) return std::nullopt;
   return place - Vec3(0.0, 0.0, down.time * depth);
@@ -75,7 +75,7 @@ struct Rim {
 /// The rims of one floor triangle.
 class Rims {
  public:
-  Rims(const VoidProbe& probe, const CrackOptions& options) : probe_(probe), spacing_(2.0 * options.smallest) {}
+  Rims(const VoidProbe& probe, const CrackOptions& options) : probe_(probe), smallest_(options.smallest) {}
 
   /// Finds rim places with a void outside, on the edges without a bit in `known`. Examines places for which `wants`
   /// returns true, and calls take(rim) for each that has a void; false from `take` ends that edge. Returns `known` plus
@@ -100,7 +100,7 @@ class Rims {
     Vec3 out(along.y / level, -along.x / level, 0.0);
     if (out.x * (inner.x - a.x) + out.y * (inner.y - a.y) > 0.0) out = -out;
     const double length = std::hypot(level, along.z);
-    const double parts = std::max(std::ceil(length / spacing_), 1.0);
+    const double parts = rim_places(length, smallest_);
     bool any = false;
     for (double i = 0.5; i < parts; i += 1.0) {
       const Vec3 at = a + (i / parts) * along;
@@ -121,7 +121,7 @@ class Rims {
   }
 
   const VoidProbe& probe_;
-  double spacing_;
+  double smallest_;
 };
 
 Disc climb(const VoidProbe& probe, const Vec3& outside) {
@@ -132,10 +132,11 @@ Disc climb(const VoidProbe& probe, const Vec3& outside) {
 }  // namespace
 
 std::uint8_t edges_without_void(const VoidProbe& probe, const CrackOptions& options, const Triangle& floor,
-                                std::uint8_t known) {
+                                std::uint8_t known, const std::atomic<bool>& stop) {
+  // A place that is not examined may have a void.
   return Rims(probe, options)
       .with_void(
-          floor, known, [](const Vec3&) { return true; }, [](const Rim&) { return false; });
+          floor, known, [&](const Vec3&) { return !stop; }, [](const Rim&) { return false; });
 }
 
 std::vector<RimPlace> find_voids(const Survey& survey, const CrackOptions& options, const VoidProbe& probe,

@@ -2,7 +2,9 @@
 /// \file
 /// Voids at the ends of floors: places just outside a rim where a small sphere sinks deeper than a step.
 
+#include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <optional>
 #include <vector>
 
@@ -61,12 +63,21 @@ struct RimPlace {
 
 class RimEdges;
 
-/// The edges of a floor triangle without a void outside, reached or not: bit k is the edge from corner k to the next.
-/// Bits of `known` stay set; the other edges are examined.
-[[nodiscard]] std::uint8_t edges_without_void(const VoidProbe& probe, const CrackOptions& options,
-                                              const Triangle& floor, std::uint8_t known);
+/// At most so many places of an edge are examined: one such edge takes about a second. So a scene of a few enormous
+/// triangles takes no longer than a large one.
+constexpr double most_rim_places = 65536;
 
-/// All rim places with a void outside, sorted by position: every 2 * smallest along the edges of the reached floors.
+/// How many places of an edge are examined, metres: one every 2 * smallest, as far as most_rim_places allow.
+[[nodiscard]] inline double rim_places(double length, double smallest) {
+  return std::clamp(std::ceil(length / (2.0 * smallest)), 1.0, most_rim_places);
+}
+
+/// The edges of a floor triangle without a void outside, reached or not: bit k is the edge from corner k to the next.
+/// Bits of `known` stay set; the other edges are examined. Adds nothing more once `stop` is set.
+[[nodiscard]] std::uint8_t edges_without_void(const VoidProbe& probe, const CrackOptions& options,
+                                              const Triangle& floor, std::uint8_t known, const std::atomic<bool>& stop);
+
+/// All rim places with a void outside, sorted by position: rim_places() along each edge of the reached floors.
 /// Adds its findings to `edges`, which must be of the same survey and options. Stops early and sets `ended` when
 /// `goes_on` returns false.
 [[nodiscard]] std::vector<RimPlace> find_voids(const Survey& survey, const CrackOptions& options,

@@ -74,13 +74,16 @@ class Names {
   std::string unique(const std::string& file_name) {
     // File names may have any bytes, but names of parts are text.
     const std::string wished = files::escaped(file_name, [](char32_t) { return true; });
-    std::string name = wished;
-    for (int i = 2; !taken_.insert(name).second; ++i) name = fmt::format("{} ({})", wished, i);
+    // Many names may escape to the same text, so the search goes on from the last number.
+    int& last = last_[wished];
+    std::string name = ++last == 1 ? wished : fmt::format("{} ({})", wished, last);
+    while (!taken_.insert(name).second) name = fmt::format("{} ({})", wished, ++last);
     return name;
   }
 
  private:
   std::set<std::string> taken_;
+  std::map<std::string, int> last_;  ///< number given to a name
 };
 
 void count_bytes(ScenePart& part) {
@@ -93,7 +96,8 @@ void count_bytes(ScenePart& part) {
 
 /// Adds one part for each tile. Missing tiles are parts too, so that reading them reports it.
 void add_tiles(const fs::path& path, const std::vector<Tile>& tiles, const std::optional<Georeference>& frame,
-               const reader::SceneScope& scope, Names& names, std::vector<ScenePart>& parts) {
+               const reader::SceneScope& scope, const ImportOptions& options, Names& names,
+               std::vector<ScenePart>& parts) {
   // The folder as read_tiles finds it.
   fs::path folder = scope.scene;
   if (folder.filename() == "Data") folder = folder.parent_path();
@@ -101,6 +105,7 @@ void add_tiles(const fs::path& path, const std::vector<Tile>& tiles, const std::
   // By real path. Many links to one large folder would make a list that no memory holds.
   std::map<fs::path, std::string> folders;
   for (const Tile& tile : tiles) {
+    if (options.progress && !options.progress({})) throw Cancelled();
     ScenePart part;
     part.path = path;
     part.tile = tile.root.stem().string();
@@ -153,7 +158,7 @@ std::vector<ScenePart> scene_parts(std::span<const fs::path> paths, const Import
     reader::read_one(reading, list, matched);
     std::error_code none;
     if (fs::is_directory(path, none)) {
-      add_tiles(path, list.tiles(), frame, reading.scope, names, parts);
+      add_tiles(path, list.tiles(), frame, reading.scope, options, names, parts);
       continue;
     }
     ScenePart part;

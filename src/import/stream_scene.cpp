@@ -1,7 +1,12 @@
+#include <filesystem>
+#include <optional>
+#include <system_error>
 #include <vector>
 
 #include "import/piece_receiver.h"
 #include "import/read_all.h"
+#include "import/report_notes.h"
+#include "import/scene_scope.h"
 #include "math/floating_point.h"
 #include "roam/import.h"
 
@@ -22,6 +27,24 @@ ImportReport stream(std::span<const reader::Source> sources, const ImportOptions
   return report;
 }
 
+/// The report of a tile without a file. No reader is started: a folder may have a million empty folders.
+ImportReport report_missing(const reader::Source& tile, const ImportOptions& options) {
+  reader::check({&tile, 1}, options);
+  if (options.progress && !options.progress({.path = tile.path})) throw Cancelled();
+  const reader::SceneScope scope = reader::scope_of(tile.path, options);
+  const std::optional<std::filesystem::path> data = scope.resolve(scope.scene / "Data");
+  std::error_code none;
+  const bool has_data = data && std::filesystem::is_directory(*data, none);
+  std::filesystem::path folder = tile.path.has_filename() ? tile.path : tile.path.parent_path();
+  if (has_data) folder /= "Data";
+  ImportReport report;
+  report.georeference = tile.frame;
+  report.missing_pages = 1;
+  report.missing_page_files.push_back((folder / tile.tile / (tile.tile + ".osgb")).string());
+  reader::add_count_notes(report, options, std::vector<bool>(options.ignore.size(), true));
+  return report;
+}
+
 }  // namespace
 
 ImportReport stream_scene(std::span<const std::filesystem::path> paths, const ImportOptions& options,
@@ -34,6 +57,7 @@ ImportReport stream_part(const ScenePart& part, const ImportOptions& options, co
                          const LookUpSink& look_ups) {
   const DefaultFloatingPoint guard;
   const reader::Source source{part.path, part.tile, part.frame, part.bytes};
+  if (!part.tile.empty() && part.files.empty()) return report_missing(source, options);
   return stream(std::span(&source, 1), options, sink, look_ups);
 }
 

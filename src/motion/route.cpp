@@ -10,6 +10,7 @@
 #include "motion/demand.h"
 #include "motion/event_filter.h"
 #include "motion/pace.h"
+#include "motion/vain_steps.h"
 #include "roam/error.h"
 #include "roam/opening.h"
 #include "text/names.h"
@@ -129,6 +130,7 @@ class Route::State {
   double window_time_ = 0.0;  ///< since then
   double window_free_ = 0.0;  ///< the way that free motion would have brought since
   std::uint64_t window_steps_ = 0;
+  std::uint64_t vain_steps_ = 0;  ///< see is_vain_again
   EventFilter filter_;
   bool done_ = false;
 };
@@ -225,6 +227,7 @@ const StepReport& Route::State::advance() {
 
 void Route::State::judge(const StepReport& report, double distance_before, double free_way) {
   const Box scene = this->scene();
+  const bool is_vain = is_vain_again(report, vain_steps_);
   if (report.has(EventKind::fell))
     return finish(above_or_below(report.to, scene) ? Outcome::fell : Outcome::left_scene);
   if (report.held) return finish(Outcome::held);
@@ -235,7 +238,7 @@ void Route::State::judge(const StepReport& report, double distance_before, doubl
   if (coming_down_) {
     // Without ground the body may also be caught between slopes; then it goes on from there.
     coming_down_ = !walker_->stance().level && walker_->rise_speed() < 0.0;
-    if (coming_down_ && result_.simulated > longest_descent) return finish(Outcome::held);
+    if (coming_down_ && (is_vain || result_.simulated > longest_descent)) return finish(Outcome::held);
     start_window();
     return;
   }
@@ -246,8 +249,8 @@ void Route::State::judge(const StepReport& report, double distance_before, doubl
   window_time_ += report.elapsed;
   window_free_ += free_way;
   ++window_steps_;
-  if (window_time_ < options_.patience || window_steps_ < least_patience_steps) return;
-  if (!gets_on()) {
+  if (!is_vain && (window_time_ < options_.patience || window_steps_ < least_patience_steps)) return;
+  if (is_vain || !gets_on()) {
     const Vec3 way = way_to(waypoints_[next_], *walker_);
     const Contact* c = most_against(report, way);
     const bool unknown = c != nullptr && c->unknown;

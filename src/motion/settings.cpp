@@ -18,6 +18,9 @@ namespace {
 
 /// Limits far above any use, and low enough that nothing overflows.
 constexpr double length_limit = Space::reach_limit / 4.0;
+/// Metres. A stride is half a radius long. Below this a step of 4096 strides covers millimetres, at last nothing, and
+/// the radius is no longer large beside world_tolerance.
+constexpr double least_radius = 1000.0 * walking::world_tolerance;
 constexpr double speed_limit = 1e4;
 constexpr double factor_limit = 1e3;
 constexpr double gravity_limit = 1e3;
@@ -62,7 +65,7 @@ WalkerSettings WalkerSettings::sphere(double radius) {
 void check(const WalkerSettings& s) {
   const DefaultFloatingPoint guard;
   constexpr const char* whose = "the walker's";
-  demand(whose, "radius", s.radius, "m", {0.0, length_limit, true});
+  demand(whose, "radius", s.radius, "m", {least_radius, length_limit, false});
   demand(whose, "support radius", s.support_radius, "m", {0.0, length_limit, false}, "0 is no support disc");
   demand(whose, "height", s.height, "m", {2.0 * s.radius, length_limit, false},
          "a body is at least two radii high, and then a sphere");

@@ -12,6 +12,7 @@
 #include "math/slope.h"
 #include "motion/demand.h"
 #include "motion/event_filter.h"
+#include "motion/vain_steps.h"
 #include "roam/error.h"
 #include "text/number.h"
 
@@ -198,10 +199,11 @@ class Wander::State {
   RouteResult result_;
   std::unordered_map<std::uint64_t, std::uint32_t> visits_;  ///< of each cell
   std::uint64_t last_cell_ = 0;
-  Vec3 heading_{0.0};            ///< unit; zero before the first look
-  double way_left_ = 0.0;        ///< metres to go along heading_
-  double window_seconds_ = 0.0;  ///< since getting on was last judged
-  double window_length_ = 0.0;   ///< metres moved since
+  Vec3 heading_{0.0};             ///< unit; zero before the first look
+  double way_left_ = 0.0;         ///< metres to go along heading_
+  double window_seconds_ = 0.0;   ///< since getting on was last judged
+  double window_length_ = 0.0;    ///< metres moved since
+  std::uint64_t vain_steps_ = 0;  ///< see is_vain_again
   bool stuck_ = false;
   Vec3 leg_start_{0.0};
   std::vector<Leg> voids_;
@@ -305,11 +307,16 @@ const StepReport& Wander::State::advance() {
   way_left_ -= moved;
   window_length_ += moved;
   window_seconds_ += report.elapsed;
+  const bool is_vain = is_vain_again(report, vain_steps_);
   if (window_seconds_ >= stuck_seconds) {
     stuck_ = window_length_ < stuck_share * options_.speed * window_seconds_;
     window_length_ = window_seconds_ = 0.0;
   }
   note(report);
+  if (is_vain && !done_) {
+    result_.outcome = Outcome::held;
+    done_ = true;
+  }
   if (!done_ && result_.simulated >= options_.seconds) {
     if (report.held) result_.outcome = Outcome::held;
     done_ = true;

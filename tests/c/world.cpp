@@ -202,6 +202,26 @@ TEST(CWorld, NamesTheFirstQueryThatIsRefused) {
   EXPECT_STREQ(roam_error(), "query 1234: cannot answer a query: the place is not finite");
 }
 
+TEST(CWorld, AQueryThatWasRefusedStaysSoThoughItsInputIsMendedMeanwhile) {
+  const c_rig::Room room;
+  std::vector<Vec3> from(50, Vec3(1, 0, 1));
+  from[7].x = std::numeric_limits<double>::quiet_NaN();
+  std::vector<double> times(from.size(), -1.0);
+  roam_batch batch{};
+  batch.size = sizeof batch;
+  batch.count = from.size();
+  batch.from = {from.data(), sizeof(Vec3)};
+  batch.time = {times.data(), sizeof(double)};
+  batch.progress_data = &from[7];
+  batch.progress = [](double, void* data) {
+    static_cast<Vec3*>(data)->x = 1.0;
+    return 0;
+  };
+  EXPECT_EQ(roam_sweep_batch(room.handle, &batch), ROAM_INVALID);
+  EXPECT_STREQ(roam_error(), "query 7: cannot answer a query: the place is not finite");
+  EXPECT_EQ(times[8], -1.0) << "and none after it is computed";
+}
+
 TEST(CWorld, BatchesEndWhenTheCallbackSaysSo) {
   const c_rig::Room room;
   const Vec3 from(1, 0, 1);

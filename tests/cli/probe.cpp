@@ -165,10 +165,11 @@ TEST(ProbeVerb, AnswersForManySizesInOneRun) {
   EXPECT_EQ(sizes[0]["height"], 1.8);
   EXPECT_EQ(sizes[1]["height"], 1.7);
   EXPECT_NEAR(sizes[2]["opening"]["missing_m"].get<double>(), 0.1, 1e-3);
-  const std::string file = probe.folder.write("sizes", "# a child\n0.2x1.2\n\n0.3, 0.33x1.9  # grown\n");
+  const std::string file = probe.folder.write("sizes", "# a child\n0.2x1.2\n\n0.3, 0.33x1.9  # grown\n0.3x1.8,0.3\n");
   probe.ask({"--matrix", file});
   EXPECT_EQ(probe.result.status, 0) << probe.result.err;
-  EXPECT_EQ(std::count(probe.result.out.begin(), probe.result.out.end(), '\n'), 4);  // a head and three sizes
+  EXPECT_EQ(std::count(probe.result.out.begin(), probe.result.out.end(), '\n'),
+            4);  // a head and three sizes, each once
 }
 
 TEST(ProbeVerb, DrawsTheOpening) {
@@ -206,6 +207,7 @@ TEST(ProbeVerb, RefusesWhatCannotBeMeant) {
   refused({"--matrix", probe.folder.file(".")}, "folder");
   refused({"--matrix", ""}, "--matrix \"\": there are no sizes in it");
   refused({"--matrix", "nan"}, "radius");
+  refused({"--matrix", "1e-300x1.8"}, "at least 0.001");
   refused({"--matrix", "0.3x0.1"}, "--matrix, size 0.3x0.1");
   refused({"--matrix", "0.3", "--picture", "p.svg"}, "--picture");
   refused({"--radius", "nan"}, "--radius");

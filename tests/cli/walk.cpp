@@ -75,6 +75,14 @@ TEST(WalkVerb, RefusesWhatWouldNeverEnd) {
   const Walk far(room_obj(), "2 0 1\n1e300 0 1\n", {"--mode", "fly"});
   EXPECT_EQ(far.result.status, 1);
   EXPECT_TRUE(contains(far.result.err, ":2: '1e300' is beyond 1e9")) << far.result.err;
+  const std::string body = "# roam: mode walk radius 1e-09 height 2e-09 eye 0 step 0 slope 45\n";
+  const Walk recorded(room_obj(), body + "2 0 1\n3 0 1\n");
+  EXPECT_EQ(recorded.result.status, 1);
+  EXPECT_TRUE(contains(recorded.result.err, ":1: the walker's radius is 1e-09 m; it must be at least 0.001"))
+      << recorded.result.err;
+  const Walk tiny(room_obj(), "2 0 1\n3 0 1\n", {"--radius", "5e-324"});
+  EXPECT_EQ(tiny.result.status, 2);
+  EXPECT_TRUE(contains(tiny.result.err, "it must be at least 0.001")) << tiny.result.err;
   for (const char* dt : {"1e-300", "nan", "0", "-1", "inf"}) {
     const Walk walk(room_obj(), "2 0 1\n3 0 1\n", {std::string("--dt=") + dt});
     EXPECT_EQ(walk.result.status, 2) << dt;

@@ -1,4 +1,6 @@
 // What floors end at is found out whoever comes there: ahead, by parts or again, the cracks are the same bits.
+#include "cracks/rim_edges.h"
+
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
@@ -10,7 +12,7 @@
 #include <thread>
 #include <vector>
 
-#include "cracks/rim_edges.h"
+#include "cracks/voids.h"
 #include "floor_cases.h"
 
 namespace {
@@ -132,6 +134,43 @@ TEST(RimEdges, KnowNoMoreThanWasLookedAtWhenTheyAreToldToEnd) {
   RimEdges edges(survey, {});
   (void)find_cracks(survey, edges, c.is_reached, [](double) { return false; });
   expect_same(find_cracks(survey, edges, c.is_reached), alone);
+}
+
+TEST(RimEdges, OfEnormousTrianglesAreExaminedAtALimitedNumberOfPlaces) {
+  using roam::cracks::rim_places;
+  EXPECT_EQ(rim_places(0.0, 0.05), 1.0);
+  EXPECT_EQ(rim_places(6550.05, 0.05), 65501.0) << "edges of several kilometres are examined as densely as all";
+  EXPECT_EQ(rim_places(2e9, 0.05), 65536.0);
+}
+
+TEST(RimEdges, AreNotExaminedFurtherOnceTheyMayEnd) {
+  const Survey survey = survey_of(lone_floors(1));
+  const roam::cracks::CrackOptions options;
+  const roam::cracks::VoidProbe probe(survey, options);
+  const auto without = [&](bool is_stopped) {
+    const std::atomic<bool> stop{is_stopped};
+    return edges_without_void(probe, options, survey.triangle(survey.floor_triangles()[0]), 0, stop);
+  };
+  EXPECT_EQ(without(false), 7);
+  EXPECT_EQ(without(true), 0) << "a place that is not examined may have a void";
+}
+
+TEST(RimEdges, OfLongEdgesAskOftenWhetherToGoOn) {
+  Mesh mesh;
+  for (int i = 0; i < 16; ++i) {
+    const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+    for (const Vec3& corner : {Vec3(0, 0, 0), Vec3(900, 0, 0), Vec3(0, 900, 0)})
+      mesh.vertices.push_back(Vec3(0, 0, 1000 * i) + corner);
+    mesh.triangles.push_back({first, first + 1, first + 2});
+  }
+  const Survey survey = survey_of(mesh);
+  RimEdges edges(survey, {});
+  int asked = 0;
+  std::atomic<int> looked{0};
+  EXPECT_FALSE(
+      edges.look_at_all([&](std::size_t, std::uint8_t&, bool) { ++looked; }, [&](double) { return ++asked < 3; }));
+  EXPECT_EQ(asked, 3);
+  EXPECT_LT(looked, 16);
 }
 
 TEST(RimEdges, AreLeftWhereTheyEndBeforeTheOtherCore) {

@@ -1,5 +1,7 @@
 // Colours, images, normals and transparency of what is to be seen.
 
+#include <cstring>
+#include <filesystem>
 #include <set>
 #include <string>
 #include <vector>
@@ -54,6 +56,42 @@ TEST(ImportDisplayLooks, ReadsMaterialsOfObj) {
                                               "0 0 255 128 blended normal", "255 255 255 255", "0 255 0 255"}));
   EXPECT_EQ(shown.report.textures, 1u);
   EXPECT_EQ(shown.report.missing_textures, 0u);
+}
+
+TEST(ImportDisplayLooks, SendAnImageOnceHoweverItsNameIsWritten) {
+  const TemporaryFolder folder;
+  folder.write("wall.bmp", bmp(two_texels));
+  std::filesystem::create_symlink("wall.bmp", folder.path() / "link.bmp");
+  std::string materials, faces;
+  int count = 0;
+  for (const char* name : {"wall.bmp", "./wall.bmp", "././wall.bmp", "WALL.bmp", "link.bmp", "x/../wall.bmp"}) {
+    const std::string material = std::to_string(++count);
+    materials += "newmtl " + material + "\nmap_Kd " + name + "\n";
+    faces += "usemtl " + material + "\nf 1/1 2/2 3/3\n";
+  }
+  folder.write("a.mtl", materials);
+  const Shown shown = show({folder.write("a.obj", obj_vertices + "mtllib a.mtl\n" + faces)});
+  std::set<const DisplayTexture*> images;
+  for (const ShownTriangle& t : shown.triangles) images.insert(t.image);
+  EXPECT_EQ(images.size(), 1u);
+  EXPECT_FALSE(images.contains(nullptr));
+  EXPECT_EQ(shown.report.textures, 1u);
+}
+
+// The sizes in the file's head are four bytes each, and their product is 2^32 texels, which 32 bits count as none.
+TEST(ImportDisplayLooks, RefuseAnImageThatClaimsMoreTexelsThanItHas) {
+  const TemporaryFolder folder;
+  std::string dds(128, '\0');
+  const auto put = [&](std::size_t at, std::uint32_t value) { std::memcpy(dds.data() + at, &value, sizeof value); };
+  std::memcpy(dds.data(), "DDS ", 4);
+  put(4, 124), put(8, 0x21007), put(12, 4), put(16, 0x40000000), put(28, 1), put(76, 32), put(80, 0x41), put(88, 32);
+  put(92, 0xff0000), put(96, 0xff00), put(100, 0xff), put(104, 0xff000000), put(108, 0x401008);
+  folder.write("lie.dds", dds + std::string(64, '\xaa'));
+  folder.write("a.mtl", "newmtl a\nmap_Kd lie.dds\n");
+  const Shown shown = show({folder.write("a.obj", obj_vertices + "mtllib a.mtl\nusemtl a\nf 1/1 2/2 3/3\n")});
+  ASSERT_EQ(shown.triangles.size(), 1u);
+  EXPECT_EQ(shown.triangles[0].image, nullptr);
+  EXPECT_EQ(shown.report.missing_texture_files, std::vector<std::string>{"lie.dds"});
 }
 
 TEST(ImportDisplayLooks, NamesWhatIsMissing) {

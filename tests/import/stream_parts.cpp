@@ -159,6 +159,42 @@ TEST_F(ImportStreamParts, OfATileThatIsMissingGiveNothingAndSaySo) {
   EXPECT_TRUE(pieces.triangles.empty());
 }
 
+TEST_F(ImportStreamParts, OfATileThatIsMissingNeedNoReader) {
+  const std::vector<ScenePart> parts = scene_parts(write_scene("scene"));
+  ImportOptions options;
+  options.reader = folder_.path() / "no-reader";
+  Pieces pieces;
+  EXPECT_THROW(stream_part(parts[1], options, pieces.sink()), Error);
+  const ImportReport report = stream_part(parts[4], options, pieces.sink());
+  EXPECT_EQ(report.missing_page_files,
+            (std::vector<std::string>{(folder_.path() / "scene/west/Data/Tile_3/Tile_3.osgb").string()}));
+  ASSERT_TRUE(report.georeference);
+  EXPECT_EQ(report.georeference->origin, Vec3(100, 20, 3));
+  options.progress = [](const ImportProgress&) { return false; };
+  EXPECT_THROW(stream_part(parts[4], options, pieces.sink()), Cancelled);
+}
+
+TEST_F(ImportStreamParts, AreListedOnlyAsLongAsTheProgressAgrees) {
+  folder_.write("many/Data/Tile_0/Tile_0.osgb", tile("1"));
+  constexpr int count = 300;
+  for (int i = 0; i < count; ++i)
+    fs::create_directories(folder_.path() / "many/Data" / ("Tile_" + std::string(i % 2, '\xff') + std::to_string(i)));
+  ImportOptions options;
+  int asked = 0;
+  options.progress = [&](const ImportProgress&) { return ++asked > 0; };
+  const std::vector<fs::path> paths{folder_.path() / "many"};
+  static_cast<void>(scene_parts(paths, options));
+  EXPECT_GE(asked, count);
+}
+
+TEST_F(ImportStreamParts, HaveNamesOfTheirOwnThoughTheyEscapeAlike) {
+  for (const char* name : {"\xff\xff", "%FF\xff", "\xff%FF", "%FF%FF"})
+    folder_.write(std::string("alike/Data/Tile_") + name + "/Tile_" + name + ".osgb", tile("1"));
+  const auto names = names_of(scene_parts(std::vector<fs::path>{folder_.path() / "alike"}));
+  EXPECT_EQ(names, (std::vector<std::string>{"alike/Tile_%FF%FF", "alike/Tile_%FF%FF (2)", "alike/Tile_%FF%FF (3)",
+                                             "alike/Tile_%FF%FF (4)"}));
+}
+
 TEST_F(ImportStreamParts, AreRefusedWhereFoldersLieInEachOtherWithoutEnd) {
   static_cast<void>(write_scene("scene"));
   fs::path deep = "scene/east/Data/Tile_1";

@@ -3,10 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <string>
 #include <vector>
 
+#include "motion/vain_steps.h"
 #include "roam/error.h"
 #include "roam/standing.h"
 #include "walker_scenes.h"
@@ -312,6 +314,20 @@ TEST(Route, AWaypointTooNearAWallIsReachedAsNearAsTheBodyGets) {
     const RouteResult r =
         follow(m, {}, mode, {{-2.0, 0.0, 0.95}, {1.9, 0.0, 0.95}, {1.9, 4.0, 0.95}, {0.0, 4.0, 0.95}});
     EXPECT_EQ(r.outcome, Outcome::reached);
+  }
+}
+
+TEST(Route, EndsAfterARowOfStepsThatLeadNowhere) {
+  roam::StepReport vain, short_on_purpose, far;
+  vain.events.push({EventKind::throttled, Vec3(0.0)});
+  far.events.push({EventKind::throttled, Vec3(0.0)});
+  far.elapsed = 0.01;
+  for (const roam::StepReport& other : {short_on_purpose, far}) {
+    std::uint64_t row = 0;
+    for (int i = 0; i < 63; ++i) EXPECT_FALSE(roam::is_vain_again(vain, row)) << i;
+    EXPECT_FALSE(roam::is_vain_again(other, row));
+    for (int i = 0; i < 63; ++i) EXPECT_FALSE(roam::is_vain_again(vain, row)) << i;
+    EXPECT_TRUE(roam::is_vain_again(vain, row));
   }
 }
 

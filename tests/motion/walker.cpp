@@ -202,6 +202,8 @@ TEST(Walker, RefusesBadSettingsAndInputWithAReason) {
   EXPECT_TRUE(refused({.radius = 0.0}, "radius"));
   EXPECT_TRUE(refused({.radius = -1.0}, "radius"));
   EXPECT_TRUE(refused({.radius = nan}, "radius"));
+  EXPECT_TRUE(refused({.radius = 0.000999, .height = 0.01, .eye = 0.0, .step = 0.0}, "at least 0.001"));
+  EXPECT_NO_THROW(roam::check(WalkerSettings::sphere(0.001)));
   EXPECT_TRUE(refused({.radius = 1.0}, "height"));
   EXPECT_TRUE(refused({.eye = 2.0}, "eye"));
   EXPECT_TRUE(refused({.step = -0.1}, "step"));

@@ -4,6 +4,8 @@ import os
 import pathlib
 import shutil
 import signal
+import subprocess
+import sys
 import threading
 import time
 
@@ -49,6 +51,9 @@ def test_values_are_named(room):
         room.clearance(0.3, [0, 0, 0], 2000)
     with raises(ValueError, "ignored", "-1"):
         room.sweep(0.3, [0, 0, 0], [1, 0, 0], ignored=[-1])
+    survey = roam.Survey.from_arrays([[0, 0, 0], [9, 0, 0], [0, 9, 0]], [[0, 1, 2]])
+    with raises(ValueError, "spacing is 5e-324 m", "at least 0.001"):
+        survey.probe([1, 1, 1], [2, 2, 1], spacing=5e-324)
 
 
 def test_meshes_are_checked():
@@ -167,3 +172,20 @@ def test_an_exception_in_progress_ends_the_call(clutter, clutter_world):
     with pytest.raises(KeyError, match="enough"):
         clutter_world.fits(0.3, np.broadcast_to(np.zeros(3), (2**25, 3)), progress=progress)
     assert len(seen) == 2 and all(0 <= done <= 1 for done in seen)
+
+
+PROGRAM_THAT_ENDS = """
+import threading, time, numpy as np, roam
+corners = np.random.default_rng(1).random((3000, 3)) * 30
+world = roam.World.from_arrays(corners, np.arange(3000).reshape(-1, 3))
+begun = threading.Event()
+def work():
+    world.sweep(0.3, np.broadcast_to(corners[0], (2_000_000, 3)), [1, 0, 0], progress=lambda done: begun.set())
+threading.Thread(target=work, daemon=True).start()
+begun.wait()
+"""
+
+
+def test_a_daemon_thread_at_work_ends_with_the_program():
+    ended = subprocess.run([sys.executable, "-c", PROGRAM_THAT_ENDS], capture_output=True, text=True)
+    assert (ended.returncode, ended.stdout, ended.stderr) == (0, "", "")

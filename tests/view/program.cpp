@@ -56,6 +56,16 @@ TEST(ViewPicture, ShowsTheDisplayIfAskedFor) {
   EXPECT_LT(corner(full) + 0.2f, corner(clean));
 }
 
+TEST(ViewPicture, ShowsASceneHigherThanAMotion) {
+  View view(
+      "o floor\nv -20 -20 0\nv 20 -20 0\nv 20 20 0\nv -20 20 0\nf 1 2 3 4\n"
+      "o pad\nv -1 -1 2e6\nv 1 -1 2e6\nv 1 1 2e6\nv -1 1 2e6\nf 5 6 7 8\n");
+  for (const std::vector<std::string>& start : {std::vector<std::string>{}, {"--at", "5,5,1.9e6"}}) {
+    view.shot(start);
+    EXPECT_EQ(view.result.status, 0) << view.result.err;
+  }
+}
+
 TEST(ViewPicture, ShowsTheSceneAndTheDisplay) {
   View view;
   view.shot({"--hud", "full"});

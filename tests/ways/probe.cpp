@@ -18,9 +18,7 @@ using namespace scenes;
 using namespace roam;
 using Kind = ProbeLimit::Kind;
 
-Survey survey_of(const Mesh& mesh) {
-  return Survey::build({mesh}, {.threads = 1, .lossless = true, .progress = {}});
-}
+Survey survey_of(const Mesh& mesh) { return Survey::build({mesh}, {.threads = 1, .lossless = true, .progress = {}}); }
 
 /// From x = 0 to 20, 4 m wide and 3 m high, with a wall across it at x = 10 that has a door of `width`, 2.1 m high.
 Mesh room(double width) {
@@ -181,6 +179,40 @@ TEST(Probe, EndsWhenItIsToldTo) {
 
 TEST(Probe, RefusesASizeThatNoWalkerHas) {
   EXPECT_THROW(static_cast<void>(probe(survey_of(room(0.84)), across, {.radius = 0.3, .height = 0.5})), Error);
+  EXPECT_THROW(static_cast<void>(probe(survey_of(room(0.84)), across, {.radius = 1e-300, .height = 1.8})), Error);
+}
+
+// A space takes motions of 1000 km at most.
+TEST(Probe, AnswersInASceneHigherThanAMotion) {
+  Mesh tower = room(0.84);
+  add_floor(tower, -1.0, -1.0, 1.0, 1.0, 2e6);
+  const Survey survey = survey_of(tower);
+  EXPECT_TRUE(probe(survey, across, {.radius = 0.3, .height = 1.8}).passable);
+  for (const ProbeQuestion& question : {across, flying(across)}) {
+    for (const Vec3& to : {Vec3(0.0, 0.0, 2e6 + 1.0), Vec3(0.0, 0.0, 1.9e6), Vec3(0.0, 0.0, 3e6)}) {
+      ProbeQuestion far = question;
+      far.to = to;
+      far.most_places = 1000;
+      try {
+        static_cast<void>(probe(survey, far, {.radius = 0.3, .height = question.mode == Mode::fly ? 0.6 : 1.8}));
+      } catch (const NoRoomAtEnd& error) {
+        EXPECT_EQ(std::string(error.what()).find("component"), std::string::npos) << error.what();
+      }
+    }
+  }
+}
+
+TEST(Probe, RefusesASpacingThatNeverEnds) {
+  for (const double spacing : {5e-324, 0.0009, 0.0, -1.0, static_cast<double>(NAN)}) {
+    ProbeQuestion question = across;
+    question.spacing = spacing;
+    try {
+      static_cast<void>(probe(survey_of(room(0.84)), question, {.radius = 0.3, .height = 1.8}));
+      ADD_FAILURE() << spacing;
+    } catch (const Error& error) {
+      EXPECT_NE(std::string(error.what()).find("at least 0.001"), std::string::npos) << error.what();
+    }
+  }
 }
 
 TEST(Probe, RefusesToFlyWhatIsNoSphereBeforeItSearches) {

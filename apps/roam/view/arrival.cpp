@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 #include <utility>
@@ -154,7 +155,7 @@ bool Arrival::is_ground_below() const {
   const Walker& walker = *roamer_.walker();
   const Box box = walker.space().bounds();
   if (box.empty()) return false;
-  const double drop = walker.position().z - box.lower.z + walker.settings().height;
+  const double drop = std::min(walker.position().z - box.lower.z + walker.settings().height, Space::motion_limit);
   return drop > 0.0 && walker.space().sweep(walker.body(), walker.position(), {0.0, 0.0, -drop}).hit;
 }
 

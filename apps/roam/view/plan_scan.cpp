@@ -20,7 +20,7 @@ void scan_line(const Space& space, const PlanArea& area, int axis, double aside,
   double left = 2.0 * area.half;
   for (int i = 0; i < most_on_a_line && left > 0.0; ++i) {
     Vec3 motion(0.0);
-    motion[axis] = left;
+    motion[axis] = std::min(left, Space::motion_limit);
     const Impact hit = space.ray(from, motion);
     if (!hit.hit || hit.unknown) return;
     const double facing = std::abs(hit.normal[axis]), turned = std::abs(hit.normal[across]);
@@ -34,7 +34,7 @@ void scan_line(const Space& space, const PlanArea& area, int axis, double aside,
         out.emplace_back(end);
       }
     }
-    const double passed = hit.time * left + behind;
+    const double passed = hit.time * motion[axis] + behind;
     from[axis] += passed;
     left -= passed;
   }

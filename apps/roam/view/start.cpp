@@ -31,7 +31,7 @@ Vec3 direction(double yaw, double pitch) {
 /// Whether the eye at `eye` sees anything near the middle of its picture.
 bool sees_something(const Space& space, const Vec3& eye, double yaw) {
   const Box box = space.bounds();
-  const double reach = box.empty() ? 0.0 : 2.0 * glm::length(box.size());
+  const double reach = box.empty() ? 0.0 : std::min(2.0 * glm::length(box.size()), Space::motion_limit);
   for (const double aside : {-20.0, 0.0, 20.0}) {
     for (const double up : {-20.0, 0.0, 20.0}) {
       if (space.ray(eye, reach * direction(yaw + aside, up)).hit) return true;
@@ -86,7 +86,7 @@ StartPlace start_place(const WalkerSettings& settings, Mode mode, const Box& bou
 double open_yaw(const Space& space, const Vec3& eye) {
   // Only the part of a view inside the scene's bounds counts, not the open space outside.
   const Box box = space.bounds();
-  const double reach = box.empty() ? 0.0 : std::min(glm::length(box.size()), 1e6);
+  const double reach = box.empty() ? 0.0 : std::min(glm::length(box.size()), Space::motion_limit);
   double farthest = -1.0;
   double best = 0.0;
   for (int i = 0; i < headings; ++i) {

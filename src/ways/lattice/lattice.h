@@ -49,6 +49,9 @@ struct Measure {
 /// diagonal of a lattice point.
 inline constexpr double lattice_error = 0.72;
 
+/// Metres: the least spacing. A finer lattice searches places that the walls' own errors make equal, or never comes on.
+inline constexpr double least_spacing = 0.001;
+
 using NodeId = std::uint32_t;
 inline constexpr NodeId no_node = ~NodeId(0);
 

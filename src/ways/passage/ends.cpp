@@ -24,7 +24,7 @@ constexpr double above_feet = 0.1;  ///< feet at most this deep in the floor sta
 std::optional<Vec3> foot_below(const Survey& survey, const Measure& measure, const Vec3& point) {
   if (const auto foot = foot_at(survey, measure, point)) return foot;
   const Vec3 from = point + Vec3(0.0, 0.0, above_feet + probe);
-  const double depth = from.z - survey.floor().bounds().lower.z + 1.0;
+  const double depth = std::min(from.z - survey.floor().bounds().lower.z + 1.0, Space::motion_limit);
   if (!(depth > 0.0) || survey.floor().bounds().empty()) return std::nullopt;
   const Impact down = survey.floor().sweep({probe, 0.0}, from, Vec3(0.0, 0.0, -depth));
   if (!down.hit) return std::nullopt;

@@ -43,7 +43,9 @@ void check(const Vec3& from, const Vec3& to, const PassageOptions& o) {
   if (o.mode == Mode::ghost) refuse("a ghost passes everything; say walk or fly");
   positive(o.widest, "the widest radius");
   positive(o.narrowest, "the narrowest radius");
-  positive(o.spacing, "the spacing");
+  if (!(o.spacing >= least_spacing && o.spacing <= Space::reach_limit))
+    refuse(fmt::format("the spacing is {} m; it must be at least {} and at most {} m", o.spacing, least_spacing,
+                       Space::reach_limit));
   positive(o.support_max, "the largest foot");
   if (!(o.narrowest < o.widest)) refuse("the narrowest radius must be less than the widest");
   if (o.mode == Mode::fly) return;

@@ -9,6 +9,7 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
+#include "math/largest.h"
 #include "roam/sweep.h"
 #include "ways/lattice/walk_place.h"
 #include "ways/probe/parts.h"
@@ -113,7 +114,8 @@ std::optional<Vec3> nearest_from_afar(const ProbeSearch& search, const Vec3& giv
     const double above = measure.mode == Mode::walk ? 0.0 : radius + ring;
     const auto room = room_around(search, floor + Vec3(0.0, 0.0, above), radius, around_floor, false);
     if (!room) continue;
-    const bool hidden = search.survey.world().ray(given, eye_of(measure, *room) - given).hit;
+    const Vec3 view = eye_of(measure, *room) - given;
+    const bool hidden = largest(view) > Space::motion_limit || search.survey.world().ray(given, view).hit;
     const bool higher = measure.mode == Mode::walk && room->z > given.z + measure.step;
     std::optional<Vec3>& best = found[(higher ? 2U : 0U) + (hidden ? 1U : 0U)];
     if (!best || glm::distance(*room, given) < glm::distance(*best, given)) best = room;
@@ -177,7 +179,8 @@ void refuse_end(const ProbeSearch& search, const Vec3& given, const char* end, d
   const std::string where = fmt::format("{} {}", end, text_of(given));
   std::string why;
   if (search.survey.triangles() == 0) throw NoRoomAtEnd(where, "the scene has no triangles", std::nullopt);
-  const Vec3 down(0.0, 0.0, bounds.lower.z - 1.0 - std::max(given.z, bounds.lower.z));
+  const double depth = std::max(given.z, bounds.lower.z) - bounds.lower.z + 1.0;
+  const Vec3 down(0.0, 0.0, -std::min(depth, Space::motion_limit));
   if (off_scene(search, given) > 0.0) {
     why = fmt::format("it is off the scene, which spans {} to {}", text_of(bounds.lower), text_of(bounds.upper));
   } else if (walks && !search.survey.floor().ray(given + Vec3(0.0, 0.0, 0.1), down).hit) {

@@ -147,6 +147,9 @@ std::vector<ProbeAnswer> answers_to(const Survey& survey, const ProbeQuestion& q
       throw Error(fmt::format("what flies is a sphere: a height of {:g} m is not twice the radius of {:g} m",
                               size.height, size.radius));
   }
+  if (!(question.spacing >= least_spacing && question.spacing <= Space::reach_limit))
+    throw Error(fmt::format("cannot probe: the spacing is {} m; it must be at least {} and at most {} m",
+                            question.spacing, least_spacing, Space::reach_limit));
   for (const auto& [end, place] : {std::pair("from", question.from), std::pair("to", question.to)}) {
     for (int k = 0; k < 3; ++k) {
       if (!(std::abs(place[k]) <= coordinate_limit))

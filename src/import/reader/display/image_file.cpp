@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <cstdint>
 #include <fstream>
 #include <osgDB/Options>
 #include <osgDB/Registry>
@@ -24,6 +25,17 @@ namespace fs = std::filesystem;
 
 /// Upper bound of an image file. No graphics card could draw an image of this encoded size.
 constexpr std::uintmax_t image_bytes_limit = 512u << 20;
+
+/// Texels. No graphics card has a larger side, and OpenSceneGraph counts bytes in 32 bits.
+constexpr int side_limit = 65535;
+
+/// Whether the texels that the header claims are there. A plugin may have computed their size with an overflow.
+bool has_all_texels(const osg::Image& image) {
+  if (image.data() == nullptr || image.s() <= 0 || image.t() <= 0 || image.r() != 1) return false;
+  if (std::max(image.s(), image.t()) > side_limit) return false;
+  const auto texels = static_cast<std::uint64_t>(image.s()) * static_cast<std::uint64_t>(image.t());
+  return texels * image.getPixelSizeInBits() / 8 <= image.getTotalSizeInBytes();
+}
 
 /// The plugin by the first bytes of the image, else by the extension of its file. Empty if no image format is
 /// recognised.
@@ -136,8 +148,7 @@ osg::ref_ptr<osg::Image> decode_image(const std::string& bytes, const std::strin
   const osg::ref_ptr<osgDB::Options> options = new osgDB::Options(turn_dds ? "dds_flip" : "");
   osgDB::ReaderWriter::ReadResult result = reader->readImage(stream, options.get());
   osg::ref_ptr<osg::Image> image = result.getImage();
-  const bool flat = image != nullptr && image->data() != nullptr && image->s() > 0 && image->t() > 0 && image->r() == 1;
-  if (!flat) return nullptr;
+  if (image == nullptr || !has_all_texels(*image)) return nullptr;
   image->setFileName(name);
   return image;
 }

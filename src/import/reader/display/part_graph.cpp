@@ -94,7 +94,7 @@ std::size_t PartGraph::add_pages(DisplayPages&& pages, const Box& box) {
 }
 
 const PartGraph::Loaded& PartGraph::load(TextureId texture) {
-  const auto [at, is_new] = loaded_.try_emplace(texture);
+  const auto [at, is_new] = loaded_.try_emplace(textures_.first_of(texture));
   Loaded& loaded = at->second;
   if (!is_new) return loaded;
   const osg::ref_ptr<osg::Image> image = textures_.load(texture);

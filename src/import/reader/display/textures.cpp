@@ -21,16 +21,28 @@ std::string key_of(std::string_view kind, const std::string& name, Wrapping wrap
 
 TextureId Textures::add(const std::string& key, Source&& source) {
   const auto [at, is_new] = known_.try_emplace(key, static_cast<TextureId>(sources_.size()));
-  if (is_new) sources_.push_back(std::move(source));
+  if (is_new) {
+    source.first = at->second;
+    sources_.push_back(std::move(source));
+  }
   return at->second;
 }
 
 TextureId Textures::add_file(const fs::path& folder, const std::string& name, Wrapping wrapping) {
-  const auto decode = [this, folder, name]() -> osg::ref_ptr<osg::Image> {
-    const fs::path file = find_image_file(files_, folder, name);
-    return file.empty() ? nullptr : decode_image(image_bytes(files_, file), file.string(), true);
-  };
-  return add(key_of("file", (folder / name).string(), wrapping), {name, decode, nullptr, wrapping});
+  Source source{name, {}, nullptr, wrapping};
+  source.find = [this, folder, name] { return find_image_file(files_, folder, name); };
+  return add(key_of("name", (folder / name).string(), wrapping), std::move(source));
+}
+
+TextureId Textures::first_of(TextureId id) {
+  Source& source = sources_.at(id);
+  if (const auto find = std::exchange(source.find, {})) {
+    const fs::path file = find();
+    if (file.empty()) return source.first;
+    source.decode = [this, file] { return decode_image(image_bytes(files_, file), file.string(), true); };
+    source.first = known_.try_emplace(key_of("file", file.string(), source.wrapping), id).first->second;
+  }
+  return source.first;
 }
 
 TextureId Textures::add_encoded(const std::string& key, std::function<std::string()> read, Wrapping wrapping) {
@@ -50,14 +62,19 @@ void Textures::leave_out_generated() {
 }
 
 osg::ref_ptr<osg::Image> Textures::load(TextureId id) {
-  Source& source = sources_.at(id);
+  Source& source = sources_.at(first_of(id));
   osg::ref_ptr<osg::Image> image = source.decode ? source.decode() : source.image;
   if (image == nullptr || !has_texels(*image)) {
     report_missing(source.name);
     return nullptr;
   }
   if (!std::exchange(source.counted, true)) ++read_;
-  if (reduce_image(image) && !std::exchange(reduced_, true)) {
+  const bool reduced = reduce_image(image);
+  if (!has_texels(*image)) {
+    report_missing(source.name);
+    return nullptr;
+  }
+  if (reduced && !std::exchange(reduced_, true)) {
     frames_.send(FrameKind::note, PayloadWriter().add_text(fmt::format(
                                       "Images of more than {} texels a side are shown smaller.", image_size_limit)));
   }
@@ -67,16 +84,17 @@ osg::ref_ptr<osg::Image> Textures::load(TextureId id) {
 void Textures::forget_images() {
   for (Source& source : sources_) source.image = nullptr;
   found_.clear();
+  spelt_.clear();
   // Another image may later have the same address.
   std::erase_if(known_, [](const auto& entry) { return entry.first.starts_with("image"); });
 }
 
 osg::ref_ptr<osg::Image> Textures::find(const fs::path& folder, const std::string& name) {
-  const auto [at, is_new] = found_.try_emplace((folder / name).string());
-  if (is_new) {
-    const fs::path file = find_image_file(files_, folder, name);
-    if (!file.empty()) at->second = decode_image(image_bytes(files_, file), file.string(), false);
-  }
+  const auto [spelt, is_new_name] = spelt_.try_emplace((folder / name).string());
+  if (is_new_name) spelt->second = find_image_file(files_, folder, name);
+  const fs::path& file = spelt->second;
+  const auto [at, is_new] = found_.try_emplace(file.string());
+  if (is_new && !file.empty()) at->second = decode_image(image_bytes(files_, file), file.string(), false);
   if (at->second == nullptr) report_missing(name);
   return at->second;
 }

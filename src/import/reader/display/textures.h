@@ -43,6 +43,8 @@ class Textures {
   /// Notes, once, that images are left out whose coordinates only a graphics card computes.
   void leave_out_generated();
 
+  /// The first of all images that are the same file with the same wrapping, however its name is written.
+  [[nodiscard]] TextureId first_of(TextureId texture);
   /// The image, decoded anew each time. Null if there is none, which is reported once.
   [[nodiscard]] osg::ref_ptr<osg::Image> load(TextureId texture);
   [[nodiscard]] Wrapping wrapping(TextureId texture) const { return sources_.at(texture).wrapping; }
@@ -61,6 +63,8 @@ class Textures {
     std::function<osg::ref_ptr<osg::Image>()> decode;
     osg::ref_ptr<osg::Image> image;  ///< for images that are already decoded
     Wrapping wrapping;
+    std::function<std::filesystem::path()> find = {};  ///< the file, not yet searched; then `decode` is set
+    TextureId first = {};                              ///< the first image of the same file and wrapping
     bool counted = false;
   };
 
@@ -71,7 +75,8 @@ class Textures {
   SceneFiles& files_;
   std::vector<Source> sources_;
   std::map<std::string, TextureId> known_;
-  std::map<std::string, osg::ref_ptr<osg::Image>> found_;
+  std::map<std::string, std::filesystem::path> spelt_;     ///< the file of each name in find(); empty if there is none
+  std::map<std::string, osg::ref_ptr<osg::Image>> found_;  ///< by file
   std::set<std::string> missing_;
   std::uint64_t read_ = 0;
   bool reduced_ = false, left_out_generated_ = false;
