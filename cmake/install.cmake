@@ -28,6 +28,7 @@ if(ROAM_TOOLS)
   install(TARGETS roam_app RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
   # The program looks for it there. It is not in bin, because it is not a command for people.
   install(TARGETS roam-reader RUNTIME DESTINATION ${CMAKE_INSTALL_LIBEXECDIR}/roam)
+  install(DIRECTORY ${PROJECT_BINARY_DIR}/reference/ DESTINATION ${CMAKE_INSTALL_DATAROOTDIR})
 endif()
 
 install(FILES LICENSE README.md CHANGELOG.md CONTRIBUTING.md SECURITY.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
