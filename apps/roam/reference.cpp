@@ -1,5 +1,5 @@
-// roam reference: writes the help of all verbs for other programs: pages of the manual. Hidden: the
-// build runs it.
+// roam reference: writes the help of all verbs for other programs: pages of the manual, completion for shells. Hidden:
+// the build runs it.
 #include <CLI/CLI.hpp>
 #include <cstdlib>
 #include <ctime>
@@ -7,6 +7,8 @@
 
 #include "cli/help_page.h"
 #include "files/whole_file.h"
+#include "import/reader/format_table.h"
+#include "reference/completion.h"
 #include "reference/man_page.h"
 #include "roam/error.h"
 #include "roam/version.h"
@@ -45,10 +47,18 @@ void write_man_pages(const HelpPage& page, const HelpPage& program, const fs::pa
   for (const HelpPage& below : page.below) write_man_pages(below, program, folder);
 }
 
+void write_completion(const HelpPage& program, const fs::path& folder) {
+  std::vector<std::string> scenes;
+  for (const reader::Format& format : reader::formats) scenes.emplace_back(format.extension);
+  write(folder / "bash-completion" / "completions" / program.name, bash_completion(program, scenes));
+  write(folder / "zsh" / "site-functions" / ("_" + program.name), zsh_completion(program, scenes));
+  write(folder / "fish" / "vendor_completions.d" / (program.name + ".fish"), fish_completion(program, scenes));
+}
+
 }  // namespace
 
 void add_reference(CLI::App& program, Run& run) {
-  CLI::App* verb = program.add_subcommand("reference", "Write pages of the manual");
+  CLI::App* verb = program.add_subcommand("reference", "Write pages of the manual, and completion for shells");
   verb->group("");
   verb->footer(help);
   const auto folder = std::make_shared<fs::path>();
@@ -57,6 +67,7 @@ void add_reference(CLI::App& program, Run& run) {
     run = [folder, &program] {
       const HelpPage page = help_page(program);
       write_man_pages(page, page, *folder / "man" / "man1");
+      write_completion(page, *folder);
       return done;
     };
   });

@@ -8,6 +8,7 @@
 
 #include "cli/help.h"
 #include "cli/usage.h"
+#include "cli/values.h"
 
 namespace roam::app {
 namespace {
@@ -35,6 +36,7 @@ HelpEntry option_entry(const CLI::Option& option) {
   // SCENE may be given several times without the option's name; PATTERN may not.
   entry.many = !entry.value.empty() && takes_many(option) && option.get_allow_extra_args();
   entry.description = description(option);
+  entry.choices = choices_of(option);
   return entry;
 }
 
@@ -76,12 +78,12 @@ HelpPage help_page(const CLI::App& app) {
   };
   std::vector<HelpEntry> arguments;
   for (const CLI::Option* option : options_of(app, true)) {
-    arguments.push_back({{option->get_name(true)}, {}, takes_many(*option), description(*option)});
+    arguments.push_back({{option->get_name(true)}, {}, takes_many(*option), description(*option), choices_of(*option)});
   }
   add("", std::move(arguments));
   std::vector<HelpEntry> names;
   for (const CLI::App* below : shown_below(app)) {
-    names.push_back({{below->get_name()}, {}, false, below->get_description()});
+    names.push_back({{below->get_name()}, {}, false, below->get_description(), {}});
     page.below.push_back(help_page(*below));
   }
   add(app.get_parent() == nullptr ? "Verbs" : "Kinds", std::move(names));

@@ -17,6 +17,7 @@ struct HelpEntry {
   std::string value;                 ///< name of an option's value; empty: it has none, or this is no option
   bool many = false;                 ///< an argument, or a value, that may be repeated
   std::string description;           ///< with the default
+  std::vector<std::string> choices;  ///< all values, if they are few words; else empty
 
   [[nodiscard]] bool is_option() const { return names.front().front() == '-'; }
 };
