@@ -29,6 +29,10 @@ if(ROAM_TOOLS)
   # The program looks for it there. It is not in bin, because it is not a command for people.
   install(TARGETS roam-reader RUNTIME DESTINATION ${CMAKE_INSTALL_LIBEXECDIR}/roam)
   install(DIRECTORY ${PROJECT_BINARY_DIR}/reference/ DESTINATION ${CMAKE_INSTALL_DATAROOTDIR})
+  set(roam_desktop_dir apps/roam/desktop)
+  install(FILES ${roam_desktop_dir}/roam.desktop DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/applications)
+  install(FILES ${roam_desktop_dir}/roam.xml DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/mime/packages)
+  install(FILES ${roam_desktop_dir}/roam.svg DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/icons/hicolor/scalable/apps)
 endif()
 
 install(FILES LICENSE README.md CHANGELOG.md CONTRIBUTING.md SECURITY.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
