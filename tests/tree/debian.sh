@@ -10,7 +10,7 @@ rm -rf "$work"
 mkdir -p "$work"
 fail() { echo "$1"; exit 1; }
 
-# Compressed quickly: the test looks at what is in them. On as many cores as there are.
+# Compressed quickly: the test looks at what is in them.
 cpack --config "$build/CPackConfig.cmake" -B "$work/packages" -D CPACK_DEBIAN_COMPRESSION_TYPE=gzip > "$work/log" 2>&1 ||
   { cat "$work/log"; exit 1; }
 version=$(sed -n 's/^#define ROAM_VERSION_STRING "\(.*\)"$/\1/p' "$source/include/roam/version.h")-1
