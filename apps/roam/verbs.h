@@ -17,5 +17,7 @@ void add_train(CLI::App& program, Run& run);
 void add_verify(CLI::App& program, Run& run);
 void add_probe(CLI::App& program, Run& run);
 void add_view(CLI::App& program, Run& run);
+/// Hidden: the build writes man pages with it.
+void add_reference(CLI::App& program, Run& run);
 
 }  // namespace roam::app

@@ -4,11 +4,9 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <cctype>
 #include <memory>
-#include <vector>
 
-#include "cli/usage.h"
+#include "cli/help_page.h"
 
 namespace roam::app {
 namespace {
@@ -27,85 +25,22 @@ std::string entry(const std::string& name, const std::string& description) {
   return line + filled(description, help_width, column) + "\n";
 }
 
-bool takes_many(const CLI::Option& option) {
-  return option.get_expected_max() >= CLI::detail::expected_max_vector_size;
-}
-
-std::string argument(const CLI::Option& option) { return option.get_name(true) + (takes_many(option) ? "..." : ""); }
-
-/// "-o, --output FILE"
-std::string option_name(const CLI::Option& option) {
-  std::string name;
-  for (const std::string& letter : option.get_snames()) name += "-" + letter + ", ";
-  for (const std::string& word : option.get_lnames()) name += "--" + word + ", ";
-  name.resize(name.size() - 2);
-  const std::string value = option.get_type_size_max() == 0 ? std::string() : option.get_type_name();
-  // SCENE may be given several times without the option's name; PATTERN may not.
-  const bool many = takes_many(option) && option.get_allow_extra_args();
-  return name + (value.empty() ? "" : " " + value + (many ? "..." : ""));
-}
-
-std::string description(const CLI::Option& option) {
-  const std::string& preset = option.get_default_str();
-  return option.get_description() + (preset.empty() ? "" : fmt::format(" (default: {})", preset));
-}
-
-std::vector<const CLI::Option*> options_of(const CLI::App& app, bool positional) {
-  return app.get_options([=](const CLI::Option* option) { return option->get_positional() == positional; });
-}
-
-/// In the order in which options were added, but Scene and Other last.
-std::vector<std::string> groups(const CLI::App& app) {
-  std::vector<std::string> names;
-  for (const CLI::Option* option : options_of(app, false)) {
-    if (option->get_group().empty()) continue;  // hidden in CLI11's sense
-    if (std::find(names.begin(), names.end(), option->get_group()) == names.end()) names.push_back(option->get_group());
-  }
-  for (const char* last : {scene_group, other_group}) {
-    std::stable_partition(names.begin(), names.end(), [=](const std::string& name) { return name != last; });
-  }
-  return names;
-}
-
-std::string usage(const CLI::App& app) {
-  std::string line = "Usage: " + full_name(app);
-  if (!app.get_subcommands({}).empty()) {
-    std::string noun = noun_below(app);
-    std::transform(noun.begin(), noun.end(), noun.begin(), [](unsigned char c) { return std::toupper(c); });
-    return line + " " + noun + " ...\n";
-  }
-  for (const CLI::Option* option : options_of(app, true)) {
-    line += option->get_required() ? " " + argument(*option) : " [" + argument(*option) + "]";
-  }
-  for (const CLI::Option* option : options_of(app, false)) {
-    if (option->get_required()) line += fmt::format(" {} {}", option->get_name(), option->get_type_name());
-  }
-  return line + " [OPTIONS]\n";
-}
-
-std::string section(const std::string& title, const std::string& entries) {
-  return entries.empty() ? std::string() : fmt::format("\n{}:\n{}", title, entries);
+/// "-o, --output FILE", "SCENE...", "walk"
+std::string name_of(const HelpEntry& entry) {
+  return fmt::format("{}{}{}{}", fmt::join(entry.names, ", "), entry.value.empty() ? "" : " ", entry.value,
+                     entry.many ? "..." : "");
 }
 
 class HelpFormatter : public CLI::Formatter {
  public:
   std::string make_help(const CLI::App* app, std::string /*name*/, CLI::AppFormatMode /*mode*/) const override {
-    std::string text = filled(app->get_description(), help_width) + "\n\n" + usage(*app);
-    std::string entries;
-    for (const CLI::Option* option : options_of(*app, true)) entries += entry(argument(*option), description(*option));
-    if (!entries.empty()) text += "\n" + entries;
-    entries.clear();
-    for (const CLI::App* below : app->get_subcommands({}))
-      entries += entry(below->get_name(), below->get_description());
-    text += section(app->get_parent() == nullptr ? "Verbs" : "Kinds", entries);
-    for (const std::string& group : groups(*app)) {
-      entries.clear();
-      for (const CLI::Option* option : options_of(*app, false)) {
-        if (option->get_group() == group) entries += entry(option_name(*option), description(*option));
-      }
-      text += section(group, entries);
+    const HelpPage page = help_page(*app);
+    std::string text = fmt::format("{}\n\nUsage: {} {}\n", filled(page.description, help_width), page.name, page.usage);
+    for (const HelpSection& section : page.sections) {
+      text += section.title.empty() ? "\n" : fmt::format("\n{}:\n", section.title);
+      for (const HelpEntry& shown : section.entries) text += entry(name_of(shown), shown.description);
     }
-    return text + "\n" + filled(app->get_footer(), help_width);
+    return text + "\n" + filled(page.footer, help_width);
   }
 };
 

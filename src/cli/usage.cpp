@@ -18,7 +18,7 @@ bool is_option(std::string_view word) { return word.size() > 1 && word.front() =
 /// Verbs of the program, kinds of a verb.
 std::vector<std::string> names_below(const CLI::App& app) {
   std::vector<std::string> names;
-  for (const CLI::App* sub : app.get_subcommands({})) names.push_back(sub->get_name());
+  for (const CLI::App* sub : shown_below(app)) names.push_back(sub->get_name());
   return names;
 }
 
@@ -120,6 +120,10 @@ std::string full_name(const CLI::App& app) {
 }
 
 const char* noun_below(const CLI::App& app) { return app.get_parent() == nullptr ? "verb" : "kind"; }
+
+std::vector<const CLI::App*> shown_below(const CLI::App& app) {
+  return app.get_subcommands([](const CLI::App* below) { return !below->get_group().empty(); });
+}
 
 std::string one_of_text(const std::vector<std::string>& words) {
   std::string text;

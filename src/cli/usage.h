@@ -9,7 +9,7 @@
 namespace CLI {
 class App;
 class ParseError;
-}
+}  // namespace CLI
 
 #include "roam/error.h"
 
@@ -23,6 +23,9 @@ namespace roam::app {
 
 /// The noun for names below `app`: "verb" or "kind".
 [[nodiscard]] const char* noun_below(const CLI::App& app);
+
+/// The verbs of a program, or kinds of a verb, without hidden ones: those in no group.
+[[nodiscard]] std::vector<const CLI::App*> shown_below(const CLI::App& app);
 
 /// "gallery, terrain or city"
 [[nodiscard]] std::string one_of_text(const std::vector<std::string>& words);

@@ -36,6 +36,8 @@ std::optional<std::uint64_t> with_unit(std::string_view text, double step, bool 
   return static_cast<std::uint64_t>(number);
 }
 
+constexpr std::string_view choices_prefix = "one of ";
+
 CLI::Validator rewritten(double step, bool of_bytes, const char* what) {
   return {[=](std::string& text) {
             const auto value = with_unit(text, step, of_bytes);
@@ -58,11 +60,26 @@ CLI::Validator positive() {
 }
 
 CLI::Validator one_of(std::vector<std::string> words) {
+  // The name is where choices_of finds the words.
+  std::string name = fmt::format("{}{}", choices_prefix, fmt::join(words, "|"));
   return {[words = std::move(words)](std::string& text) {
             const bool known = std::find(words.begin(), words.end(), text) != words.end();
             return known ? std::string() : fmt::format("'{}' is not {}", text, one_of_text(words));
           },
-          ""};
+          "", std::move(name)};
+}
+
+std::vector<std::string> choices_of(const CLI::Option& option) {
+  // CLI11 lets only a changeable option list its validators, and throws after the last.
+  auto& listed = const_cast<CLI::Option&>(option);
+  try {
+    for (int i = 0;; ++i) {
+      const std::string& name = listed.get_validator(i)->get_name();
+      if (name.starts_with(choices_prefix)) return CLI::detail::split(name.substr(choices_prefix.size()), '|');
+    }
+  } catch (const CLI::OptionNotFound&) {
+    return {};
+  }
 }
 
 CLI::Validator counted() { return rewritten(1000.0, false, "a whole number such as 5000, 500k or 20M"); }

@@ -38,6 +38,8 @@ template <class Number>
 
 /// One of these words.
 [[nodiscard]] CLI::Validator one_of(std::vector<std::string> words);
+/// These words, of an option that is checked by one_of; else empty.
+[[nodiscard]] std::vector<std::string> choices_of(const CLI::Option& option);
 
 /// Rewrites 500k or 20M as 500000 or 20000000.
 [[nodiscard]] CLI::Validator counted();

@@ -1,6 +1,8 @@
 #!/usr/bin/env bash
 # What ctest runs against a fresh prefix into which roam was installed:
 #   install.sh c       SOURCE PREFIX WORK CXX   builds examples/walk_in_c with CMake and with pkg-config and runs it
+#   install.sh csharp  SOURCE PREFIX WORK CXX   compiles examples/walk_in_csharp with mono's compiler and runs it
+#   install.sh wheel   SOURCE PREFIX WORK CXX   makes a wheel of the Python module and installs it in a venv
 #   install.sh python  SOURCE PREFIX WORK CXX   imports the installed Python module and reads a file with it
 #   install.sh example SOURCE PREFIX WORK CXX   builds examples/sweep_a_sphere outside the tree and runs it
 #   install.sh moving  SOURCE PREFIX WORK CXX   builds examples/swinging_door and moving_platform and runs them
@@ -61,6 +63,36 @@ case $what in
     flags=$(pkg-config --cflags --libs roam)
     cc -std=c99 -Wall -Wextra -Wpedantic -Werror "$work/example/walk_in_c.c" $flags -o "$work/walk_in_c"
     expect 'stopped at x = 4.70 m' env LD_LIBRARY_PATH="$PKG_CONFIG_PATH/.." "$work/walk_in_c"
+    ;;
+  csharp)
+    for tool in mcs mono; do
+      command -v "$tool" > /dev/null || { echo "there is no $tool: not run"; exit 77; }
+    done
+    mcs -warnaserror "$source/examples/walk_in_csharp/walk.cs" -out:"$work/walk.exe"
+    export LD_LIBRARY_PATH
+    LD_LIBRARY_PATH=$(dirname "$(find "$prefix" -name libroam.so.0)")
+    expect 'the wall is 5.00 m away' mono "$work/walk.exe"
+    expect 'stopped at x = 4.70 m' mono "$work/walk.exe"
+    ;;
+  wheel)
+    /usr/bin/python3 -c 'import build, setuptools, venv, ensurepip' 2> /dev/null ||
+      { echo "there is no python3-build or python3-venv: not run"; exit 77; }
+    # Of the files that are installed.
+    mkdir "$work/module"
+    cp -r "$(find "$prefix" -path '*/dist-packages/roam')" "$work/module"
+    version=$(sed -n 's/^#define ROAM_VERSION_STRING "\(.*\)"$/\1/p' "$prefix/include/roam/version.h")
+    sed "s/@PROJECT_VERSION@/$version/" "$source/python/pyproject.toml.in" > "$work/module/pyproject.toml"
+    /usr/bin/python3 -m build --no-isolation --wheel --outdir "$work" "$work/module" > "$work/log" 2>&1 ||
+      { cat "$work/log"; exit 1; }
+    /usr/bin/python3 -m venv --system-site-packages "$work/venv"
+    "$work/venv/bin/pip" install --no-index --no-deps "$work/roam-$version-py3-none-any.whl" > "$work/log" 2>&1 ||
+      { cat "$work/log"; exit 1; }
+    export LD_LIBRARY_PATH
+    LD_LIBRARY_PATH=$(dirname "$(find "$prefix" -name libroam.so.0)")
+    printf 'v 0 0 0\nv 9 0 0\nv 9 9 0\nv 0 9 0\nf 1 2 3 4\n' > "$work/floor.obj"
+    expect "2 triangles, $version from $work/venv" "$work/venv/bin/python" -c "
+import importlib.metadata, roam
+print(roam.World.open('$work/floor.obj').triangles, 'triangles,', importlib.metadata.version('roam'), 'from', roam.__file__)"
     ;;
   python)
     printf 'v 0 0 0\nv 9 0 0\nv 9 9 0\nv 0 9 0\nf 1 2 3 4\n' > "$work/floor.obj"

@@ -128,6 +128,17 @@ TEST(ViewStore, FindsTheSceneOfAStore) {
   EXPECT_TRUE(report.notes.empty()) << report.notes.front();
 }
 
+TEST(ViewStore, IsOpenedByTheFileInItThatDesktopsKnow) {
+  Driven d;
+  d.write_scene();
+  const std::string store = d.build();
+  const ProgramResult shown =
+      run_program(ROAM_PROGRAM, {"view", store + "/CURRENT", "--headless", "--json", "--at", "8,0,0.95,0", "--radius",
+                                 "0.3", "--size", "64x64", "--screenshot", d.folder.file("shot.png")});
+  EXPECT_EQ(shown.status, 0) << shown.err;
+  EXPECT_EQ(nlohmann::json::parse(shown.out)["store"], store) << shown.out;
+}
+
 TEST(ViewStore, FollowsNoLinkBesideTheStore) {
   Driven d;
   const std::string scene = d.write_scene(), store = d.build();

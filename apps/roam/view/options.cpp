@@ -17,6 +17,7 @@
 #include "files/extension.h"
 #include "roam/error.h"
 #include "roam/route.h"
+#include "roam/store.h"
 #include "view/section.h"
 
 namespace roam::app {
@@ -135,12 +136,22 @@ void check_files(const ViewOptions& options, const ViewSettings& settings) {
   }
 }
 
+/// Rewrites STORE/CURRENT as STORE: file managers open a store by that file, because they know no types of folders.
+CLI::Validator store_of_its_file() {
+  return {[](std::string& text) {
+            const std::filesystem::path file(text), folder = file.parent_path();
+            if (file.filename() == "CURRENT" && !folder.empty() && Store::is_store(folder)) text = folder.string();
+            return std::string();
+          },
+          ""};
+}
+
 }  // namespace
 
 void ViewOptions::add_to(CLI::App& verb) {
   scene.add_to(verb);
   // --keys needs no scene.
-  verb.get_option("SCENE")->required(false);
+  verb.get_option("SCENE")->required(false)->transform(store_of_its_file());
   verb.get_option("--memory")->description("Memory for a store's collision (default: 64M)");
   verb.option_defaults()->group(scene_group);
   verb.add_option("--store", store,

@@ -1,0 +1,20 @@
+# Run by CPack on the files of all packages: compresses pages and changelogs, and moves the files that Debian has another
+# place for.
+file(GLOB folders "${CPACK_TEMPORARY_DIRECTORY}/*/usr")
+foreach(folder IN LISTS folders)
+  file(GLOB compressed "${folder}/share/man/*/*.1" "${folder}/share/doc/*/changelog.Debian")
+  foreach(file IN LISTS compressed)
+    execute_process(COMMAND gzip -9n "${file}" COMMAND_ERROR_IS_FATAL ANY)
+  endforeach()
+  if(EXISTS "${folder}/share/zsh/site-functions")
+    file(RENAME "${folder}/share/zsh/site-functions" "${folder}/share/zsh/vendor-completions")
+  endif()
+  # One place for every Python 3.
+  file(GLOB packages "${folder}/lib/python3.*/dist-packages")
+  foreach(package IN LISTS packages)
+    file(MAKE_DIRECTORY "${folder}/lib/python3")
+    file(RENAME "${package}" "${folder}/lib/python3/dist-packages")
+    cmake_path(GET package PARENT_PATH versioned)
+    file(REMOVE_RECURSE "${versioned}")
+  endforeach()
+endforeach()

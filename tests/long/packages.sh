@@ -1,0 +1,94 @@
+#!/usr/bin/env bash
+# tests/long/packages.sh [FOLDER [SUITE]]
+# Installs the Debian packages in FOLDER (build-check) into a fresh Debian SUITE (this system's), and uses all of them
+# there: program, manual, Python module, C and C++ examples. Upgrades them to a later version, removes and purges them.
+# Nothing may be left, and no step may warn. Takes 2 GB of disk; needs root, debootstrap and a mirror.
+set -euo pipefail
+source_folder=$(realpath "$(dirname "$0")/../..")
+packages=$(realpath "${1:-$source_folder/build-check}")
+suite=${2:-$(. /etc/os-release && echo "$VERSION_CODENAME")}
+cd "$packages"
+names='roam roam-reader libroam0 libroam-dev python3-roam roam-doc'
+for name in $names; do
+  compgen -G "${name}_*.deb" > /dev/null || { echo "there is no $name in $packages: cmake --build . --target package"; exit 1; }
+done
+work=$(mktemp -d)
+root=$work/root
+end() {
+  if mountpoint -q "$root/proc"; then umount "$root/proc"; fi
+  rm -rf --one-file-system "$work"
+}
+trap end EXIT
+fail() { echo "$1"; exit 1; }
+# inside COMMAND...: runs it in the fresh Debian.
+inside() { env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin LC_ALL=C.UTF-8 DEBIAN_FRONTEND=noninteractive chroot "$root" "$@"; }
+# step TITLE COMMAND...: quiet unless it fails or warns.
+step() {
+  echo "$1 ($SECONDS s)"
+  "${@:2}" > "$work/log" 2>&1 || { cat "$work/log"; fail "$1: failed"; }
+  ! grep -iE '^(W:|E:|dpkg: (warning|error))|SyntaxWarning' "$work/log" || fail "$1: warnings"
+}
+# expect TEXT COMMAND...: inside, the command succeeds and says TEXT.
+expect() {
+  local said
+  said=$(inside "${@:2}" 2>&1) || { echo "$said"; fail "failed: ${*:2}"; }
+  [[ $said == *"$1"* ]] || { echo "$said"; fail "expected: $1"; }
+}
+files() { (cd "$root" && find . -xdev \( -path ./proc -o -path ./var -o -path ./tmp -o -path ./etc/ld.so.cache \) -prune -o -print) | sort; }
+
+step "debootstrap $suite" debootstrap --variant=minbase "$suite" "$root"
+mount -t proc proc "$root/proc"
+# Packages come from where this system's come from.
+rm -f "$root/etc/apt/sources.list"
+cp -r /etc/apt/sources.list* "$root/etc/apt/"
+cp /etc/apt/apt.conf.d/*proxy* "$root/etc/apt/apt.conf.d/" 2> /dev/null || true  # there may be none
+cp /etc/resolv.conf "$root/etc/"
+# As on a desktop: the manual, which minbase leaves out, and what keeps the menus.
+rm -f "$root"/etc/dpkg/dpkg.cfg.d/*
+step 'apt-get update' inside apt-get update
+step 'a compiler, the manual, the menus' inside apt-get install -y --no-install-recommends \
+  g++ cmake make man-db desktop-file-utils shared-mime-info libglib2.0-bin
+# All that they need, so that afterwards only roam's own files differ.
+mkdir "$root/packages"
+cp $(for name in $names; do ls "$name"_*.deb; done) "$root/packages"
+step 'what the packages need' inside bash -c \
+  'apt-get install -y --no-install-recommends /packages/*.deb && dpkg --purge '"$names"' && dpkg --configure -a'
+files > "$work/before"
+
+step 'install' inside bash -c 'apt-get install -y --no-install-recommends /packages/*.deb'
+[[ -z $(inside dpkg --audit) ]] || fail 'dpkg --audit complains'
+printf 'v 0 0 0\nv 9 0 0\nv 9 9 0\nv 0 9 0\nf 1 2 3 4\n' > "$root/tmp/floor.obj"
+printf '1 1 0.9\n8 8 0.9\n' > "$root/tmp/across.path"
+use() {
+  expect 'reached' roam walk /tmp/floor.obj --path /tmp/across.path --verify
+  expect '2 triangles' python3 -c 'import roam; print(roam.World.open("/tmp/floor.obj").triangles, "triangles")'
+  expect 'SYNOPSIS' man roam-walk
+  expect 'application/x-roam-store' bash -c 'printf "roam store 1\n%064d\n" 0 > /tmp/CURRENT; gio info -a standard::content-type /tmp/CURRENT'
+  expect 'roam.desktop' gio mime application/x-roam-store
+  expect 'reached after 9.9 m' bash -c "rm -rf /tmp/b && cmake -S /usr/share/doc/roam/examples/walk_a_path -B /tmp/b > /tmp/log &&
+    cmake --build /tmp/b > /tmp/log && /tmp/b/walk_a_path /tmp/floor.obj /tmp/across.path"
+  expect 'stopped at x = 4.70 m' bash -c 'cc /usr/share/doc/roam/examples/walk_in_c/walk_in_c.c -o /tmp/c $(pkg-config --cflags --libs roam) && /tmp/c'
+}
+echo "use ($SECONDS s)"
+use
+
+# The same files as the version after this one.
+for file in "$root"/packages/*.deb; do
+  dpkg-deb --raw-extract "$file" "$work/later"
+  sed -i -E 's/^(Version: .*)$/\1+later/; s/(roam[^ ]*) \((=|>=) ([^)]*)\)/\1 (\2 \3+later)/g' "$work/later/DEBIAN/control"
+  name=$(basename "$file")
+  dpkg-deb --build --root-owner-group "$work/later" "$work/${name%_*}+later_${name##*_}" > /dev/null
+  rm -r "$work/later"
+done
+rm "$root"/packages/*.deb
+mv "$work"/*.deb "$root/packages"
+step 'upgrade' inside bash -c 'apt-get install -y --no-install-recommends /packages/*.deb'
+[[ $(inside dpkg-query --show --showformat '${Version}' roam) == *+later ]] || fail 'was not upgraded'
+use
+
+step 'remove' inside apt-get remove -y $names
+step 'purge' inside dpkg --purge $names
+rm "$root"/packages/*.deb
+files > "$work/after"
+diff <(grep -v '^./packages' "$work/before") <(grep -v '^./packages' "$work/after") || fail 'something is left, or missing'
+echo "installed, used, upgraded, removed: nothing is left ($SECONDS s)"
