@@ -25,9 +25,9 @@ constexpr double shortest_way = 1e-9;
 bool sees_at_knee(const World& world, const Vec3& from, const Vec3& to, double knee, double smallest) {
   const double sphere = sight_share * smallest;
   const Vec3 eye = from + Vec3(0.0, 0.0, knee);
-  Impact met = world.sweep({sphere, 0.0}, eye, to - from);
+  FirstImpact met = world.first_impact({sphere, 0.0}, eye, to - from);
   // A sphere in contact with a wall may be unable to leave it; a smaller one can.
-  if (met.hit && met.time == 0.0) met = world.sweep({0.7 * sphere, 0.0}, eye, to - from);
+  if (met.hit && met.time == 0.0) met = world.first_impact({0.7 * sphere, 0.0}, eye, to - from);
   return !met.hit;
 }
 
@@ -50,12 +50,12 @@ bool VoidProbe::sees(const Vec3& from, const Vec3& to) const {
 
 bool VoidProbe::lets_pass(const Vec3& from, const Vec3& to, double body) const {
   if (body <= 0.0) return true;
-  return !survey_.world().sweep({body, 0.0}, from + Vec3(0.0, 0.0, options_.knee + body), to - from).hit;
+  return !survey_.world().first_impact({body, 0.0}, from + Vec3(0.0, 0.0, options_.knee + body), to - from).hit;
 }
 
 bool VoidProbe::sinks(const Vec3& place, double radius) const {
   const Vec3 knee = place + Vec3(0.0, 0.0, options_.knee);
-  return !survey_.world().sweep({radius, 0.0}, knee, {0.0, 0.0, radius - step_ - options_.knee}).hit;
+  return !survey_.world().first_impact({radius, 0.0}, knee, {0.0, 0.0, radius - step_ - options_.knee}).hit;
 }
 
 std::optional<Vec3> VoidProbe::bottom(const Vec3& place) const {

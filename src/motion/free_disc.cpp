@@ -131,7 +131,8 @@ class Search {
   bool in_sight(double x, double y) {
     const Vec3 knee(0.0, 0.0, foot_.knee);
     const Vec3 from = over(0.0, 0.0) + knee, to = over(x, y) + knee;
-    const Impact wall = space_.sweep({std::min(sight_radius, 0.25 * foot_.radius)}, from, to - from);
+    const double radius = std::min(sight_radius, 0.25 * foot_.radius);
+    const FirstImpact wall = space_.first_impact({radius, 0.0}, from, to - from);
     unknown_ |= wall.hit && wall.unknown;
     return !wall.hit;
   }

@@ -52,7 +52,7 @@ std::optional<Vec3> march(const Space& space, const Body& body, const Vec3& plac
 bool above_ground(const Space& space, const Body& body, const Vec3& place) {
   const Box bounds = space.bounds();
   const double down = bounds.empty() ? longest_way : std::min(place.z - bounds.lower.z, longest_way);
-  return down > 0.0 && space.sweep(body, place, {0.0, 0.0, -down}).hit;
+  return down > 0.0 && space.first_impact(body, place, {0.0, 0.0, -down}).hit;
 }
 
 std::optional<Vec3> nearest_free(const Space& space, const Body& body, const Vec3& place, double limit, double skin,
@@ -65,7 +65,7 @@ std::optional<Vec3> nearest_free(const Space& space, const Body& body, const Vec
     if (!at) return;
     const double length = glm::length(*at - place);
     if (length > best_length || (best && length == best_length)) return;
-    if (way == Way::checked && space.sweep({inner, 0.0}, place, *at - place).hit) return;
+    if (way == Way::checked && space.first_impact({inner, 0.0}, place, *at - place).hit) return;
     if (below == Below::ground && !above_ground(space, body, *at)) return;
     best = at;
     best_length = length;

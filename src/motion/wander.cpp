@@ -69,13 +69,13 @@ void stride_ahead(const Prober& prober, Vec3 place, const Vec3& direction, int c
   const double slope = std::tan(settings.slope_degrees * std::numbers::pi / 180.0);
   const double climb = on_foot ? std::min(stride * slope + settings.step, settings.height) : 0.0;
   for (int i = 0; i < count; ++i) {
-    const Vec3 high = place + Vec3(0, 0, climb * space.sweep(body, place, {0, 0, climb}).time);
-    const Impact along = space.sweep(body, high, stride * direction);
+    const Vec3 high = place + Vec3(0, 0, climb * space.first_impact(body, place, {0, 0, climb}).time);
+    const FirstImpact along = space.first_impact(body, high, stride * direction);
     if (along.hit && along.time < 0.5) return;
     Vec3 next = high + along.time * stride * direction;
     if (on_foot) {
       const double down = high.z - place.z + climb;
-      const Impact ground = space.sweep(body, next, {0, 0, -down});
+      const FirstImpact ground = space.first_impact(body, next, {0, 0, -down});
       if (!ground.hit) return;
       next.z -= ground.time * down;
     } else if (!airspace(space, settings).holds(next)) {
@@ -92,7 +92,7 @@ void stride_ahead(const Prober& prober, Vec3 place, const Vec3& direction, int c
 WanderStart start_at(const Space& space, const WalkerSettings& settings, Mode mode, const Vec3& floor) {
   const Body body = Body::capsule(settings.radius, settings.height);
   WanderStart start{.room = -1.0};
-  const Impact above = space.ray(floor + Vec3(0, 0, lift), {0, 0, wall_reach});
+  const FirstImpact above = space.first_impact({0.0, 0.0}, floor + Vec3(0, 0, lift), {0, 0, wall_reach});
   const double ceiling = lift + above.time * wall_reach;
   if (mode == Mode::fly) {
     start.place = floor + Vec3(0, 0, above.hit ? 0.5 * ceiling : fly_height + 0.5 * settings.height);
@@ -110,7 +110,7 @@ WanderStart start_at(const Space& space, const WalkerSettings& settings, Mode mo
   int walls = above.hit ? 1 : 0;
   double sight = 0.0;
   for (int i = 0; i < directions; ++i) {
-    const Impact wall = space.ray(start.place, wall_reach * level(i, directions));
+    const FirstImpact wall = space.first_impact({0.0, 0.0}, start.place, wall_reach * level(i, directions));
     walls += wall.hit ? 1 : 0;
     sight = std::max(sight, (wall.hit ? wall.time : 1.0) * wall_reach);
     stride_ahead({space, settings, mode, body}, start.place, level(i, directions), room_strides,

@@ -57,7 +57,7 @@ void SoftEye::keep_free(const roam::Walker& walker) {
   } else if (walker.mode() != roam::Mode::ghost && !walker.held()) {
     const roam::Vec3 from = walker.position() + roam::Vec3(0.0, 0.0, belongs);
     const double radius = least_eye_distance(walker.settings());
-    lag_ *= walker.space().sweep({radius, 0.0}, from, {0.0, 0.0, lag_}).time;
+    lag_ *= walker.space().first_impact({radius, 0.0}, from, {0.0, 0.0, lag_}).time;
   }
 }
 

@@ -60,7 +60,7 @@ std::optional<Vec3> way_through(const Walker& walker, const Placed& small, const
     Vec3 place = small.centre;
     bool free = true;
     for (const Vec3& leg : std::array{Vec3(0.0, 0.0, lift), aside, ahead * forward}) {
-      free = free && (leg == Vec3(0.0) || !space.sweep(small.body, place, leg).hit);
+      free = free && (leg == Vec3(0.0) || !space.first_impact(small.body, place, leg).hit);
       place += leg;
     }
     if (free) return place;

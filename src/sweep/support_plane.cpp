@@ -97,7 +97,9 @@ SupportPlane support_plane(Obstacle& o, const Vec3& centre, double slack) noexce
   const Closest closest = closest_to_axis(o, centre);
   SupportPlane plane{Vec3(0.0), 0.0, closest.point, closest.feature, closest.straight};
   if (closest.away_squared > shortest_squared) {
-    const Vec3 n = closest.away * (1.0 / std::sqrt(closest.away_squared));
+    // A face's normal has length 1 already. The quotient of the root would be on the longest chain of a contact.
+    const bool is_unit = closest.away_squared == 1.0;
+    const Vec3 n = is_unit ? closest.away : closest.away * (1.0 / std::sqrt(closest.away_squared));
     const double farthest = std::max({glm::dot(n, o.corner[0]), glm::dot(n, o.corner[1]), glm::dot(n, o.corner[2])});
     plane.normal = n;
     plane.offset = -farthest - span_along_axis(o, n);

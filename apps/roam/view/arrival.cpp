@@ -156,7 +156,7 @@ bool Arrival::is_ground_below() const {
   const Box box = walker.space().bounds();
   if (box.empty()) return false;
   const double drop = std::min(walker.position().z - box.lower.z + walker.settings().height, Space::motion_limit);
-  return drop > 0.0 && walker.space().sweep(walker.body(), walker.position(), {0.0, 0.0, -drop}).hit;
+  return drop > 0.0 && walker.space().first_impact(walker.body(), walker.position(), {0.0, 0.0, -drop}).hit;
 }
 
 void Arrival::fly_without_ground() {

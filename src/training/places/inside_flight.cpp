@@ -55,7 +55,7 @@ std::vector<std::size_t> surfaces_seen(const Survey& survey, const ways::WidestT
       tried = at->owner == owner ? tried + 1 : 0;
       owner = at->owner;
       if (seen_last[owner] == triangle || tried >= places_tried) continue;
-      if (survey.world().ray(point, tree.node(at->node).place - point).hit) continue;
+      if (survey.world().first_impact({0.0, 0.0}, point, tree.node(at->node).place - point).hit) continue;
       seen_last[owner] = triangle;
       ++seen[owner];
     }

@@ -41,7 +41,7 @@ Surroundings look_around(const Survey& survey, const Vec3& eye) {
   const double length = std::clamp(glm::length(survey.world().bounds().size()), 1.0, longest_ray);
   int hits = 0, backs = 0, up = 0, misses = 0;
   for (const Vec3& direction : all) {
-    const Impact hit = survey.world().ray(eye, length * direction);
+    const FirstImpact hit = survey.world().first_impact({0.0, 0.0}, eye, length * direction);
     if (direction.z > upwards) {
       ++up;
       if (!hit.hit) ++misses;

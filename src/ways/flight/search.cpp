@@ -148,7 +148,7 @@ double FlySearch::cost_of(CellId cell) const {
 
 bool FlySearch::goes(const Vec3& from, double free, const Vec3& to) const {
   if (free - glm::distance(from, to) >= radius_) return true;
-  return !survey_.world().sweep({radius_, 0.0}, from, to - from).hit;
+  return !survey_.world().first_impact({radius_, 0.0}, from, to - from).hit;
 }
 
 /// Whether the sphere goes from the middle of a cube to that of its neighbour, through the face that they share.

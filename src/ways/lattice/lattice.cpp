@@ -10,7 +10,7 @@ namespace roam::ways {
 namespace {
 
 bool free_way(const World& world, const Body& body, const Vec3& from, const Vec3& to) {
-  return !world.sweep(body, from, to - from).hit;
+  return !world.first_impact(body, from, to - from).hit;
 }
 
 }  // namespace

@@ -61,7 +61,7 @@ bool is_free_beyond(const Survey& survey, const Vec3& axis, const Vec3& floor, d
   if (!(beside > apart && beside < radius)) return false;
   const Vec3 away = Vec3(axis.x - floor.x, axis.y - floor.y, 0.0) * ((radius + apart - beside) / beside);
   return !floor_beside(survey, axis + away, radius).found &&
-         !survey.world().sweep({sight, 0.0}, axis + Vec3(0.0, 0.0, knee), away).hit;
+         !survey.world().first_impact({sight, 0.0}, axis + Vec3(0.0, 0.0, knee), away).hit;
 }
 
 /// Whether the gap under an axis, at the level of a rim, is an open drop, which carries no foot. This is the walker's

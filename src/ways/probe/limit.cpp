@@ -110,7 +110,7 @@ ProbeLimit lowest(const ProbeSearch& search, const std::vector<Vec3>& way, doubl
   const Body body{radius - slack, 0.0};
   const double bottom = search.options.step + radius, rise = most - bottom - radius;
   for_each_station(way, station, [&](const Vec3& feet, const Vec3& run, double along) {
-    const Impact up = search.survey.world().sweep(body, feet + Vec3(0.0, 0.0, bottom), {0.0, 0.0, rise});
+    const FirstImpact up = search.survey.world().first_impact(body, feet + Vec3(0.0, 0.0, bottom), {0.0, 0.0, rise});
     if (!up.hit || bottom + up.time * rise + body.radius >= limit.size) return;
     limit.size = bottom + up.time * rise + body.radius;
     limit.feet = feet;
