@@ -210,7 +210,7 @@ TEST(ImportFormats, RefusesWhatIsNoSceneAndSaysWhatToDo) {
   EXPECT_TRUE(
       contains(import_error(folder.write("nan.obj", "v nan 2 3\nf 1 1 1\n")), "none of its 1 triangles is usable"));
   EXPECT_TRUE(contains(import_error(folder.write("garbage.ive", "garbage")), "OpenSceneGraph cannot read this file"));
-  EXPECT_TRUE(contains(import_error(folder.write("garbage.glb", "garbage")), "assimp cannot read this file"));
+  EXPECT_TRUE(contains(import_error(folder.write("garbage.glb", "garbage")), "begins neither as binary glTF nor as JSON"));
   EXPECT_TRUE(
       contains(import_error(folder.write("lfs.glb", "version https://git-lfs.github.com/spec/v1\noid sha256:0\n")),
                "run 'git lfs pull'"));

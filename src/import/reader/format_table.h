@@ -7,7 +7,7 @@
 
 namespace roam::reader {
 
-enum class Family { obj, stl, ply, osg, assimp };
+enum class Family { obj, stl, ply, osg, gltf, assimp };
 
 struct Format {
   std::string_view extension;  ///< lower case, without the dot
@@ -25,7 +25,7 @@ inline constexpr std::array<Format, 23> formats{{{"obj", Family::obj},         {
                                                  {"dae", Family::assimp},      {"ac", Family::osg, "ac"},
                                                  {"dxf", Family::osg, "dxf"},  {"lwo", Family::osg, "lwo"},
                                                  {"x", Family::osg, "x"},      {"iv", Family::osg, "iv"},
-                                                 {"glb", Family::assimp},      {"gltf", Family::assimp},
+                                                 {"glb", Family::gltf},        {"gltf", Family::gltf},
                                                  {"fbx", Family::assimp},      {"ifc", Family::assimp},
                                                  {"off", Family::assimp},      {"3mf", Family::assimp},
                                                  {"blend", Family::assimp}}};

@@ -90,6 +90,8 @@ void read_path(const std::string& name, SceneFiles& files, MeshSink& sink, const
         return read_ply(path, sink);
       case Family::osg:
         return read_osg(path, files, sink);
+      case Family::gltf:
+        return read_gltf(path, extension, files, sink);
       case Family::assimp:
         return read_assimp(path, extension, files, sink);
     }
