@@ -16,13 +16,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A tile from the reader's list.
+/// A tile of a folder, or a file of a tileset's part.
 struct Tile {
-  fs::path root;
+  fs::path file;
   bool present = false;
+  std::string part{};  ///< empty: the tile of a folder
 };
 
-/// Receives the tiles of a folder.
+/// Receives the list of a scene's parts.
 class PartList : public reader::StreamReceiver {
  public:
   PartList(ImportReport& report, std::size_t ignore_patterns) : StreamReceiver(report, ignore_patterns, text_bytes) {}
@@ -40,8 +41,10 @@ class PartList : public reader::StreamReceiver {
     reader::PayloadReader fields(payload);
     fs::path file = fields.take_text();
     const bool present = fields.take<std::uint8_t>() != 0;
+    std::string part = fields.take_text();
     if (!fields.complete()) throw StreamDamaged{"a frame of broken length"};
-    tiles_.push_back({std::move(file), present});
+    if (!tiles_.empty() && tiles_.front().part.empty() != part.empty()) throw StreamDamaged{"parts of two kinds"};
+    tiles_.push_back({std::move(file), present, std::move(part)});
   }
   void finish_content(const reader::Totals&) override {}
 
@@ -108,17 +111,17 @@ void add_tiles(const fs::path& path, const std::vector<Tile>& tiles, const std::
     if (options.progress && !options.progress({})) throw Cancelled();
     ScenePart part;
     part.path = path;
-    part.tile = tile.root.stem().string();
+    part.tile = tile.file.stem().string();
     part.name = names.unique(folder.filename().string() + "/" + part.tile);
     part.frame = frame;
-    const auto real = tile.present ? scope.resolve(tile.root.parent_path()) : std::nullopt;
-    if (real && scope.resolve(tile.root)) {
+    const auto real = tile.present ? scope.resolve(tile.file.parent_path()) : std::nullopt;
+    if (real && scope.resolve(tile.file)) {
       const auto [same, is_new] = folders.emplace(*real, part.tile);
       if (!is_new) {
-        throw Error(tile.root.parent_path().string(),
+        throw Error(tile.file.parent_path().string(),
                     fmt::format("it leads to the same folder as {}; remove one of them", same->second));
       }
-      part.files = files_in(tile.root.parent_path(), scope);
+      part.files = files_in(tile.file.parent_path(), scope);
       // This file has the position of the tile.
       if (!scope.find(metadata).empty() &&
           std::find(part.files.begin(), part.files.end(), metadata) == part.files.end()) {
@@ -127,6 +130,32 @@ void add_tiles(const fs::path& path, const std::vector<Tile>& tiles, const std::
     }
     count_bytes(part);
     parts.push_back(std::move(part));
+  }
+}
+
+/// Adds the parts of a tileset: each content, before them what concerns the tileset as a whole.
+void add_contents(const fs::path& path, const std::vector<Tile>& tiles, const std::optional<Georeference>& frame,
+                  const reader::SceneScope& scope, const ImportOptions& options, Names& names,
+                  std::vector<ScenePart>& parts) {
+  std::error_code none;
+  const fs::path folder = fs::is_directory(path, none) ? scope.scene : scope.scene.parent_path();
+  for (std::size_t i = 0; i < tiles.size(); ++i) {
+    if (options.progress && !options.progress({})) throw Cancelled();
+    const Tile& tile = tiles[i];
+    if (i == 0 || tile.part != tiles[i - 1].part) {
+      ScenePart& part = parts.emplace_back();
+      part.path = path;
+      part.frame = frame;
+      const fs::path inside = tile.file.lexically_relative(folder);
+      part.name = names.unique((folder.filename() / (inside.empty() ? tile.file.filename() : inside)).string());
+      part.tile = tile.part;
+    }
+    // The files may have gone meanwhile; then reading the part says so.
+    if (scope.find(tile.file).empty()) continue;
+    parts.back().files.push_back(tile.file);
+    std::error_code unseen;
+    const auto bytes = fs::file_size(tile.file, unseen);
+    parts.back().bytes += unseen ? 0 : bytes;
   }
 }
 
@@ -157,8 +186,9 @@ std::vector<ScenePart> scene_parts(std::span<const fs::path> paths, const Import
     std::vector<bool> matched(options.ignore.size());
     reader::read_one(reading, list, matched);
     std::error_code none;
-    if (fs::is_directory(path, none)) {
-      add_tiles(path, list.tiles(), frame, reading.scope, options, names, parts);
+    if (!list.tiles().empty() || fs::is_directory(path, none)) {
+      const bool tileset = !list.tiles().empty() && !list.tiles().front().part.empty();
+      (tileset ? add_contents : add_tiles)(path, list.tiles(), frame, reading.scope, options, names, parts);
       continue;
     }
     ScenePart part;

@@ -151,7 +151,7 @@ TEST_F(ImportStreamFailures, RefuseADamagedStream) {
   refused(Stream().vertices(1), "vertices of no object");
   refused(Stream().triangles(1), "triangles of no object");
   refused(Stream().object(0).vertices(3).triangles(1).end(3, 2), "totals that are not those");
-  refused(Stream().frame(FrameKind::tile, PayloadWriter().add_text("Tile_1").add(std::uint8_t{1})),
+  refused(Stream().frame(FrameKind::tile, PayloadWriter().add_text("Tile_1").add(std::uint8_t{1}).add_text("")),
           "a frame of unknown kind");
   refused(Stream().frame(FrameKind::opened, PayloadWriter().add_text("/" + std::string(4096, 'a'))),
           "a path that is too long");

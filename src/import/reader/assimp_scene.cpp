@@ -212,7 +212,7 @@ void read_assimp(const std::filesystem::path& path, const std::string& extension
   }
   sink.count_file();
   std::optional<AssimpLooks> looks;
-  if (shown) looks.emplace(*scene, path, extension, sink);
+  if (shown) looks.emplace(*scene, path, sink);
   AssimpWalk walk(*scene, file, path.stem().string(), looks ? &*looks : nullptr, sink);
   if (extension == "dae") {
     compare_collada(scene->mRootNode->mTransformation, file, sink);

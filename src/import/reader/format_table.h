@@ -7,7 +7,7 @@
 
 namespace roam::reader {
 
-enum class Family { obj, stl, ply, osg, assimp };
+enum class Family { obj, stl, ply, osg, gltf, tileset, assimp };
 
 struct Format {
   std::string_view extension;  ///< lower case, without the dot
@@ -17,7 +17,7 @@ struct Format {
 
 /// If both libraries know a format, the table has the one that reads more files in practice. OpenSceneGraph refuses
 /// Collada of some exporters, and assimp has no hierarchy in 3DS.
-inline constexpr std::array<Format, 23> formats{{{"obj", Family::obj},         {"stl", Family::stl},
+inline constexpr std::array<Format, 27> formats{{{"obj", Family::obj},         {"stl", Family::stl},
                                                  {"ply", Family::ply},         {"ive", Family::osg, "ive"},
                                                  {"osg", Family::osg, "osg"},  {"osgb", Family::osg, "osg"},
                                                  {"osgt", Family::osg, "osg"}, {"osgx", Family::osg, "osg"},
@@ -25,7 +25,9 @@ inline constexpr std::array<Format, 23> formats{{{"obj", Family::obj},         {
                                                  {"dae", Family::assimp},      {"ac", Family::osg, "ac"},
                                                  {"dxf", Family::osg, "dxf"},  {"lwo", Family::osg, "lwo"},
                                                  {"x", Family::osg, "x"},      {"iv", Family::osg, "iv"},
-                                                 {"glb", Family::assimp},      {"gltf", Family::assimp},
+                                                 {"glb", Family::gltf},        {"gltf", Family::gltf},
+                                                 {"json", Family::tileset},    {"b3dm", Family::tileset},
+                                                 {"i3dm", Family::tileset},    {"cmpt", Family::tileset},
                                                  {"fbx", Family::assimp},      {"ifc", Family::assimp},
                                                  {"off", Family::assimp},      {"3mf", Family::assimp},
                                                  {"blend", Family::assimp}}};

@@ -23,7 +23,13 @@ void read_osg(const std::filesystem::path& path, SceneFiles& files, MeshSink& si
 void read_tiles(const std::filesystem::path& folder, SceneFiles& files, MeshSink& sink,
                 const ReadingSettings& settings);
 
-/// Formats that only assimp reads: glb, gltf, fbx, ifc and others. `extension` is lower case without the dot.
+/// glTF, plain or compressed. Version 2.0 is read here, 1.0 by assimp. `extension` is that of read_assimp.
+void read_gltf(const std::filesystem::path& path, const std::string& extension, SceneFiles& files, MeshSink& sink);
+/// 3D Tiles: a tileset.json, the folder that holds it, or one tile (b3dm, i3dm, cmpt).
+void read_tileset(const std::filesystem::path& path, SceneFiles& files, MeshSink& sink,
+                  const ReadingSettings& settings);
+
+/// Formats that only assimp reads: fbx, ifc and others, and glTF 1.0. `extension` is lower case without the dot.
 void read_assimp(const std::filesystem::path& path, const std::string& extension, SceneFiles& files, MeshSink& sink);
 
 }  // namespace roam::reader

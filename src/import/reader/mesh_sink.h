@@ -29,8 +29,8 @@ struct ReadingSettings {
   std::vector<std::string> ignore;
   std::optional<Georeference> frame;  ///< into which folders of tiles are moved
   std::uint64_t memory_limit = 0;
-  std::string tile;        ///< the only tile of a folder to read; empty: all
-  bool only_list = false;  ///< list the tiles of a folder without reading them; of a file only check its format
+  std::string tile;        ///< the only part of a folder or tileset to read (ScenePart::tile); empty: all
+  bool only_list = false;  ///< list the parts without reading them; of a file only check its format
 };
 
 class MeshSink {
@@ -87,7 +87,11 @@ class MeshSink {
 
   void count_file() { ++totals_.files; }
   void report_tile(std::string_view root, bool present) {
-    frames_.send(FrameKind::tile, PayloadWriter().add_text(root).add(static_cast<std::uint8_t>(present)));
+    frames_.send(FrameKind::tile, PayloadWriter().add_text(root).add(static_cast<std::uint8_t>(present)).add_text(""));
+  }
+  /// Reports a file of a tileset's part.
+  void report_part(std::string_view file, std::string_view part) {
+    frames_.send(FrameKind::tile, PayloadWriter().add_text(file).add(std::uint8_t{1}).add_text(part));
   }
   /// Reports a file for a list.
   void report_missing_page(std::string_view file);

@@ -24,11 +24,9 @@ struct Unsupported {
   std::string_view extension;
   std::string_view advice;
 };
-constexpr std::array<Unsupported, 12> unsupported{
-    {{"b3dm", "3D Tiles are not read yet; give the scene as OSGB tiles or as one glTF file"},
-     {"i3dm", "3D Tiles are not read yet; give the scene as OSGB tiles or as one glTF file"},
-     {"pnts", "point clouds have no surface; make a mesh of it first"},
-     {"json", "3D Tiles and CityJSON are not read yet; convert it to glTF, OBJ or PLY"},
+constexpr std::array<Unsupported, 10> unsupported{
+    {{"pnts", "point clouds have no surface; make a mesh of it first"},
+     {"3tz", "archives of 3D Tiles are not read yet; unpack it (it is a zip file) and give its tileset.json"},
      {"tif", "elevation rasters are not read yet; convert it to a mesh in OBJ or PLY"},
      {"tiff", "elevation rasters are not read yet; convert it to a mesh in OBJ or PLY"},
      {"las", "point clouds have no surface; make a mesh of it first"},
@@ -56,6 +54,15 @@ void refuse_stand_ins(const fs::path& path) {
   }
 }
 
+/// The tileset in a folder that is no folder of OSGB tiles; empty if there is none.
+fs::path tileset_in(const fs::path& folder) {
+  std::error_code none;
+  const fs::path tileset = folder / "tileset.json";
+  const bool is_tileset =
+      !fs::exists(fs::symlink_status(folder / "Data", none)) && fs::is_regular_file(fs::symlink_status(tileset, none));
+  return is_tileset ? tileset : fs::path();
+}
+
 }  // namespace
 
 void load_libraries(const std::string& name, bool images) {
@@ -63,7 +70,7 @@ void load_libraries(const std::string& name, bool images) {
   std::error_code none;
   const bool folder = fs::is_directory(path, none);
   const Format* format = folder ? nullptr : format_of(extension_of(path));
-  const bool osg = folder || (format != nullptr && format->family == Family::osg);
+  const bool osg = (folder && tileset_in(path).empty()) || (format != nullptr && format->family == Family::osg);
   if (osg) load_osg_plugins(folder ? "" : extension_of(path));
   if (images) load_image_plugins();
   if (osg || images) close_osg_door();
@@ -71,13 +78,17 @@ void load_libraries(const std::string& name, bool images) {
 
 void read_path(const std::string& name, SceneFiles& files, MeshSink& sink, const ReadingSettings& settings) {
   const fs::path path(name);
-  if (fs::is_directory(path)) return read_tiles(path, files, sink, settings);
+  if (fs::is_directory(path)) {
+    const fs::path tileset = tileset_in(path);
+    return tileset.empty() ? read_tiles(path, files, sink, settings) : read_tileset(tileset, files, sink, settings);
+  }
   if (files.open(path).empty()) {
     throw Error(name, "this is not a file that can be read; a scene is a file or a folder.");
   }
   refuse_stand_ins(path);
   const std::string extension = extension_of(path);
   if (const Format* format = format_of(extension)) {
+    if (format->family == Family::tileset) return read_tileset(path, files, sink, settings);
     if (settings.only_list) return;
     // The library of Inventor opens the files that a scene names by itself.
     if (extension == "iv") files.report_unseen();
@@ -90,15 +101,20 @@ void read_path(const std::string& name, SceneFiles& files, MeshSink& sink, const
         return read_ply(path, sink);
       case Family::osg:
         return read_osg(path, files, sink);
+      case Family::gltf:
+        return read_gltf(path, extension, files, sink);
       case Family::assimp:
         return read_assimp(path, extension, files, sink);
+      case Family::tileset:
+        break;
     }
   }
   for (const Unsupported& format : unsupported) {
     if (format.extension == extension) throw Error(name, fmt::format("{}.", format.advice));
   }
-  throw Error(name, fmt::format("roam knows no reader for '.{}' files. It reads {}, and folders of OSGB tiles.",
-                                extension, known_extensions()));
+  throw Error(name,
+              fmt::format("roam knows no reader for '.{}' files. It reads {}, and folders of OSGB tiles or 3D Tiles.",
+                          extension, known_extensions()));
 }
 
 }  // namespace roam::reader

@@ -130,7 +130,8 @@ void read_tiles(const fs::path& path, SceneFiles& files, MeshSink& sink, const R
   std::vector<fs::path> roots = tile_roots(has_data ? folder / "Data" : folder, files, missing);
   if (roots.size() == missing) {
     throw Error(path.string(),
-                "this folder holds no Data/Tile_*/Tile_*.osgb; name a folder of OSGB tiles, or the scene's file.");
+                "this folder holds no Data/Tile_*/Tile_*.osgb and no tileset.json; name a folder of tiles, or the "
+                "scene's file.");
   }
   if (const auto georeference = georeference_in(metadata, files, sink)) {
     place(*georeference, path.string(), settings, sink);

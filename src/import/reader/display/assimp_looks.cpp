@@ -1,20 +1,11 @@
 #include "import/reader/display/assimp_looks.h"
 
-#include <assimp/GltfMaterial.h>
 #include <assimp/material.h>
-
-#include <cmath>
-#include <cstring>
 
 #include "import/reader/display/normal_matrix.h"
 
 namespace roam::reader {
 namespace {
-
-/// The sRGB transfer function (IEC 61966-2-1). glTF's colours are linear; images and screens are not.
-double to_srgb(double linear) {
-  return linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1.0 / 2.4) - 0.055;
-}
 
 DisplayWrap wrap_of(aiTextureMapMode mode) {
   switch (mode) {
@@ -27,6 +18,8 @@ DisplayWrap wrap_of(aiTextureMapMode mode) {
       return DisplayWrap::repeat;
   }
 }
+
+Colour shown(const aiColor4D& c) { return {colour_byte(c.r), colour_byte(c.g), colour_byte(c.b), colour_byte(c.a)}; }
 
 /// An uncompressed embedded image as a TGA file, whose texels have the same order.
 std::string as_tga(const aiTexture& texture) {
@@ -46,12 +39,8 @@ std::string as_tga(const aiTexture& texture) {
 
 }  // namespace
 
-AssimpLooks::AssimpLooks(const aiScene& scene, const std::filesystem::path& file, std::string extension, MeshSink& sink)
-    : scene_(scene),
-      folder_(file.parent_path()),
-      extension_(std::move(extension)),
-      gltf_(extension_ == "glb" || extension_ == "gltf"),
-      sink_(sink) {}
+AssimpLooks::AssimpLooks(const aiScene& scene, const std::filesystem::path& file, MeshSink& sink)
+    : scene_(scene), folder_(file.parent_path()), sink_(sink) {}
 
 void AssimpLooks::begin_mesh(const aiMesh& mesh, const glm::dmat3& linear) {
   mesh_ = &mesh;
@@ -81,25 +70,14 @@ VertexLook AssimpLooks::of(unsigned i) const {
   return look;
 }
 
-Colour AssimpLooks::shown(const aiColor4D& c) const {
-  const auto byte = [&](double value) { return colour_byte(gltf_ ? to_srgb(value) : value); };
-  return {byte(c.r), byte(c.g), byte(c.b), colour_byte(c.a)};
-}
-
 AssimpLooks::Material AssimpLooks::material_of(const aiMaterial& from) {
   Material material;
   material.look.texture = texture_of(from, material.coordinates);
   aiColor4D colour(1.0f, 1.0f, 1.0f, 1.0f);
-  if (!gltf_ || from.Get(AI_MATKEY_BASE_COLOR, colour) != aiReturn_SUCCESS) {
-    from.Get(AI_MATKEY_COLOR_DIFFUSE, colour);
-  }
+  from.Get(AI_MATKEY_COLOR_DIFFUSE, colour);
   material.colour = shown(colour);
   // An invisible surface would still stop a body, so show it.
   if (material.colour[3] == 0) material.colour[3] = 255;
-  if (gltf_) {
-    take_gltf_transparency(from, material.look);
-    return material;
-  }
   float opacity = 1.0f;
   from.Get(AI_MATKEY_OPACITY, opacity);
   // In these formats an image replaces the colour.
@@ -107,16 +85,6 @@ AssimpLooks::Material AssimpLooks::material_of(const aiMaterial& from) {
   material.colour[3] = opacity > 0.0f ? colour_byte(opacity) : 255;
   material.look.transparency = material.colour[3] < 255 ? Transparency::blend : Transparency::by_texture;
   return material;
-}
-
-void AssimpLooks::take_gltf_transparency(const aiMaterial& material, Look& look) const {
-  aiString mode;
-  material.Get(AI_MATKEY_GLTF_ALPHAMODE, mode);
-  if (std::strcmp(mode.C_Str(), "BLEND") == 0) look.transparency = Transparency::blend;
-  if (std::strcmp(mode.C_Str(), "MASK") == 0) {
-    look.transparency = Transparency::mask;
-    material.Get(AI_MATKEY_GLTF_ALPHACUTOFF, look.cutoff);
-  }
 }
 
 TextureId AssimpLooks::texture_of(const aiMaterial& material, unsigned& coordinates) {

@@ -16,9 +16,8 @@ namespace roam::reader {
 
 class AssimpLooks {
  public:
-  /// `extension`: of the scene's file, lower case without the dot. `sink` must have parts. All must outlive this
-  /// object.
-  AssimpLooks(const aiScene& scene, const std::filesystem::path& file, std::string extension, MeshSink& sink);
+  /// `sink` must have parts. All must outlive this object.
+  AssimpLooks(const aiScene& scene, const std::filesystem::path& file, MeshSink& sink);
 
   /// Sets the mesh's material for the triangles that follow. `linear`: the linear part of the mesh's transform.
   void begin_mesh(const aiMesh& mesh, const glm::dmat3& linear);
@@ -35,13 +34,9 @@ class AssimpLooks {
   Material material_of(const aiMaterial& material);
   TextureId texture_of(const aiMaterial& material, unsigned& coordinates);
   TextureId embedded(const aiTexture& texture, const std::string& name, Wrapping wrapping);
-  void take_gltf_transparency(const aiMaterial& material, Look& look) const;
-  [[nodiscard]] Colour shown(const aiColor4D& colour) const;
 
   const aiScene& scene_;
   std::filesystem::path folder_;
-  std::string extension_;
-  bool gltf_;
   MeshSink& sink_;
   std::map<unsigned, Material> materials_;
 

@@ -1,0 +1,57 @@
+#pragma once
+/// \file
+/// Looks of surfaces from glTF's materials and vertices.
+
+#include <cstdint>
+#include <glm/mat3x3.hpp>
+#include <glm/vec2.hpp>
+#include <map>
+#include <string>
+
+#include "import/reader/display/look.h"
+#include "import/reader/gltf/gltf_file.h"
+#include "import/reader/gltf/primitive.h"
+#include "import/reader/mesh_sink.h"
+
+namespace roam::reader {
+
+class GltfLooks {
+ public:
+  /// `sink` must have parts. Both must outlive this object. Images are decoded when the sink sends its parts, and
+  /// `file` must exist until then.
+  GltfLooks(GltfFile& file, MeshSink& sink);
+
+  /// The set of texture coordinates that the primitive's material uses.
+  [[nodiscard]] std::uint64_t coordinate_set(const Json& primitive);
+  /// Sets the look of the triangles that follow. `linear`: the linear part of their transform.
+  void begin(const Json& primitive, const Primitive& read, const glm::dmat3& linear);
+  /// The look of a vertex of that primitive.
+  [[nodiscard]] VertexLook of(std::uint64_t vertex) const;
+
+ private:
+  struct Material {
+    Look look;
+    Colour colour = white;
+    std::uint64_t set = 0;
+    // KHR_texture_transform
+    glm::dvec2 offset{0.0}, scale{1.0};
+    double rotation = 0.0;
+  };
+
+  const Material& material_of(const Json& primitive);
+  [[nodiscard]] Material read(const Json& material);
+  void take_texture(const Json& reference, Material& to);
+  [[nodiscard]] TextureId texture(const Json& index);
+
+  GltfFile& file_;
+  MeshSink& sink_;
+  std::string key_;  ///< unique in this process
+  std::map<std::uint64_t, Material> materials_;
+
+  // The current primitive.
+  const Primitive* primitive_ = nullptr;
+  const Material* material_ = nullptr;
+  glm::dmat3 normal_matrix_{1.0};
+};
+
+}  // namespace roam::reader

@@ -1,0 +1,293 @@
+#include "import/reader/tileset/outline.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <functional>
+#include <iterator>
+#include <optional>
+#include <utility>
+
+#include "import/reader/named_file.h"
+#include "import/reader/tileset/contents.h"
+#include "import/reader/tileset/earth_place.h"
+#include "import/reader/tileset/gzip.h"
+#include "import/reader/tileset/subtree.h"
+#include "roam/error.h"
+
+namespace roam::reader {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Most tiles in each other, those of external tilesets included. Real tilesets have some 30.
+constexpr std::size_t depth_limit = 1000;
+/// Each tile is an object in a list.
+constexpr int json_depth = 2 * static_cast<int>(depth_limit) + 64;
+
+glm::dmat4 transform_of(const Json& tile, const std::string& place) {
+  const Json& transform = member(tile, "transform");
+  if (transform.is_null()) return glm::dmat4(1.0);
+  const auto m = numbers(transform, 16);
+  if (!m) throw Error(place, "the transform of a tile is not 16 numbers; the tileset is damaged.");
+  glm::dmat4 matrix;
+  for (int i = 0; i < 16; ++i) matrix[i / 4][i % 4] = (*m)[static_cast<std::size_t>(i)];
+  return matrix;
+}
+
+std::string uri_of(const Json& content) {
+  const std::string uri = text(member(content, "uri"));
+  return uri.empty() ? text(member(content, "url")) : uri;
+}
+
+/// The URIs of a tile's contents.
+std::vector<std::string> uris_of(const Json& tile) {
+  std::vector<std::string> uris;
+  const auto add = [&](const Json& content) {
+    if (std::string uri = uri_of(content); !uri.empty()) uris.push_back(std::move(uri));
+  };
+  add(member(tile, "content"));
+  for (const Json& content : member(tile, "contents")) add(content);
+  const Json& several = member(tile, "extensions", "3DTILES_multiple_contents");
+  for (const char* name : {"content", "contents"}) {
+    for (const Json& content : member(several, name)) add(content);
+  }
+  return uris;
+}
+
+/// A tileset that is being walked.
+struct Tileset {
+  fs::path file;
+  UpAxis gltf_up = UpAxis::y;
+  [[nodiscard]] fs::path folder() const { return file.parent_path(); }
+};
+
+/// Whether finer tiles replace a tile, or are added to it.
+enum class Refine { replace, add };
+
+Refine refine_of(const Json& tile, Refine inherited) {
+  const std::string refine = text(member(tile, "refine"));
+  if (refine == "ADD" || refine == "add") return Refine::add;
+  return refine.empty() ? inherited : Refine::replace;
+}
+
+class OutlineWalk {
+ public:
+  OutlineWalk(SceneFiles& files, MeshSink& sink, Outline& outline)
+      : files_(files), sink_(sink), outline_(outline), contents_(files) {}
+
+  void walk(const fs::path& path, const ReadingSettings& settings) {
+    const Json json = load(path);
+    const Json& root = member(json, "root");
+    const EarthPlace place = place_on_earth(root, transform_of(root, path.string()), path.string(), settings);
+    outline_.georeference = place.georeference;
+    outline_.notes = place.notes;
+    open_.push_back(path);
+    static_cast<void>(visit(root, tileset_of(json, path), place.to_scene, Refine::replace));
+  }
+
+ private:
+  /// The values of a tileset file.
+  Json load(const fs::path& path) {
+    std::optional<std::string> bytes = whole_file(files_, path);
+    if (!bytes) throw Error(path.string(), "this tileset is absent or cannot be read.");
+    sink_.count_file();
+    sink_.report_more_progress(bytes->size());
+    outline_.files.push_back(path);
+    Json json = parse_json(without_gzip(std::move(*bytes), path.string()), path.string(), json_depth);
+    if (text(member(json, "type")) == "CityJSON") {
+      throw Error(path.string(), "CityJSON is not read yet; convert it to glTF, OBJ or PLY.");
+    }
+    if (!member(json, "root").is_object()) {
+      throw Error(path.string(), "this JSON is no tileset of 3D Tiles: it has no tile as its 'root'.");
+    }
+    return json;
+  }
+
+  static Tileset tileset_of(const Json& json, const fs::path& path) {
+    const std::string up = text(member(json, "asset", "gltfUpAxis"));
+    const bool is_z = up == "Z" || up == "z", is_x = up == "X" || up == "x";
+    return {path, is_z ? UpAxis::z : is_x ? UpAxis::x : UpAxis::y};
+  }
+
+  /// Adds the finest contents of a tile and of the tiles below. Returns whether they are complete; if not, coarser
+  /// contents should stand in for them.
+  bool visit(const Json& tile, const Tileset& tileset, const glm::dmat4& parent, Refine inherited) {
+    const Depth depth(*this, tileset.file);
+    const glm::dmat4 matrix = parent * transform_of(tile, tileset.file.string());
+    const Refine refine = refine_of(tile, inherited);
+    if (auto tiling = ImplicitTiling::of(tile, tileset.file.string())) {
+      tiling->contents = uris_of(tile);
+      return visit_subtree(*tiling, {}, tileset, matrix, refine);
+    }
+    const Json& children = member(tile, "children");
+    const auto visit_children = [&] {
+      bool complete = true;
+      for (const Json& child : children) complete = visit(child, tileset, matrix, refine) && complete;
+      return complete;
+    };
+    return combine(refine, children.is_array() && !children.empty(), visit_children, uris_of(tile), tileset, matrix,
+                   refine);
+  }
+
+  /// The rule of refinement, for explicit and implicit tiles.
+  bool combine(Refine refine, bool has_children, const std::function<bool()>& visit_children,
+               const std::vector<std::string>& own, const Tileset& tileset, const glm::dmat4& matrix,
+               Refine inherited) {
+    const auto add_own = [&] {
+      bool complete = true;
+      for (const std::string& uri : own) complete = add_content(uri, tileset, matrix, inherited) && complete;
+      return complete;
+    };
+    if (!has_children) return add_own();
+    if (refine == Refine::add) {
+      const bool own_complete = add_own();
+      return visit_children() && own_complete;
+    }
+    const std::size_t before = outline_.contents.size();
+    const std::uint64_t stand_ins_before = outline_.stand_ins;
+    if (visit_children()) return true;
+    if (own.empty()) return false;
+    // An incomplete level would leave holes. The coarser content replaces all of it.
+    std::vector<TileContent> finer(
+        std::make_move_iterator(outline_.contents.begin() + static_cast<std::ptrdiff_t>(before)),
+        std::make_move_iterator(outline_.contents.end()));
+    outline_.contents.resize(before);
+    if (add_own()) {
+      outline_.stand_ins = stand_ins_before + 1;
+      return true;
+    }
+    outline_.contents.resize(before);
+    std::move(finer.begin(), finer.end(), std::back_inserter(outline_.contents));
+    return false;
+  }
+
+  bool visit_subtree(const ImplicitTiling& tiling, ImplicitTile root, const Tileset& tileset, const glm::dmat4& matrix,
+                     Refine refine) {
+    const std::string uri = ImplicitTiling::uri(tiling.subtrees, root);
+    const fs::path file = contents_.place(tileset.folder(), uri);
+    if (contents_.find(file).empty()) return missing(file.empty() ? uri : file.string());
+    std::optional<std::string> bytes = whole_file(files_, file);
+    if (!bytes) return missing(file.string());
+    sink_.report_more_progress(bytes->size());
+    outline_.files.push_back(file);
+    const std::size_t before = outline_.contents.size();
+    try {
+      const Subtree subtree(without_gzip(std::move(*bytes), file.string()), file, tiling, files_);
+      root.level_in_subtree = root.number = 0;
+      return !subtree.has_tile(root) || visit_implicit(tiling, subtree, root, tileset, matrix, refine);
+    } catch (const Error& error) {
+      return damaged(file, before, error);
+    }
+  }
+
+  bool visit_implicit(const ImplicitTiling& tiling, const Subtree& subtree, const ImplicitTile& tile,
+                      const Tileset& tileset, const glm::dmat4& matrix, Refine refine) {
+    const Depth depth(*this, tileset.file);
+    std::vector<std::string> own;
+    for (std::size_t i = 0; i < tiling.contents.size(); ++i) {
+      if (subtree.has_content(tile, i)) own.push_back(ImplicitTiling::uri(tiling.contents[i], tile));
+    }
+    const bool last_of_subtree = tile.level_in_subtree + 1 == tiling.subtree_levels;
+    std::vector<ImplicitTile> children;
+    for (unsigned i = 0; i < tiling.children() && tile.level + 1 < tiling.levels; ++i) {
+      const ImplicitTile child = tiling.child(tile, i);
+      if (last_of_subtree ? subtree.has_subtree(child) : subtree.has_tile(child)) children.push_back(child);
+    }
+    const auto visit_children = [&] {
+      bool complete = true;
+      for (const ImplicitTile& child : children) {
+        complete = (last_of_subtree ? visit_subtree(tiling, child, tileset, matrix, refine)
+                                    : visit_implicit(tiling, subtree, child, tileset, matrix, refine)) &&
+                   complete;
+      }
+      return complete;
+    };
+    return combine(refine, !children.empty(), visit_children, own, tileset, matrix, refine);
+  }
+
+  /// Returns whether the content is complete.
+  bool add_content(const std::string& uri, const Tileset& tileset, const glm::dmat4& matrix, Refine inherited) {
+    const fs::path file = contents_.place(tileset.folder(), uri);
+    switch (contents_.state_of(file)) {
+      case TileContents::State::missing:
+        return missing(file.empty() ? uri : file.string());
+      case TileContents::State::points:
+        ++outline_.points;
+        if (outline_.point_files.size() < ImportReport::name_limit) outline_.point_files.push_back(file.string());
+        return true;
+      case TileContents::State::tileset:
+        return visit_external(file, matrix, inherited);
+      case TileContents::State::mesh:
+        break;
+    }
+    outline_.contents.push_back({file, {matrix, tileset.gltf_up}});
+    return true;
+  }
+
+  bool visit_external(const fs::path& file, const glm::dmat4& matrix, Refine inherited) {
+    if (std::find(open_.begin(), open_.end(), file) != open_.end()) {
+      sink_.report_note_once(fmt::format("{}: this tileset contains itself; it is read once.", file.string()));
+      return missing(file.string());
+    }
+    const std::size_t before = outline_.contents.size();
+    open_.push_back(file);
+    bool complete = false;
+    try {
+      const Json json = load(file);
+      complete = visit(member(json, "root"), tileset_of(json, file), matrix, inherited);
+    } catch (const Error& error) {
+      complete = damaged(file, before, error);
+    }
+    open_.pop_back();
+    return complete;
+  }
+
+  bool missing(const std::string& file) {
+    if (outline_.missing++ == 0) outline_.first_missing = file;
+    sink_.report_missing_page(file);
+    return false;
+  }
+
+  /// Leaves out a file, with all contents from `before` on.
+  bool damaged(const fs::path& file, std::size_t before, const Error& error) {
+    outline_.contents.resize(before);
+    sink_.report_note_once(error.what());
+    return missing(file.string());
+  }
+
+  /// Counts the tiles in each other.
+  class Depth {
+   public:
+    Depth(OutlineWalk& walk, const fs::path& file) : walk_(walk) {
+      if (walk_.depth_ >= depth_limit) {
+        throw Error(file.string(),
+                    fmt::format("its tiles are nested more than {} deep; the tileset is damaged.", depth_limit));
+      }
+      ++walk_.depth_;
+    }
+    ~Depth() { --walk_.depth_; }
+    Depth(const Depth&) = delete;
+    Depth& operator=(const Depth&) = delete;
+
+   private:
+    OutlineWalk& walk_;
+  };
+
+  SceneFiles& files_;
+  MeshSink& sink_;
+  Outline& outline_;
+  TileContents contents_;
+  std::vector<fs::path> open_;  ///< the tilesets being walked, each named by the one before
+  std::size_t depth_ = 0;
+};
+
+}  // namespace
+
+Outline outline_of(const fs::path& tileset, SceneFiles& files, MeshSink& sink, const ReadingSettings& settings) {
+  Outline outline;
+  OutlineWalk(files, sink, outline).walk(tileset, settings);
+  return outline;
+}
+
+}  // namespace roam::reader
