@@ -26,8 +26,10 @@ constexpr int most_more_rays = 2048;  // in all, for scenes that are higher than
 constexpr double wall_reach = 30.0;   // m, farther is the open
 constexpr double hall = 15.0;         // m, who sees farther from within walls is in no closet and no hollow house
 constexpr double inside_worth = 4.0;
-constexpr int room_strides = 20;    // 10 m: farther is free enough
-constexpr double fly_height = 2.0;  // m above the floor, where there is no ceiling to stay under
+constexpr double hollow = 1.0;            // m, of air below a floor under the sky: that is a roof
+constexpr double least_open_room = 10.0;  // m, the sum of eight directions: under the sky, less is no ground to walk on
+constexpr int room_strides = 20;          // 10 m: farther is free enough
+constexpr double fly_height = 2.0;        // m above the floor, where there is no ceiling to stay under
 
 constexpr int headings = 16;
 constexpr double stride = 0.5;     // m of one probe of the look ahead
@@ -87,6 +89,14 @@ void stride_ahead(const Prober& prober, Vec3 place, const Vec3& direction, int c
   }
 }
 
+/// Whether there is air below the surface at `floor`, over another one.
+bool is_over_hollow(const Space& space, const Vec3& floor) {
+  const double gap = std::max(floor_gap, 8.0 * space.largest_error());
+  const double depth = std::min(floor.z - space.bounds().lower.z + 1.0, Space::motion_limit);
+  const Impact below = space.ray(floor - Vec3(0, 0, gap), {0, 0, -depth});
+  return below.hit && gap + below.time * depth > hollow;
+}
+
 /// A place on the floor at `floor`, or in the air above it, and how much room there is; less than 0: the body does not
 /// fit.
 WanderStart start_at(const Space& space, const WalkerSettings& settings, Mode mode, const Vec3& floor) {
@@ -116,7 +126,9 @@ WanderStart start_at(const Space& space, const WalkerSettings& settings, Mode mo
     stride_ahead({space, settings, mode, body}, start.place, level(i, directions), room_strides,
                  [&](const Vec3&, double length) { start.room += length; });
   }
-  start.room *= 1.0 + walls;
+  start.on_top = !above.hit && (start.room < least_open_room || is_over_hollow(space, floor));
+  // In the open, a place with walls all around has no view: a hollow of the land.
+  if (above.hit || sight >= wall_reach) start.room *= 1.0 + walls;
   // A long corridor is open at its ends.
   if (above.hit && walls >= directions - 1 && sight > hall) start.room *= inside_worth;
   return start;
@@ -136,21 +148,21 @@ std::optional<double> drop_from(const Space& space, const Vec3& place, double de
 }  // namespace
 
 std::optional<WanderStart> wander_start(const Space& space, const WalkerSettings& settings, Mode mode,
-                                        std::span<const Vec3> floors, int columns,
-                                        const std::function<bool()>& goes_on) {
+                                        std::span<const Vec3> floors, int columns, const std::function<bool()>& goes_on,
+                                        const std::function<bool(const Vec3&)>& accepts) {
   const DefaultFloatingPoint guard;
   check(settings);
   const Box& box = space.bounds();
   if (box.empty()) return std::nullopt;
   const Vec3 size = box.size();
-  WanderStart best{.room = -1.0};
+  std::vector<WanderStart> found;
   // A hit may be some errors above the triangle: it must not be found again.
   int more_rays = most_more_rays;
   const double below = std::max(floor_gap, 8.0 * space.largest_error());
   const auto consider = [&](const Vec3& floor) {
     if (goes_on && !goes_on()) throw Cancelled();
     const WanderStart start = start_at(space, settings, mode, floor);
-    if (start.room > best.room) best = start;
+    if (start.room >= 0.0) found.push_back(start);
   };
   for (const Vec3& floor : floors) consider(floor);
   for (int i = 0; i < columns; ++i) {
@@ -166,8 +178,12 @@ std::optional<WanderStart> wander_start(const Space& space, const WalkerSettings
       }
     }
   }
-  if (best.room < 0.0) return std::nullopt;
-  return best;
+  std::stable_sort(found.begin(), found.end(), [](const WanderStart& a, const WanderStart& b) {
+    return a.on_top != b.on_top ? b.on_top : a.room > b.room;
+  });
+  const auto best = std::find_if(found.begin(), found.end(),
+                                 [&](const WanderStart& start) { return !accepts || accepts(start.place); });
+  return best == found.end() ? std::nullopt : std::optional(*best);
 }
 
 class Wander::State {

@@ -13,13 +13,15 @@ namespace roam::app {
 /// The number of triangles of a store that can be read and indexed in `memory` bytes.
 [[nodiscard]] std::size_t indexed_in(std::uint64_t memory);
 
-/// The place of wander_start. Throws roam::Error if the body fits nowhere, or if the scene is empty.
-[[nodiscard]] Vec3 free_start(const Space& space, const WalkerSettings& settings, Mode mode,
-                              std::span<const Vec3> floors, const std::function<bool()>& goes_on = {});
+/// The start of wander_start, not within anything solid if `meshes`, the triangles of the space, are passed. Throws
+/// roam::Error if the body fits nowhere, or if the scene is empty.
+[[nodiscard]] WanderStart free_start(const Space& space, const WalkerSettings& settings, Mode mode,
+                                     std::span<const Vec3> floors, std::span<const Mesh> meshes = {},
+                                     const std::function<bool()>& goes_on = {});
 
 /// The same for a store. Examines a few places near its triangles, each as far as `memory` (bytes) allows, at most 30
 /// m.
-[[nodiscard]] Vec3 free_start(const Store& store, std::uint64_t memory, const WalkerSettings& settings, Mode mode,
-                              const std::function<bool()>& goes_on = {});
+[[nodiscard]] WanderStart free_start(const Store& store, std::uint64_t memory, const WalkerSettings& settings,
+                                     Mode mode, const std::function<bool()>& goes_on = {});
 
 }  // namespace roam::app

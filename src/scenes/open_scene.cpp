@@ -100,10 +100,10 @@ std::optional<PagerStats> OpenScene::paging() const {
 }
 
 Vec3 OpenScene::start(const WalkerSettings& settings, Mode mode) {
-  if (!store_) return free_start(loaded_.world, settings, mode, loaded_.floors);
+  if (!store_) return free_start(loaded_.world, settings, mode, loaded_.floors).place;
   // The pager's memory and the memory of the search do not exist at the same time.
   leave();
-  const Vec3 place = free_start(*store_, memory_, settings, mode);
+  const Vec3 place = free_start(*store_, memory_, settings, mode).place;
   return_memory();
   pager_ = make_pager(store_, memory_);
   return place;

@@ -62,7 +62,7 @@ TEST(Start, IsFoundInASceneThatIsHigherThanARayIsLong) {
   add_square(mesh, Vec3(0.0), 100.0, true);
   add_square(mesh, Vec3(5000.0, 0.0, 1.2e6), 1.0, true);
   const roam::World world = roam::World::build({&mesh, 1});
-  const Vec3 place = roam::app::free_start(world, person, roam::Mode::walk, {});
+  const Vec3 place = roam::app::free_start(world, person, roam::Mode::walk, {}).place;
   EXPECT_NEAR(place.z, 0.95, 0.1);
 }
 
@@ -70,7 +70,7 @@ TEST(Start, IsInTheGalleryAndNotOnTheMountainOverIt) {
   // The gallery is 3 m wide in a landscape of kilometres: a grid of columns over it meets only the landscape.
   const auto meshes = roam::generate::collect(roam::generate::gallery({.triangles = 200'000}));
   const roam::World world = roam::World::build(meshes);
-  const Vec3 place = roam::app::free_start(world, person, roam::Mode::walk, roam::floor_samples(meshes));
+  const Vec3 place = roam::app::free_start(world, person, roam::Mode::walk, roam::floor_samples(meshes)).place;
   EXPECT_TRUE(world.ray(place, {0, 0, 6}).hit) << "no ceiling over " << place.x << ", " << place.y << ", " << place.z;
   int near_walls = 0;
   for (const Vec3& side : {Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(-1, 0, 0), Vec3(0, -1, 0)}) {
@@ -86,7 +86,7 @@ TEST(Start, LetsABodyFlyOverAFloorWithoutARoofAndAroundABlock) {
   for (const double z : {0.0, 1.0}) add_square(block, Vec3(0.0, 0.0, z), 0.5, z > 0.0);
   for (const roam::Mesh& mesh : {floor, block}) {
     const World world = World::build({&mesh, 1});
-    const Vec3 start = roam::app::free_start(world, person, roam::Mode::fly, {});
+    const Vec3 start = roam::app::free_start(world, person, roam::Mode::fly, {}).place;
     roam::Walker walker(world, person, roam::Mode::fly, start);
     roam::Wander wander(walker, {.seconds = 20.0});
     while (!wander.done()) {

@@ -104,21 +104,18 @@ void CollisionLoader::load_scene() {
     loading_.tell(LoadState::Phase::indexing, share, scene.report.triangles);
     return loading_.wanted();
   };
-  std::vector<Vec3> floors;
-  if (!wish_.place) floors = floor_samples(scene.meshes);
   Collision loaded;
   loaded.world = std::make_shared<const World>(World::build(scene.meshes, build));
   loaded.triangles = loaded.world->stats().triangles;
   loaded.report = std::move(scene.report);
   loaded.likely_up = doubted_up(options, scene.meshes);
   loaded.identity = identity_of(scene.meshes);
-  if (wish_.keep_meshes) loaded.meshes = std::move(scene.meshes);
-  scene.meshes.clear();
-  scene.meshes.shrink_to_fit();
   if (!wish_.place) {
     loading_.tell(LoadState::Phase::looking, 0.0, loaded.report.triangles);
-    loaded.start = find_start(*loaded.world, wish_.walker, wish_.mode, floors, [this] { return loading_.wanted(); });
+    loaded.start =
+        find_start(*loaded.world, wish_.walker, wish_.mode, scene.meshes, [this] { return loading_.wanted(); });
   }
+  if (wish_.keep_meshes) loaded.meshes = std::move(scene.meshes);
   finish(std::move(loaded));
 }
 

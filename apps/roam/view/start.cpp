@@ -51,9 +51,18 @@ View look(const Space& space, const Vec3& eye) {
   return {yaw, sees_something(space, eye, yaw)};
 }
 
-/// `find` returns a position for a body of a mode, or throws Error.
+/// Whether this is wide land, even if it has a bottom.
+bool is_land(const Box& bounds, double room) {
+  constexpr double wide = 60.0;  // m, of the sum of eight directions
+  constexpr double flat = 0.1;   // height of the land, of its width
+  const Vec3 size = bounds.size();
+  return room >= wide && size.z < flat * std::min(size.x, size.y);
+}
+
+/// `find` returns a start for a body of a mode, or throws Error.
 StartPlace start_place(const WalkerSettings& settings, Mode mode, const Box& bounds,
-                       const std::function<Vec3(Mode)>& find, const std::function<View(const Vec3&)>& look_around) {
+                       const std::function<WanderStart(Mode)>& find,
+                       const std::function<View(const Vec3&)>& look_around) {
   StartPlace start;
   start.mode = mode;
   constexpr double fov = 60.0;
@@ -61,7 +70,12 @@ StartPlace start_place(const WalkerSettings& settings, Mode mode, const Box& bou
   for (const Mode way : {Mode::walk, Mode::fly}) {
     if (way == Mode::walk && mode != Mode::walk) continue;
     try {
-      const Vec3 centre = find(way);
+      const WanderStart found = find(way);
+      if (found.on_top && !is_land(bounds, found.room)) {
+        if (mode == Mode::walk) why = "the scene has no floor with room for this body";
+        break;
+      }
+      const Vec3 centre = found.place;
       if (way != mode && mode == Mode::walk) {
         start.mode = Mode::fly;
         start.note = "There is no floor that this body can stand on: it flies. Is the up axis right (--up)?";
@@ -69,13 +83,13 @@ StartPlace start_place(const WalkerSettings& settings, Mode mode, const Box& bou
       const View view = look_around(centre + Vec3(0.0, 0.0, settings.eye - 0.5 * settings.height));
       start.pose = {centre, view.yaw, 0.0};
       // A flying body may as well begin with something in view.
-      if (start.mode == Mode::fly && !view.anything) start.pose = overview(bounds, fov);
+      if (start.mode == Mode::fly && !view.anything) start.pose = overview(bounds, fov, settings.height);
       return start;
     } catch (const Error& error) {
       why = error.what();
     }
   }
-  start.pose = overview(bounds, fov);
+  start.pose = overview(bounds, fov, settings.height);
   if (mode != Mode::ghost) start.mode = Mode::fly;
   start.note = why.empty() ? why : fmt::format("Outside of the scene, flying: {}", why);
   return start;
@@ -102,17 +116,19 @@ double open_yaw(const Space& space, const Vec3& eye) {
   return best;
 }
 
-Pose overview(const Box& box, double fov) {
+Pose overview(const Box& box, double fov, double least) {
   const double radius = box.empty() ? 1.0 : std::max(0.5 * glm::length(box.size()), 1e-3);
   const Vec3 centre = box.empty() ? Vec3(0.0) : box.center();
-  const double distance = radius / std::sin(0.5 * fov * degree);
+  const double distance = std::max(radius / std::sin(0.5 * fov * degree), radius + least);
   return {centre - distance * direction(overview_yaw, overview_pitch), overview_yaw, overview_pitch};
 }
 
-StartPlace find_start(const Space& space, const WalkerSettings& settings, Mode mode, std::span<const Vec3> floors,
+StartPlace find_start(const Space& space, const WalkerSettings& settings, Mode mode, std::span<const Mesh> meshes,
                       const std::function<bool()>& goes_on) {
+  const std::vector<Vec3> floors = floor_samples(meshes);
   return start_place(
-      settings, mode, space.bounds(), [&](Mode way) { return free_start(space, settings, way, floors, goes_on); },
+      settings, mode, space.bounds(),
+      [&](Mode way) { return free_start(space, settings, way, floors, meshes, goes_on); },
       [&](const Vec3& eye) { return look(space, eye); });
 }
 

@@ -19,11 +19,12 @@ struct StartPlace {
   std::string note;        ///< a sentence for the user if the start is not as desired; else empty
 };
 
-/// A free pose on a floor, indoors if there is an indoors, in the direction with the most to see. See wander_start,
-/// also for `floors`. If the body fits on no floor: in the air, flying. If it fits nowhere: outside the scene, flying.
+/// A free pose on a floor, indoors if there is an indoors, in the direction with the most to see; see wander_start.
+/// `meshes`: the triangles of the space. If the body fits on no floor: in the air, flying. If there is no place but on
+/// a roof, on an object or within a closed hull, or none at all: outside of the scene, flying, all of it in view.
 /// Throws roam::Cancelled when `goes_on` returns false.
 [[nodiscard]] StartPlace find_start(const Space& space, const WalkerSettings& settings, Mode mode,
-                                    std::span<const Vec3> floors, const std::function<bool()>& goes_on);
+                                    std::span<const Mesh> meshes, const std::function<bool()>& goes_on);
 
 /// The same in a store, near a few points only; see free_start.
 [[nodiscard]] StartPlace find_start(const Store& store, std::uint64_t memory, const WalkerSettings& settings, Mode mode,
@@ -33,6 +34,7 @@ struct StartPlace {
 [[nodiscard]] double open_yaw(const Space& space, const Vec3& eye);
 
 /// A pose from which a camera of this field of view sees all of `box`. `fov`: degrees, of the picture's smaller side.
-[[nodiscard]] Pose overview(const Box& box, double fov);
+/// `least`: metres that it is at least away from the ball around the box.
+[[nodiscard]] Pose overview(const Box& box, double fov, double least = 0.0);
 
 }  // namespace roam::app

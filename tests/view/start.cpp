@@ -1,0 +1,152 @@
+// Where a person finds himself as the viewer opens a scene: in a house, on the land, or before an object.
+#include "view/start.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <numbers>
+
+#include "roam/generate.h"
+#include "roam/world.h"
+#include "walker_scenes.h"
+
+namespace {
+
+using namespace roam;
+using namespace roam::app;
+
+/// A box; its triangles show their fronts to the outside, or with `room` to the inside.
+void add_box(Mesh& mesh, const Vec3& lo, const Vec3& hi, bool room = false) {
+  const auto face = [&](const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
+    room ? scenes::add_quad(mesh, a, b, c, d) : scenes::add_quad(mesh, d, c, b, a);
+  };
+  face({lo.x, lo.y, lo.z}, {hi.x, lo.y, lo.z}, {hi.x, hi.y, lo.z}, {lo.x, hi.y, lo.z});
+  face({lo.x, lo.y, hi.z}, {lo.x, hi.y, hi.z}, {hi.x, hi.y, hi.z}, {hi.x, lo.y, hi.z});
+  face({lo.x, lo.y, lo.z}, {lo.x, lo.y, hi.z}, {hi.x, lo.y, hi.z}, {hi.x, lo.y, lo.z});
+  face({lo.x, hi.y, lo.z}, {hi.x, hi.y, lo.z}, {hi.x, hi.y, hi.z}, {lo.x, hi.y, hi.z});
+  face({lo.x, lo.y, lo.z}, {lo.x, hi.y, lo.z}, {lo.x, hi.y, hi.z}, {lo.x, lo.y, hi.z});
+  face({hi.x, lo.y, lo.z}, {hi.x, lo.y, hi.z}, {hi.x, hi.y, hi.z}, {hi.x, hi.y, lo.z});
+}
+
+/// A closed ball, stretched to `half`, with its fronts outside.
+Mesh hull(const Vec3& centre, const Vec3& half) {
+  constexpr int rings = 24, sides = 48;
+  Mesh mesh{.name = "hull"};
+  const auto at = [&](int ring, int side) {
+    const double polar = std::numbers::pi * ring / rings, around = 2.0 * std::numbers::pi * (side % sides) / sides;
+    return centre +
+           half * Vec3(std::sin(polar) * std::cos(around), std::sin(polar) * std::sin(around), std::cos(polar));
+  };
+  for (int i = 0; i < rings; ++i) {
+    for (int k = 0; k < sides; ++k) scenes::add_quad(mesh, at(i, k), at(i + 1, k), at(i + 1, k + 1), at(i, k + 1));
+  }
+  return mesh;
+}
+
+/// Two rooms of 5 x 6 x 2.6 m with thick walls and a gable roof on top.
+Mesh house() {
+  Mesh mesh{.name = "house"};
+  add_box(mesh, {0, 0, 0}, {10.6, 6.4, 3});
+  add_box(mesh, {0.2, 0.2, 0.2}, {5.2, 6.2, 2.8}, true);
+  add_box(mesh, {5.4, 0.2, 0.2}, {10.4, 6.2, 2.8}, true);
+  scenes::add_quad(mesh, {-0.3, -0.3, 3}, {10.9, -0.3, 3}, {10.9, 3.2, 4.6}, {-0.3, 3.2, 4.6});
+  scenes::add_quad(mesh, {-0.3, 3.2, 4.6}, {10.9, 3.2, 4.6}, {10.9, 6.7, 3}, {-0.3, 6.7, 3});
+  return mesh;
+}
+
+StartPlace start_in(const std::vector<Mesh>& meshes, Mode mode = Mode::walk) {
+  return find_start(World::build(meshes), {}, mode, meshes, [] { return true; });
+}
+
+Vec3 ahead(const Pose& pose) {
+  const double yaw = pose.yaw * std::numbers::pi / 180.0, pitch = pose.pitch * std::numbers::pi / 180.0;
+  return {std::cos(yaw) * std::cos(pitch), std::sin(yaw) * std::cos(pitch), std::sin(pitch)};
+}
+
+/// Expects a flying body outside of the box that sees all of it.
+void expect_framed(const StartPlace& start, const Box& box) {
+  EXPECT_EQ(start.mode, Mode::fly);
+  EXPECT_NE(start.note, "");
+  const Body body = Body::capsule(0.3, 1.8);
+  Mesh block;
+  add_box(block, box.lower, box.upper);
+  EXPECT_GT(World::build({&block, 1}).clearance(body, start.pose.position, 10.0).distance, 0.0);
+  for (int corner = 0; corner < 8; ++corner) {
+    const Vec3 p(corner & 1 ? box.upper.x : box.lower.x, corner & 2 ? box.upper.y : box.lower.y,
+                 corner & 4 ? box.upper.z : box.lower.z);
+    EXPECT_GT(glm::dot(glm::normalize(p - start.pose.position), ahead(start.pose)), std::cos(std::numbers::pi / 6.0));
+  }
+}
+
+TEST(StartPlace, IsOutsideOfAClosedHullEvenIfTheBodyFitsInside) {
+  const Vec3 centre(100, 50, 3), half(5, 2, 3);
+  expect_framed(start_in({hull(centre, half)}), {centre - half, centre + half});
+}
+
+TEST(StartPlace, IsBeforeAnObjectThatIsSmallerThanTheBody) {
+  for (const double size : {0.1, 0.5, 1.0, 2.5}) {
+    Mesh block{.name = "block"};
+    add_box(block, {0, 0, 0}, {size, size, size});
+    expect_framed(start_in({block}), {{0, 0, 0}, {size, size, size}});
+  }
+}
+
+TEST(StartPlace, IsInAHouseAndNotOnItsRoof) {
+  for (const bool with_ground : {false, true}) {
+    std::vector<Mesh> meshes{house()};
+    if (with_ground)
+      meshes.push_back({"ground", {{-60, -60, 0}, {60, -60, 0}, {60, 60, 0}, {-60, 60, 0}}, {{0, 1, 2}, {0, 2, 3}}});
+    const StartPlace start = start_in(meshes);
+    EXPECT_EQ(start.mode, Mode::walk);
+    EXPECT_EQ(start.note, "");
+    const Vec3& p = start.pose.position;
+    const bool in_a_room = p.x > 0.2 && p.x < 10.4 && p.y > 0.2 && p.y < 6.2;
+    EXPECT_TRUE(in_a_room || with_ground) << p.x << " " << p.y;
+    EXPECT_NEAR(p.z, in_a_room ? 1.1 : 0.9, 0.1);
+  }
+}
+
+TEST(StartPlace, IsInTheStreetAndNeitherOnNorInTheBlocks) {
+  std::vector<Mesh> meshes{
+      {"ground", {{-40, -40, 0}, {90, -40, 0}, {90, 90, 0}, {-40, 90, 0}}, {{0, 1, 2}, {0, 2, 3}}}};
+  for (const double x : {0.0, 30.0}) {
+    for (const double y : {0.0, 30.0}) {
+      meshes.push_back({.name = "block"});
+      add_box(meshes.back(), {x, y, 0}, {x + 20, y + 20, 12});
+    }
+  }
+  const StartPlace start = start_in(meshes);
+  EXPECT_EQ(start.mode, Mode::walk);
+  const Vec3& p = start.pose.position;
+  EXPECT_NEAR(p.z, 0.9, 0.1);
+  EXPECT_FALSE(std::fmod(p.x + 40, 30) > 10 && std::fmod(p.y + 40, 30) > 10 && p.x > 0 && p.x < 50 && p.y > 0 &&
+               p.y < 50);
+}
+
+TEST(StartPlace, IsOnTheGroundOfATerrainWithAViewOverIt) {
+  const auto meshes = generate::collect(generate::terrain({.triangles = 20'000}));
+  const World world = World::build(meshes);
+  const StartPlace start = find_start(world, {}, Mode::walk, meshes, [] { return true; });
+  EXPECT_EQ(start.mode, Mode::walk);
+  const Impact ground = world.ray(start.pose.position, {0, 0, -2});
+  ASSERT_TRUE(ground.hit);
+  EXPECT_NEAR(2.0 * ground.time, 0.9, 0.3);
+  EXPECT_FALSE(world.ray(start.pose.position, 30.0 * ahead(start.pose)).hit);
+}
+
+TEST(StartPlace, IsOnLandThatHasABottom) {
+  Mesh slab{.name = "land"};
+  add_box(slab, {0, 0, -20}, {500, 500, 0});
+  EXPECT_EQ(start_in({slab}).mode, Mode::walk);
+}
+
+TEST(StartPlace, IsInARoomWhoseWallsAreSheets) {
+  Mesh room{.name = "scan"};
+  add_box(room, {0, 0, 0}, {5, 4, 2.5}, true);
+  const StartPlace start = start_in({room});
+  EXPECT_EQ(start.mode, Mode::walk);
+  EXPECT_NEAR(start.pose.position.z, 0.9, 0.1);
+}
+
+}  // namespace
