@@ -222,7 +222,7 @@ ExitStatus probe(ProbeOptions o) {
     limit.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(o.scene.threads));
   }
   std::optional<draw::PictureFile> drawing;
-  if (o.picture) drawing.emplace(*o.picture);
+  if (o.picture) drawing.emplace(*o.picture, draw::PictureFile::Views::in_metres);
   const Surveyed scene = survey_scene(o.scene, o.slope_degrees());
   double smallest = sizes.front().radius;
   for (const ProbedSize& size : sizes) smallest = std::min(smallest, size.radius);
@@ -316,7 +316,7 @@ void add_probe(CLI::App& program, Run& run) {
       ->type_name("W");
   verb->add_option("--path", o.path, "Write the way as a path file, for `roam walk` (-: standard output)")
       ->type_name("FILE");
-  verb->add_option("--picture", o.picture, "Draw the opening that decides (.svg or .png)")->type_name("FILE");
+  verb->add_option("--picture", o.picture, "Draw the opening that decides (.svg, .png or .dxf)")->type_name("FILE");
   verb->add_flag("--json", o.json, "Print one JSON object");
   verb->callback([options, &run] { run = [options] { return probe(*options); }; });
 }

@@ -124,7 +124,7 @@ ExitStatus train(TrainVerbOptions o) {
   take_kept_frame(o.scene);
   if (o.picture) check_output(o.scene.scenes, "--picture", *o.picture);
   std::optional<draw::PictureFile> drawing;
-  if (o.picture) drawing.emplace(*o.picture);
+  if (o.picture) drawing.emplace(*o.picture, draw::PictureFile::Views::in_metres);
   const Surveyed scene = survey_scene(o.scene, o.slope);
   constexpr double narrow_door = 0.6;  // m: width of a person without clearance
   check_spacing(scene, o.train.spacing, narrow_door);
@@ -222,7 +222,7 @@ void add_train(CLI::App& program, Run& run) {
       ->check(from_to(0.02, 100.0))
       ->type_name("M");
   verb->option_defaults()->group("Results");
-  verb->add_option("--picture", o.picture, "Draw the openings that decide (.svg or .png)")->type_name("FILE");
+  verb->add_option("--picture", o.picture, "Draw the openings that decide (.svg, .png or .dxf)")->type_name("FILE");
   verb->add_option("-o,--output", o.profile, "Write the profile to this file (default: SCENE.roam.json)")
       ->type_name("FILE");
   verb->get_option("--no-profile")->description("Neither read nor write SCENE.roam.json");

@@ -272,7 +272,7 @@ ExitStatus walk(WalkOptions options) {
     limit.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(options.scene.threads));
   }
   std::optional<draw::PictureFile> drawing;
-  if (!options.picture.empty()) drawing.emplace(options.picture);
+  if (!options.picture.empty()) drawing.emplace(options.picture, draw::PictureFile::Views::in_metres);
   const bool needs_triangles = options.verify || drawing;
   OpenScene scene(options.scene, needs_triangles ? Source::keep : Source::release);
   if (stored) {

@@ -22,8 +22,8 @@
 ///
 /// Input: keys are those of controls(). The mouse looks while a button is dragged, or always with setMouseGrab(). The
 /// wheel changes the speed, a double click goes to the clicked point. Events that another handler has taken are
-/// ignored: osgViewer::StatsHandler takes S, osgGA::StateSetManipulator takes W. All keys are released if the window
-/// loses the keyboard.
+/// ignored: osgViewer::StatsHandler takes S, osgGA::StateSetManipulator takes W. StatusHandler (StatusHandler.h), added
+/// before them, keeps the keys for the body. All keys are released if the window loses the keyboard.
 ///
 /// Errors inside the viewer's loop do not throw: see problem(). Callbacks may call any member; their report is invalid
 /// once space or settings change. All members belong to the thread that calls Viewer::frame(), in every threading
@@ -205,7 +205,9 @@ class Manipulator : public osgGA::CameraManipulator {
 
   // --- osgGA::CameraManipulator
 
-  /// Places the eye at the camera without roll; see setPose. Ignores a matrix that is not finite.
+  /// Places the eye at the camera without roll; see setPose. Ignores a matrix that is not finite. A walking body that
+  /// is held there, or that would fall far, stands on a floor instead, looking level: below it, else where the camera
+  /// looks, else near the middle of the space. So it walks after a trackball has looked at the scene from outside.
   void setByMatrix(const osg::Matrixd& matrix) override;
   void setByInverseMatrix(const osg::Matrixd& matrix) override;
   [[nodiscard]] osg::Matrixd getMatrix() const override;

@@ -132,7 +132,7 @@ void add_opening(Page& page, const OpeningView& o, std::span<const Mesh> meshes,
                 drawing.section.scale_x, nullptr, caption_font},
                right, right + panel_width);
   const OpeningPainter painter(o, drawing);
-  Panel plan = page.panel("plan", drawing.plan, left);
+  Panel plan = page.panel("plan", drawing.plan, left, &drawing.turn);
   Panel section = page.panel("section", drawing.section, right);
   painter.plan(plan, name);
   painter.section(section);

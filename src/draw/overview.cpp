@@ -127,7 +127,7 @@ void add_overview(Page& page, const Overview& o, std::span<const Mesh> meshes) {
                       o.mode == Mode::walk ? usual_ground : 1.0};
   const Cuts cuts = cut_out("the plan", meshes, turn, {&plan, 1}, {});
   page.heading("overview", {"Plan", cut_text(levels), frame.scale_x, &turn});
-  Panel panel = page.panel("overview", frame, sheet_margin);
+  Panel panel = page.panel("overview", frame, sheet_margin, &turn);
   paint(panel, o, turn, cuts.plans[0]);
   page.below(panel);
   page.legend(std::array<LegendEntry, 5>{{{"cut by the plane", wall_style, 0.0, true},

@@ -57,6 +57,15 @@ void Page::axes(const std::string& what, const Turn& turn, const Point& centre) 
   }
 }
 
+Panel Page::panel(const std::string& name, const Frame& frame, double left, const Turn* turn) {
+  const Point corner(left, y_ + 18.0);
+  sheet_.views.push_back({name,
+                          {corner, corner + Point(frame.width(), frame.height())},
+                          frame,
+                          turn != nullptr ? std::optional(*turn) : std::nullopt});
+  return {sheet_, labels_, name, frame, corner};
+}
+
 Sheet Page::finish() {
   sheet_.height = std::ceil(y_ + 0.6 * sheet_margin);
   return std::move(sheet_);

@@ -54,9 +54,8 @@ class Page {
     heading(what, only, sheet_margin, sheet_.width - sheet_margin);
   }
   /// A panel below the headings, from `left` (pixels). The next one stands beside it, until below() is called.
-  [[nodiscard]] Panel panel(const std::string& name, const Frame& frame, double left) {
-    return {sheet_, labels_, name, frame, {left, y_ + 18.0}};
-  }
+  /// `turn`: of a plan.
+  [[nodiscard]] Panel panel(const std::string& name, const Frame& frame, double left, const Turn* turn = nullptr);
   /// Moves below a panel.
   void below(const Panel& panel) { y_ = panel.area().upper.y; }
   /// Explains the styles of what was drawn since the last legend.

@@ -12,6 +12,7 @@
 #include <span>
 
 #include "cli/exit_status.h"
+#include "draw/dxf.h"
 #include "files/extension.h"
 #include "roam/error.h"
 
@@ -103,10 +104,13 @@ void draw(cairo_surface_t* surface, const Sheet& sheet) {
   cairo_show_page(context.get());
 }
 
-const std::filesystem::path& checked(const std::filesystem::path& file) {
+const std::filesystem::path& checked(const std::filesystem::path& file, PictureFile::Views views) {
   const std::string extension = files::lower_extension(file);
-  if (extension == ".svg" || extension == ".png") return file;
-  throw app::UsageError("--picture " + file.string(), "a picture is an .svg or a .png, by its extension");
+  const bool in_metres = views == PictureFile::Views::in_metres;
+  if (extension == ".svg" || extension == ".png" || (extension == ".dxf" && in_metres)) return file;
+  throw app::UsageError("--picture " + file.string(), in_metres
+                                                          ? "a picture is an .svg, a .png or a .dxf, by its extension"
+                                                          : "a picture is an .svg or a .png, by its extension");
 }
 
 /// Appends to a std::string. Cairo is C, so no exception may pass through it.
@@ -134,12 +138,15 @@ Rect measure_text(const std::string& text, const Font& font) {
           {std::max(extents.x_advance, extents.x_bearing + extents.width), line.descent}};
 }
 
-PictureFile::PictureFile(const std::filesystem::path& file) : path_(checked(file)), file_(file) {}
+PictureFile::PictureFile(const std::filesystem::path& file, Views views) : path_(checked(file, views)), file_(file) {}
 
 void PictureFile::write(const Sheet& sheet) {
   std::string bytes;
   cairo_status_t status = CAIRO_STATUS_SUCCESS;
-  if (files::lower_extension(path_) == ".svg") {
+  const std::string extension = files::lower_extension(path_);
+  if (extension == ".dxf") {
+    bytes = to_dxf(sheet);
+  } else if (extension == ".svg") {
     const Surface surface(cairo_svg_surface_create_for_stream(append, &bytes, sheet.width, sheet.height));
     cairo_svg_surface_set_document_unit(surface.get(), CAIRO_SVG_UNIT_PX);
     draw(surface.get(), sheet);

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Sheets as SVG and PNG files. No other file uses Cairo.
+/// Sheets as SVG, PNG and DXF files. No other file uses Cairo.
 
 #include <filesystem>
 #include <string>
@@ -17,11 +17,13 @@ namespace roam::draw {
 class PictureFile {
  public:
   /// Begins the file of a --picture, to make sure that it can be written. Throws app::UsageError if its extension is
-  /// neither .svg nor .png, in either case, and roam::Error.
-  explicit PictureFile(const std::filesystem::path& file);
+  /// neither .svg nor .png, nor .dxf if `views` says that the sheet has views in metres, in either case, and
+  /// roam::Error.
+  enum class Views { none, in_metres };
+  explicit PictureFile(const std::filesystem::path& file, Views views = Views::none);
 
-  /// Draws the sheet and puts the file in its place. Call it once. SVG, or PNG with one pixel per pixel of the sheet.
-  /// Throws roam::Error; an earlier file then stays.
+  /// Draws the sheet and puts the file in its place. Call it once. SVG; DXF, see dxf.h; or PNG with one pixel per pixel
+  /// of the sheet. Throws roam::Error; an earlier file then stays.
   void write(const Sheet& sheet);
 
  private:

@@ -2,6 +2,7 @@
 /// \file
 /// A drawing as plain values: the items of a sheet, from the bottom to the top. Pixels, y down.
 
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -37,9 +38,18 @@ struct Text {
   Rect box{};  ///< the covered rectangle
 };
 
+/// A part of a sheet that is to scale. Names of its items begin with its own.
+struct SheetView {
+  std::string name;
+  Rect area;  ///< pixels
+  Frame frame;
+  std::optional<Turn> turn;  ///< of a plan
+};
+
 struct Sheet {
   double width = 0.0;
   double height = 0.0;
+  std::vector<SheetView> views;
   std::vector<std::variant<Lines, Disc, Text>> items;
 };
 

@@ -119,7 +119,7 @@ class WalkSheet {
 
   void plan() {
     page_.heading("plan", {"Plan", cut_text(walk_.levels), frames_.plan.scale_x, &frames_.turn});
-    Panel panel = page_.panel("plan", frames_.plan, sheet_margin);
+    Panel panel = page_.panel("plan", frames_.plan, sheet_margin, &frames_.turn);
     paint_plan(panel, walk_, walk_.cuts.plans[0]);
     label_marks(panel, walk_, true, [&](std::size_t i) { return lettered(i); });
     page_.below(panel);
@@ -160,7 +160,8 @@ class WalkSheet {
     std::vector<Panel> plans;
     for (std::size_t k = 0; k < details.size(); ++k) {
       const double left = sheet_margin + static_cast<double>(k) * (details[k].plan.width() + detail_gap);
-      Panel& panel = plans.emplace_back(page_.panel("detail " + letter(k) + " plan", details[k].plan, left));
+      Panel& panel =
+          plans.emplace_back(page_.panel("detail " + letter(k) + " plan", details[k].plan, left, &frames_.turn));
       paint_plan(panel, walk_, walk_.cuts.plans[k + 1]);
       panel.badge(letter(k));
       label_marks(panel, walk_, true, [&](std::size_t i) { return full_label(i); });

@@ -19,7 +19,7 @@ namespace roam::graphics {
 std::filesystem::path write_image(const osg::Image& image, const std::filesystem::path& path,
                                   files::Naming naming = files::Naming::exact);
 
-/// One picture of the next frame. A thread of its own writes the file.
+/// A picture of the next frame, or one that has been drawn. A thread of its own writes the file.
 ///
 ///     Screenshot shot(frame, "out.png", true);
 ///     viewer.frame();
@@ -29,6 +29,8 @@ class Screenshot {
   /// Requests the picture, with the head-up display if `with_hud`. Throws roam::Error at once for an extension that it
   /// cannot write.
   Screenshot(Frame& frame, std::filesystem::path path, bool with_hud, files::Naming naming = files::Naming::exact);
+  /// A picture that has been drawn already, for writing.
+  Screenshot(osg::ref_ptr<osg::Image> image, std::filesystem::path path, files::Naming naming = files::Naming::exact);
   /// Waits for a file that is being written.
   ~Screenshot();
   /// The moved-from object is done, has nothing to finish and an empty path.
@@ -46,15 +48,18 @@ class Screenshot {
 
  private:
   struct State;
+  void begin(std::filesystem::path path, files::Naming naming);
+
   std::shared_ptr<State> state_;
 };
 
-/// A film in H.264 (.mp4, yuv420p, constant frame rate), encoded by the program ffmpeg. A thread of its own feeds
-/// ffmpeg. Odd sizes get a black row or column. The file has a temporary name until finish().
+/// A film of constant frame rate, encoded by the program ffmpeg: .mp4 (H.264), .webm (VP9), .gif, .webp; the last two
+/// begin anew at their end. A thread of its own feeds ffmpeg. In .mp4 and .webm odd sizes get a black row or column.
+/// The file has a temporary name until finish().
 class Video {
  public:
   /// `frames_per_second` in [1, 240]. Throws roam::Error if ffmpeg is not on the PATH (the message says how to install
-  /// it), for an extension other than .mp4, and for a size outside [16, 8192].
+  /// it), for another extension, and for a size outside [16, 8192].
   Video(std::filesystem::path path, int width, int height, int frames_per_second);
   /// Discards a film that is not finished, and removes its temporary file.
   ~Video();
@@ -66,14 +71,20 @@ class Video {
   /// output if ffmpeg has failed.
   void add(osg::ref_ptr<osg::Image> image);
   /// Appends a picture taken `seconds` after the start of the film; `seconds` must not decrease. Repeats or drops
-  /// pictures so that the film runs in real time.
+  /// pictures so that the film runs in real time. Rounding errors of up to time_rounding count as none.
   void add(osg::ref_ptr<osg::Image> image, double seconds);
+  static constexpr double time_rounding = 1e-3;  ///< of the time of a picture
   /// Number of pictures in the film so far.
   [[nodiscard]] std::int64_t frames() const;
 
   /// Ends the film: waits until it is encoded, and gives the file its name. Throws roam::Error with the last line of
   /// ffmpeg's output if ffmpeg has failed, or if the film has no picture.
   void finish();
+
+  /// Whether this extension is that of a film.
+  [[nodiscard]] static bool is_film(const std::filesystem::path& path);
+  /// Pictures a second, unless asked for others: 30; in .gif, whose pictures last hundredths of a second, 20.
+  [[nodiscard]] static int usual_rate(const std::filesystem::path& path);
 
  private:
   class Encoder;

@@ -1,5 +1,7 @@
 #include "graphics/composite.h"
 
+#include <algorithm>
+#include <cmath>
 #include <osg/State>
 #include <osg/Texture>
 #include <osg/Viewport>
@@ -9,6 +11,11 @@
 
 namespace roam::graphics {
 namespace {
+
+/// The farthest neighbour that occludes a pixel: in pixels, and as a share of the picture's height.
+constexpr double most_reach = 696.0, reach_share = 0.16;
+
+float occlusion_reach(int whole_height) { return static_cast<float>(std::min(reach_share * whole_height, most_reach)); }
 
 osg::ref_ptr<osg::Geometry> make_cover() {
   osg::ref_ptr<osg::Geometry> cover = new osg::Geometry;
@@ -43,12 +50,20 @@ GLuint make_texture(GLenum format, int width, int height) {
   return texture;
 }
 
+int effects_reach(int whole_height) {
+  // Blurring and mixing add six pixels, smoothing four, and rounding to pixels of half size the rest.
+  constexpr int around = 16;
+  return static_cast<int>(std::ceil(occlusion_reach(whole_height))) + around;
+}
+
 Composite::Composite()
     : cover_(make_cover()),
       size_(new osg::Uniform("roam_size", osg::Vec2())),
       tangents_(new osg::Uniform("roam_tangents", osg::Vec2())),
+      shift_(new osg::Uniform("roam_shift", osg::Vec2())),
       depth_scale_(new osg::Uniform("roam_depth_scale", osg::Vec2())),
-      near_(new osg::Uniform("roam_near", 0.0f)) {
+      near_(new osg::Uniform("roam_near", 0.0f)),
+      reach_(new osg::Uniform("roam_reach", 0.0f)) {
   occlusion_pass_ = make_pass("occlusion", occlusion_glsl, {"roam_depth"});
   blur_pass_ = make_pass("blur", blur_glsl, {"roam_occlusion"});
   mix_pass_ = make_pass("mix", mix_glsl, {"roam_color", "roam_depth", "roam_occlusion"});
@@ -67,9 +82,7 @@ Composite::Pass Composite::make_pass(const char* name, const char* source,
   for (const GLenum mode : {GL_DEPTH_TEST, GL_BLEND, GL_CULL_FACE, GL_SCISSOR_TEST}) {
     pass.state->setMode(mode, osg::StateAttribute::OFF);
   }
-  for (osg::Uniform* uniform : {size_.get(), tangents_.get(), depth_scale_.get(), near_.get()}) {
-    pass.state->addUniform(uniform);
-  }
+  for (const auto& uniform : {size_, tangents_, shift_, depth_scale_, near_, reach_}) pass.state->addUniform(uniform);
   for (std::size_t i = 0; i < textures.size(); ++i) {
     pass.state->addUniform(new osg::Uniform(textures[i], static_cast<int>(i)));
   }
@@ -116,11 +129,13 @@ void Composite::release(osg::GLExtensions& gl) {
 }
 
 void Composite::draw(osg::RenderInfo& info, const CompositeInput& input) {
-  double fovy = 0.0, aspect = 0.0, near = 0.0, far = 0.0;
-  input.projection.getPerspective(fovy, aspect, near, far);
+  double left = 0.0, right = 0.0, bottom = 0.0, top = 0.0, near = 0.0, far = 0.0;
+  input.projection.getFrustum(left, right, bottom, top, near, far);
   size_->set(osg::Vec2(static_cast<float>(width_), static_cast<float>(height_)));
   tangents_->set(
       osg::Vec2(static_cast<float>(1.0 / input.projection(0, 0)), static_cast<float>(1.0 / input.projection(1, 1))));
+  shift_->set(osg::Vec2(static_cast<float>(input.projection(2, 0)), static_cast<float>(input.projection(2, 1))));
+  reach_->set(occlusion_reach(input.whole_height));
   depth_scale_->set(input.reversed_depth ? osg::Vec2(0, 1) : osg::Vec2(1, static_cast<float>(near / far - 1.0)));
   near_->set(static_cast<float>(near));
 

@@ -34,7 +34,13 @@ struct CompositeInput {
   GLuint color = 0, depth = 0, target = 0;
   osg::Matrixd projection{};
   bool reversed_depth = true;
+  int whole_height = 0;  ///< pixels; larger than the textures for a part of a picture
 };
+
+/// Pixels around each pixel on which the effects depend, in a picture of this height.
+[[nodiscard]] int effects_reach(int whole_height);
+/// The pattern of the occlusion repeats after so many pixels.
+inline constexpr int effects_period = 8;
 
 /// Runs in the drawing thread.
 class Composite {
@@ -68,7 +74,7 @@ class Composite {
   Effects effects_;
   Target occlusion_, blurred_, mixed_;
   osg::ref_ptr<osg::Geometry> cover_;
-  osg::ref_ptr<osg::Uniform> size_, tangents_, depth_scale_, near_;
+  osg::ref_ptr<osg::Uniform> size_, tangents_, shift_, depth_scale_, near_, reach_;
   Pass occlusion_pass_, blur_pass_, mix_pass_, smooth_pass_;
 };
 

@@ -9,6 +9,7 @@ void main() { gl_Position = vec4(gl_Vertex.xy, 0.0, 1.0); }
 const char* const picture_glsl = R"(#version 120
 uniform vec2 roam_size;         // pixels of the picture
 uniform vec2 roam_tangents;     // of half the fields of view
+uniform vec2 roam_shift;        // of the middle of the view, in halves of the picture
 uniform vec2 roam_depth_scale;  // near / distance = x + y * depth
 uniform float roam_near;        // metres
 uniform sampler2D roam_depth;
@@ -16,6 +17,7 @@ uniform sampler2D roam_depth;
 float depth_at(vec2 pixel) {
   return roam_depth_scale.x + roam_depth_scale.y * texture2D(roam_depth, pixel / roam_size).r;
 }
+vec2 ray_through(vec2 pixel) { return (2.0 * pixel / roam_size - 1.0 + roam_shift) * roam_tangents; }
 // The angle of a pixel in the middle of the picture.
 float pixel_angle() { return 2.0 * roam_tangents.y / roam_size.y; }
 )";
@@ -24,12 +26,12 @@ float pixel_angle() { return 2.0 * roam_tangents.y / roam_size.y; }
 const char* const occlusion_glsl = R"(
 const float least_radius = 0.7;      // metres
 const float radius_share = 0.05;     // of the distance, for what is far
-const float most_pixels = 0.16;      // of the height of the picture
+uniform float roam_reach;            // most pixels
 const float bias = 0.06;             // sine of the angle below which nothing occludes
 const float strength = 1.9;
 
 vec3 place_at(vec2 pixel, float depth) {
-  return vec3((2.0 * pixel / roam_size - 1.0) * roam_tangents, 1.0) * (roam_near / depth);
+  return vec3(ray_through(pixel), 1.0) * (roam_near / depth);
 }
 
 float smaller(float a, float b) { return abs(a) < abs(b) ? a : b; }
@@ -39,7 +41,7 @@ void main() {
   float depth = depth_at(pixel);
   float distance = roam_near / max(depth, 1e-9);
   float radius = max(least_radius, radius_share * distance);
-  float reach = min(radius / (distance * pixel_angle()), most_pixels * roam_size.y);
+  float reach = min(radius / (distance * pixel_angle()), roam_reach);
   vec3 place = place_at(pixel, max(depth, 1e-9));
 
   float right = depth_at(pixel + vec2(1.0, 0.0)) - depth, up = depth_at(pixel + vec2(0.0, 1.0)) - depth;
@@ -48,8 +50,7 @@ void main() {
   if (pixel.x + 1.0 > roam_size.x) right = left;
   if (pixel.y + 1.0 > roam_size.y) up = down;
   vec2 slope = vec2(smaller(left, right), smaller(down, up)) * roam_size / (2.0 * roam_tangents);
-  vec2 ray = (2.0 * pixel / roam_size - 1.0) * roam_tangents;
-  vec3 normal = -normalize(vec3(slope, depth - dot(slope, ray)));
+  vec3 normal = -normalize(vec3(slope, depth - dot(slope, ray_through(pixel))));
 
   vec2 cell = mod(floor(gl_FragCoord.xy), 4.0);
   float turn = 6.2831853 * fract(0.0625 * (4.0 * cell.x + cell.y) + 0.25 * cell.y);

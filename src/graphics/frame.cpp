@@ -133,8 +133,34 @@ bool Frame::edges() const { return pipeline_->edges(); }
 bool Frame::reversed_depth() const { return pipeline_->reversed_depth(); }
 
 void Frame::project() {
-  const double aspect = camera_->getViewport()->width() / camera_->getViewport()->height();
-  camera_->setProjectionMatrixAsPerspective(settings_.vertical_fov, aspect, settings_.near, believed_far);
+  const osg::Viewport& window = part_ ? *window_ : *camera_->getViewport();
+  const double fov = settings_.vertical_fov, aspect = window.width() / window.height();
+  if (!part_) {
+    camera_->setProjectionMatrixAsPerspective(fov, aspect, settings_.near, believed_far);
+    return;
+  }
+  const PicturePart& p = *part_;
+  const double whole_aspect = static_cast<double>(p.whole_width) / p.whole_height;
+  // The corners of the whole picture are as near as those of the window.
+  const double near = settings_.near * near_limit(1.0, fov, whole_aspect) / near_limit(1.0, fov, aspect);
+  const double up = near * std::tan(0.5 * fov * radians), right = up * whole_aspect;
+  const auto side = [](double half, int pixel, int pixels) { return half * (2.0 * pixel / pixels - 1.0); };
+  camera_->setProjectionMatrixAsFrustum(side(right, p.x, p.whole_width), side(right, p.x + p.width, p.whole_width),
+                                        side(up, p.y, p.whole_height), side(up, p.y + p.height, p.whole_height), near,
+                                        believed_far);
+}
+
+void Frame::set_part(const std::optional<PicturePart>& part) {
+  if (part) {
+    if (!part_) window_ = camera_->getViewport();
+    camera_->setViewport(new osg::Viewport(0, 0, part->width, part->height));
+  } else if (part_) {
+    camera_->setViewport(window_);
+  }
+  part_ = part;
+  flat_->setNodeMask(part ? 0u : ~0u);
+  pipeline_->set_whole_height(part ? part->whole_height : 0);
+  project();
 }
 
 void Frame::set_near(double near) {

@@ -17,8 +17,10 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <osg/Group>
 #include <osg/Image>
+#include <osg/Viewport>
 #include <osg/ref_ptr>
 #include <osgViewer/Viewer>
 #include <string>
@@ -41,6 +43,13 @@ struct FrameSettings {
   int samples = 4;
   Quality quality = Quality::full;
   bool reversed_depth = true;  ///< false: an ordinary depth buffer even if the driver supports a reversed one
+};
+
+/// A part of a picture that is larger than what is drawn at once. Pixels.
+struct PicturePart {
+  int whole_width = 0, whole_height = 0;
+  int x = 0, y = 0;  ///< lower left corner
+  int width = 0, height = 0;
 };
 
 /// The largest near plane, in metres, that cuts no wall at least `radius` metres from the eye. It is nearer than
@@ -79,6 +88,11 @@ class Frame {
   [[nodiscard]] Quality next_quality() const;
   [[nodiscard]] bool edges() const;
 
+  /// The next frames draw this part of a picture of the same view, with the same vertical field of view, without
+  /// flat(). Only requested pictures show it; the window keeps what it shows. None: they draw the window again. Events
+  /// must wait for that.
+  void set_part(const std::optional<PicturePart>& part);
+
   /// Whether the depth is reversed. If not, it is an ordinary 24-bit depth, with which distant surfaces flicker.
   [[nodiscard]] bool reversed_depth() const;
   /// One line: renderer, depth, samples, and missing abilities.
@@ -100,6 +114,8 @@ class Frame {
   osg::ref_ptr<Pipeline> pipeline_;
   osg::ref_ptr<osg::Group> root_, space_;
   osg::ref_ptr<osg::Camera> flat_;
+  std::optional<PicturePart> part_;
+  osg::ref_ptr<osg::Viewport> window_;  ///< the viewport of the window while there is a part
 };
 
 /// GLSL 1.20 to put before a vertex shader for use below Frame::space(). `vec4 roam_clip(vec4 eye)` returns the

@@ -90,7 +90,9 @@ void Frame::Pipeline::resolve(osg::RenderInfo& info) {
   }
   if (effects) {
     const osg::Matrixd& projection = info.getCurrentCamera()->getProjectionMatrix();
-    composite_.draw(info, {flat_scene_.color, flat_scene_.depth, picture_.frame, projection, reversed_depth_});
+    const int whole_height = whole_height_;
+    composite_.draw(info, {flat_scene_.color, flat_scene_.depth, picture_.frame, projection, reversed_depth_,
+                           whole_height > 0 ? whole_height : plan_.height});
   }
   gl.glBindFramebuffer(GL_FRAMEBUFFER_EXT, picture_.frame);
   serve(false);
@@ -102,7 +104,7 @@ void Frame::Pipeline::finish(osg::RenderInfo& info) {
   const osg::GraphicsContext& window = *state.getGraphicsContext();
   state.applyMode(GL_SCISSOR_TEST, false);
   serve(true);
-  if (problem_.empty()) {
+  if (problem_.empty() && whole_height_ == 0) {
     gl.glBindFramebuffer(GL_READ_FRAMEBUFFER_EXT, picture_.frame);
     gl.glBindFramebuffer(GL_DRAW_FRAMEBUFFER_EXT, window.getDefaultFboId());
     state.glDrawBuffer(window.getTraits()->doubleBuffer ? GL_BACK : GL_FRONT);

@@ -42,6 +42,8 @@ class Frame::Pipeline : public osg::Referenced {
   /// Any thread. Takes effect with the next frame.
   void set_quality(Quality quality) { quality_ = quality; }
   void set_edges(bool shown) { edges_ = shown; }
+  /// The height of the picture of which the next frames draw parts that no window shows; 0: they draw it whole.
+  void set_whole_height(int pixels) { whole_height_ = pixels; }
   [[nodiscard]] Quality quality() const { return quality_; }
   [[nodiscard]] bool edges() const { return edges_; }
   /// The quality of the next frame: full if a full picture is requested. Any thread.
@@ -95,6 +97,7 @@ class Frame::Pipeline : public osg::Referenced {
   std::atomic<int> samples_;
   std::atomic<Quality> quality_;
   std::atomic<bool> edges_ = true;
+  std::atomic<int> whole_height_ = 0;
   bool fully_ = false;   // whether this frame has all effects, whatever the quality
   Plan wished_, plan_;   // as wished; as the driver has room for
   std::string problem_;  // why nothing can be drawn; empty if it can

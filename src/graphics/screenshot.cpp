@@ -116,14 +116,24 @@ struct Screenshot::State {
   }
 };
 
-Screenshot::Screenshot(Frame& frame, fs::path path, bool with_hud, files::Naming naming)
-    : state_(std::make_shared<State>()) {
+void Screenshot::begin(fs::path path, files::Naming naming) {
   check_extension(path);
   state_->path = std::move(path);
   state_->naming = naming;
   // The thread does not own the state, because ~Screenshot waits for it. The request does, because its frame may come
   // later.
   state_->writer = std::thread([state = state_.get()] { state->run(); });
+}
+
+Screenshot::Screenshot(osg::ref_ptr<osg::Image> image, fs::path path, files::Naming naming)
+    : state_(std::make_shared<State>()) {
+  begin(std::move(path), naming);
+  state_->give(std::move(image));
+}
+
+Screenshot::Screenshot(Frame& frame, fs::path path, bool with_hud, files::Naming naming)
+    : state_(std::make_shared<State>()) {
+  begin(std::move(path), naming);
   frame.request_picture(
       with_hud, [state = state_](osg::ref_ptr<osg::Image> image) { state->give(std::move(image)); },
       [state = state_](const std::string& reason) { state->refuse(reason); }, Finish::full);

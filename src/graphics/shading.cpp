@@ -188,7 +188,9 @@ constexpr const char* sky_vertex = R"(#version 120
 varying vec3 roam_direction;
 void main() {
   gl_Position = vec4(gl_Vertex.xy, 0.0, 1.0);
-  roam_direction = vec3(gl_Vertex.x / gl_ProjectionMatrix[0][0], gl_Vertex.y / gl_ProjectionMatrix[1][1], -1.0);
+  // The view may be a part of a picture, beside its middle.
+  vec2 at = gl_Vertex.xy + gl_ProjectionMatrix[2].xy;
+  roam_direction = vec3(at.x / gl_ProjectionMatrix[0][0], at.y / gl_ProjectionMatrix[1][1], -1.0);
 }
 )";
 

@@ -2,6 +2,8 @@
 #include <sys/statvfs.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cmath>
 #include <condition_variable>
@@ -12,6 +14,7 @@
 #include <thread>
 #include <utility>
 
+#include "files/extension.h"
 #include "files/whole_file.h"
 #include "graphics/capture.h"
 #include "process/child.h"
@@ -32,50 +35,74 @@ constexpr std::chrono::seconds ending_patience{120};
 /// Number of the film's descriptor in ffmpeg. Its path may lead to another file by then.
 constexpr int film_descriptor = 3;
 
-std::vector<std::string> arguments(int width, int height, int rate) {
+using Words = std::vector<std::string>;
+
+/// Output options of a kind of film.
+struct Kind {
+  const char* extension;
+  Words encoder;
+  bool is_video;  ///< for players, which want even sizes and a stated colour space
+};
+
+const std::array<Kind, 4>& kinds() {
+  static const std::array<Kind, 4> all{{
+      {".mp4", {"-c:v", "libx264", "-preset", "veryfast", "-crf", "18", "-movflags", "+faststart", "-f", "mp4"}, true},
+      {".webm",
+       {"-c:v", "libvpx-vp9", "-crf", "28", "-b:v", "0", "-deadline", "good", "-cpu-used", "4", "-row-mt", "1", "-f",
+        "webm"},
+       true},
+      {".gif", {"-loop", "0", "-f", "gif"}, false},
+      {".webp", {"-c:v", "libwebp_anim", "-quality", "75", "-loop", "0", "-f", "webp"}, false},
+  }};
+  return all;
+}
+
+const Kind* kind_of(const fs::path& path) {
+  const std::string extension = files::lower_extension(path);
+  const auto found =
+      std::find_if(kinds().begin(), kinds().end(), [&](const Kind& k) { return k.extension == extension; });
+  return found == kinds().end() ? nullptr : &*found;
+}
+
+/// Images begin with their lowest row. Sizes must be even for yuv420p. Players assume BT.709 for large films without a
+/// stated colour space, so that is used and stated. A GIF gets a palette for each picture: one for all would need all
+/// pictures in memory.
+std::string filters(const Kind& kind) {
+  if (kind.is_video) return "vflip,pad=ceil(iw/2)*2:ceil(ih/2)*2,scale=out_color_matrix=bt709:out_range=tv";
+  if (kind.extension != std::string(".gif")) return "vflip";
+  return "vflip,split[a][b];[a]palettegen=stats_mode=single:reserve_transparent=0[p];"
+         "[b][p]paletteuse=new=1:dither=bayer:bayer_scale=4";
+}
+
+Words arguments(const Kind& kind, int width, int height, int rate) {
   const std::string size = std::to_string(width) + "x" + std::to_string(height);
-  // Images begin with their lowest row. Sizes must be even for yuv420p. Players assume BT.709 for large films without a
-  // stated colour space, so that is used and stated.
-  const std::string filters = "vflip,pad=ceil(iw/2)*2:ceil(ih/2)*2,scale=out_color_matrix=bt709:out_range=tv";
-  // The index at the beginning of the file needs seeking, which a pipe cannot do.
-  const std::string name = "file:/dev/fd/" + std::to_string(film_descriptor);
-  return {"-hide_banner",
-          "-loglevel",
-          "error",
-          "-nostdin",
-          "-y",
-          "-f",
-          "rawvideo",
-          "-pixel_format",
-          "rgb24",
-          "-video_size",
-          size,
-          "-framerate",
-          std::to_string(rate),
-          "-i",
-          "pipe:0",
-          "-an",
-          "-vf",
-          filters,
-          "-c:v",
-          "libx264",
-          "-preset",
-          "veryfast",
-          "-crf",
-          "18",
-          "-pix_fmt",
-          "yuv420p",
-          "-colorspace",
-          "bt709",
-          "-color_primaries",
-          "bt709",
-          "-color_trc",
-          "bt709",
-          "-movflags",
-          "+faststart",
-          "-f",
-          "mp4",
-          name};
+  Words all{"-hide_banner",
+            "-loglevel",
+            "error",
+            "-nostdin",
+            "-y",
+            "-f",
+            "rawvideo",
+            "-pixel_format",
+            "rgb24",
+            "-video_size",
+            size,
+            "-framerate",
+            std::to_string(rate),
+            "-i",
+            "pipe:0",
+            "-an",
+            "-vf",
+            filters(kind)};
+  if (kind.is_video) {
+    const Words colours{"-pix_fmt",         "yuv420p", "-colorspace", "bt709",
+                        "-color_primaries", "bt709",   "-color_trc",  "bt709"};
+    all.insert(all.end(), colours.begin(), colours.end());
+  }
+  all.insert(all.end(), kind.encoder.begin(), kind.encoder.end());
+  // The index of a film is written last, at its beginning, which a pipe cannot do.
+  all.push_back("file:/dev/fd/" + std::to_string(film_descriptor));
+  return all;
 }
 
 /// A pair of sockets instead of a pipe: writing to one whose reader has died is an error, not a signal.
@@ -118,13 +145,13 @@ fs::path find_ffmpeg() {
 /// The process of ffmpeg, and the thread that feeds it.
 class Video::Encoder {
  public:
-  Encoder(fs::path path, int width, int height, int rate)
+  Encoder(fs::path path, const Kind& kind, int width, int height, int rate)
       : path_(std::move(path)),
         file_(path_),
         width_(width),
         height_(height),
         rate_(rate),
-        process_(find_ffmpeg(), arguments(width, height, rate),
+        process_(find_ffmpeg(), arguments(kind, width, height, rate),
                  {.descriptors = {{line_.theirs, STDIN_FILENO}, {file_.descriptor(), film_descriptor}},
                   .orphan = process::Orphan::lives_on}) {
     line_.close_theirs();
@@ -241,8 +268,10 @@ class Video::Encoder {
 };
 
 Video::Video(fs::path path, int width, int height, int frames_per_second) {
-  if (path.extension() != ".mp4") {
-    throw Error::at(path.string(), "cannot write the film " + path.string() + ": its name must end in .mp4");
+  const Kind* const kind = kind_of(path);
+  if (kind == nullptr) {
+    throw Error::at(path.string(),
+                    "cannot write the film " + path.string() + ": its name must end in .mp4, .webm, .gif or .webp");
   }
   if (width < least_side || height < least_side || width > largest_side || height > largest_side) {
     throw Error("a film of " + std::to_string(width) + " x " + std::to_string(height) +
@@ -252,7 +281,7 @@ Video::Video(fs::path path, int width, int height, int frames_per_second) {
     throw Error("a film of " + std::to_string(frames_per_second) +
                 " pictures a second cannot be made: it must be in [1, 240]");
   }
-  encoder_ = std::make_unique<Encoder>(std::move(path), width, height, frames_per_second);
+  encoder_ = std::make_unique<Encoder>(std::move(path), *kind, width, height, frames_per_second);
 }
 
 Video::~Video() = default;
@@ -261,12 +290,16 @@ void Video::add(osg::ref_ptr<osg::Image> image) { encoder_->add(std::move(image)
 
 void Video::add(osg::ref_ptr<osg::Image> image, double seconds) {
   // Picture k is shown from time k / rate. This picture fills all that have begun.
-  const auto begun = static_cast<std::int64_t>(std::floor(seconds * encoder_->rate())) + 1;
+  const auto begun = static_cast<std::int64_t>(std::floor(seconds * encoder_->rate() + time_rounding)) + 1;
   encoder_->add(std::move(image), begun - encoder_->frames());
 }
 
 std::int64_t Video::frames() const { return encoder_->frames(); }
 
 void Video::finish() { encoder_->finish(); }
+
+bool Video::is_film(const fs::path& path) { return kind_of(path) != nullptr; }
+
+int Video::usual_rate(const fs::path& path) { return files::lower_extension(path) == ".gif" ? 20 : 30; }
 
 }  // namespace roam::graphics

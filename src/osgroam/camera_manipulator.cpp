@@ -23,6 +23,7 @@ constexpr double certified_to = 1e-6;
 void Manipulator::setByMatrix(const osg::Matrixd& matrix) {
   if (const std::optional<CameraPose> pose = camera_pose(matrix, _state->origin)) {
     _state->put_eye(*pose);
+    _state->land();
   } else {
     OSG_WARN << "osgRoam::Manipulator: a matrix that is no camera was set, and is left out" << std::endl;
   }

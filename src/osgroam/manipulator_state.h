@@ -47,6 +47,7 @@ struct Manipulator::State {
   bool limits_near_plane = true;
   osg::ref_ptr<osg::Node> node;
   bool at_computed_home = false;  ///< and it has not moved since
+  bool lands = false;             ///< a camera from elsewhere has placed the body where there is no space yet
 
   // Motion.
   Controls keys;
@@ -59,8 +60,8 @@ struct Manipulator::State {
   double jump_left = 0.0;  ///< seconds for which a requested jump may still begin
   double look_speed = 0.0;
   bool look_inverted = false;
-  double easing = 0.0;       ///< seconds; see Manipulator::setEasing
-  double eased_speed = 0.0;  ///< m/s, that is reached or left in this time; 0: keys have not moved the body
+  double easing = 0.0;              ///< seconds; see Manipulator::setEasing
+  double eased_speed = 0.0;         ///< m/s, that is reached or left in this time; 0: keys have not moved the body
   std::optional<double> last_time;  ///< of the last frame, seconds
   bool continuous = false;          ///< continuous update has been requested from the viewer
   HeldCommands held_before;         ///< as of the last frame
@@ -103,6 +104,8 @@ struct Manipulator::State {
   void make_walker(const roam::Vec3& centre);
   void put(const roam::Vec3& centre);
   void put_eye(const CameraPose& where);
+  /// Puts a walking body that is held, or has no floor near below, on a floor; see Manipulator::setByMatrix.
+  void land();
   void tell_placed();
   void change_mode(roam::Mode to);
   void change_speed(double to);

@@ -90,6 +90,7 @@ void Manipulator::State::change_space(std::shared_ptr<const roam::Space> to, Upd
   space_is_built = is_built;
   update = std::move(update_of_it);
   make_walker(centre);
+  if (lands && walker) land();
 }
 
 void Manipulator::State::make_walker(const roam::Vec3& centre) {
@@ -129,8 +130,20 @@ void Manipulator::State::put(const roam::Vec3& centre) {
 
 void Manipulator::State::put_eye(const CameraPose& where) {
   pose = where;
-  at_computed_home = false;
+  at_computed_home = lands = false;
   put(centre_under(where.eye));
+}
+
+void Manipulator::State::land() {
+  lands = !walker;
+  if (!walker || mode != roam::Mode::walk || walker->report().met_unknown) return;
+  guarded([&] {
+    if (!walker->held() && has_floor(*space, settings, walker->position())) return;
+    if (const auto place = landing_place(*space, settings, eye(), forward(pose.yaw, pose.pitch))) {
+      pose.pitch = 0.0;
+      put(*place);
+    }
+  });
 }
 
 void Manipulator::State::change_mode(roam::Mode to) {

@@ -76,4 +76,24 @@ std::optional<roam::Vec3> standing_place(const roam::Space& space, const roam::W
   return std::nullopt;
 }
 
+std::optional<roam::Vec3> landing_place(const roam::Space& space, const roam::WalkerSettings& s, const roam::Vec3& eye,
+                                        const roam::Vec3& gaze) {
+  const roam::Box bounds = space.bounds();
+  if (bounds.empty()) return std::nullopt;
+  const double sight = std::min(glm::distance(eye, bounds.center()) + glm::length(bounds.size()), ray_limit);
+  for (const roam::Vec3& way : {roam::Vec3(0.0, 0.0, -1.0), gaze}) {
+    const roam::Impact seen = space.ray(eye, sight * way);
+    if (!seen.hit || seen.unknown) continue;
+    const roam::Vec3 over = seen.point + roam::Vec3(0.0, 0.0, 0.5 * s.height);
+    if (const std::optional<roam::Vec3> centre = roam::place_to_stand(space, s, over, s.height)) return centre;
+  }
+  return standing_place(space, s);
+}
+
+bool has_floor(const roam::Space& space, const roam::WalkerSettings& s, const roam::Vec3& centre) {
+  constexpr double least = 2.0;  // metres
+  const roam::Impact floor = space.ray(centre, {0.0, 0.0, -(0.5 * s.height + std::max(s.height, least))});
+  return floor.hit;
+}
+
 }  // namespace osgRoam

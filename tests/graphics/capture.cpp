@@ -250,6 +250,45 @@ TEST_F(GraphicsCapture, AFilmRunsAsTimeDid) {
   EXPECT_EQ(probe(folder / "film.mp4"), "h264,64,64,yuv420p,20/1,11\n");
 }
 
+TEST_F(GraphicsCapture, AFilmIsAsItsExtensionSays) {
+  if (!have_ffmpeg()) GTEST_SKIP() << "ffmpeg and ffprobe are not on the PATH";
+  for (const auto& [name, expected] : {std::pair{"film.webm", "vp9,64,48,yuv420p,20/1,6\n"},
+                                       {"film.gif", "gif,64,48,bgra,20/1,6\n"},
+                                       {"film.WEBP", ""}}) {
+    Video video(folder / name, 64, 48, 20);
+    osg::ref_ptr<osg::Image> image = plain_image(64, 48, 40);
+    for (int i = 0; i < 6; ++i) {
+      image = plain_image(64, 48, static_cast<unsigned char>(30 * i));
+      // Orange above.
+      for (unsigned x = 0; x < 64; ++x) image->data(x, 47)[0] = 255, image->data(x, 47)[2] = 0;
+      video.add(image);
+    }
+    video.finish();
+    if (*expected != '\0') {
+      EXPECT_EQ(probe(folder / name), expected);
+      continue;
+    }
+    // ffmpeg does not read its own animations: the chunks of their pictures are counted.
+    std::ifstream in(folder / name, std::ios::binary);
+    const std::string bytes((std::istreambuf_iterator<char>(in)), {});
+    std::size_t pictures = 0;
+    for (std::size_t k = bytes.find("ANMF"); k != std::string::npos; k = bytes.find("ANMF", k + 4)) ++pictures;
+    EXPECT_EQ(bytes.substr(8, 4), "WEBP");
+    EXPECT_EQ(pictures, 6u);
+  }
+}
+
+TEST_F(GraphicsCapture, AFilmOfEvenStepsNeitherRepeatsNorDropsAPicture) {
+  if (!have_ffmpeg()) GTEST_SKIP() << "ffmpeg and ffprobe are not on the PATH";
+  Video video(folder / "film.gif", 16, 16, 20);
+  double seconds = 0.0;
+  for (int i = 0; i < 200; ++i) {
+    video.add(plain_image(16, 16, 50), seconds);
+    EXPECT_EQ(video.frames(), i + 1);
+    for (int k = 0; k < 3; ++k) seconds += 1.0 / 60.0;
+  }
+}
+
 TEST_F(GraphicsCapture, FilmsAreUprightAndKeepTheirColours) {
   if (!have_ffmpeg()) GTEST_SKIP() << "ffmpeg and ffprobe are not on the PATH";
   osg::ref_ptr<osg::Image> image = plain_image(64, 64, 40);

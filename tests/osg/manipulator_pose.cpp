@@ -133,7 +133,8 @@ TEST(ManipulatorPose, ACameraInAWallGoesToTheNearestSafePlace) {
       const roam::Walker& w = *r->walker();
       EXPECT_GE(Judge(m).distance(w.body(), w.position(), 1.0), w.settings().radius - 1e-6);
       EXPECT_GE(eye_distance(r, m), r->leastEyeDistance() - 1e-6);
-      EXPECT_LE(glm::length(r->eye() - Vec3(eye.x(), eye.y(), eye.z())), 4.0);
+      // Where a walking body would fall out of the scene, it stands on the nearest floor that it finds instead.
+      EXPECT_LE(glm::length(r->eye() - Vec3(eye.x(), eye.y(), eye.z())), mode == roam::Mode::walk ? 9.0 : 4.0);
       if (eye.x() > -4.6 && eye.x() < 4.6 && eye.y() > -4.6 && eye.y() < 4.6 && eye.z() > 0.0 && eye.z() < 3.0) {
         // Its eye was free in the room: it stays in the room.
         EXPECT_LT(std::max(std::abs(w.position().x), std::abs(w.position().y)), 5.0);

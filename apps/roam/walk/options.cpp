@@ -93,7 +93,7 @@ void WalkOptions::add_to(CLI::App& verb) {
   body.add_to(verb);
   verb.option_defaults()->group("Results");
   verb.add_option("--trace", trace, "Write every step to this CSV file (-: standard output)")->type_name("FILE");
-  verb.add_option("--picture", picture, "Draw plan and section of the way (.svg or .png)")->type_name("FILE");
+  verb.add_option("--picture", picture, "Draw plan and section of the way (.svg, .png or .dxf)")->type_name("FILE");
   verb.add_flag("--verify", verify, "Check every move against all triangles, in higher precision, without the index");
   verb.add_option("--against", against.scenes,
                   "For a store: check every move against the triangles of the scene that it was made of")
