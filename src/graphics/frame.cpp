@@ -128,6 +128,7 @@ double Frame::vertical_fov() const { return settings_.vertical_fov; }
 void Frame::set_quality(Quality quality) { pipeline_->set_quality(quality); }
 void Frame::set_edges(bool shown) { pipeline_->set_edges(shown); }
 Quality Frame::quality() const { return pipeline_->quality(); }
+Quality Frame::next_quality() const { return pipeline_->next_quality(); }
 bool Frame::edges() const { return pipeline_->edges(); }
 bool Frame::reversed_depth() const { return pipeline_->reversed_depth(); }
 

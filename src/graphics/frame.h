@@ -75,6 +75,8 @@ class Frame {
   void set_quality(Quality quality);
   void set_edges(bool shown);
   [[nodiscard]] Quality quality() const;
+  /// The quality of the next frame, which is full if a full picture of it is requested.
+  [[nodiscard]] Quality next_quality() const;
   [[nodiscard]] bool edges() const;
 
   /// Whether the depth is reversed. If not, it is an ordinary 24-bit depth, with which distant surfaces flicker.

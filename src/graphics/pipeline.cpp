@@ -112,11 +112,15 @@ void Frame::Pipeline::finish(osg::RenderInfo& info) {
   gl.glBindFramebuffer(GL_FRAMEBUFFER_EXT, window.getDefaultFboId());
 }
 
+bool Frame::Pipeline::is_full_requested() {
+  const std::lock_guard lock(mutex_);
+  return std::any_of(requests_.begin(), requests_.end(), [](const Request& r) { return r.finish == Finish::full; });
+}
+
+Quality Frame::Pipeline::next_quality() { return is_full_requested() ? Quality::full : quality_.load(); }
+
 Frame::Pipeline::Plan Frame::Pipeline::plan_for(int width, int height) {
-  {
-    const std::lock_guard lock(mutex_);
-    fully_ = std::any_of(requests_.begin(), requests_.end(), [](const Request& r) { return r.finish == Finish::full; });
-  }
+  fully_ = is_full_requested();
   const Quality quality = fully_ ? Quality::full : quality_.load();
   Plan plan{width, height, quality == Quality::full ? std::max(wished_samples_, 1) : 1, {}};
   if (quality == Quality::full) plan.effects = full_effects;

@@ -44,6 +44,8 @@ class Frame::Pipeline : public osg::Referenced {
   void set_edges(bool shown) { edges_ = shown; }
   [[nodiscard]] Quality quality() const { return quality_; }
   [[nodiscard]] bool edges() const { return edges_; }
+  /// The quality of the next frame: full if a full picture is requested. Any thread.
+  [[nodiscard]] Quality next_quality();
 
   using Done = std::function<void(osg::ref_ptr<osg::Image>)>;
   using Failed = std::function<void(const std::string&)>;
@@ -76,6 +78,7 @@ class Frame::Pipeline : public osg::Referenced {
   void resolve(osg::RenderInfo& info);
   void finish(osg::RenderInfo& info);
 
+  [[nodiscard]] bool is_full_requested();
   /// The plan of this frame.
   [[nodiscard]] Plan plan_for(int width, int height);
   void resize(osg::GLExtensions& gl, const Plan& plan);

@@ -9,23 +9,24 @@
 #include <string>
 
 #include "graphics/frame.h"
+#include "text/number.h"
 
 namespace roam::graphics {
 namespace {
 
 constexpr const char* scene_vertex = R"(
-#pragma import_defines(ROAM_SECTION)
+#pragma import_defines(ROAM_SECTION, ROAM_SUN)
 varying vec3 roam_position;
 varying vec3 roam_normal;
 varying vec4 roam_surface;
-#ifdef ROAM_SECTION
+#if defined(ROAM_SECTION) || defined(ROAM_SUN)
 uniform mat4 osg_ViewMatrixInverse;
 varying vec4 roam_place;
 #endif
 void main() {
   vec4 eye = gl_ModelViewMatrix * gl_Vertex;
   roam_position = eye.xyz;
-#ifdef ROAM_SECTION
+#if defined(ROAM_SECTION) || defined(ROAM_SUN)
   roam_place = osg_ViewMatrixInverse * eye;
 #endif
   roam_normal = gl_NormalMatrix * gl_Normal;
@@ -38,10 +39,12 @@ void main() {
 }
 )";
 
-// The terms of the light add up to 1 on a floor before the eye. Walls get about 0.7, a ceiling 0.6, and the dark end of
-// a long corridor 0.4. The brightest tones are compressed, so that white surfaces keep their shape.
-constexpr const char* scene_fragment = R"(#version 120
-#pragma import_defines(ROAM_TEXTURED, ROAM_BLENDED, ROAM_CUT, ROAM_SECTION)
+// Without shadows the terms of the light add up to 1 on a floor before the eye. Walls get about 0.7, a ceiling 0.6, and
+// the dark end of a long corridor 0.4. With shadows (sun.h) rooms get the same, and sun through windows; outdoors the
+// lamp, and the sun that shines on all sides, give way to the sun. The brightest tones are compressed, so that white
+// surfaces keep their shape.
+constexpr const char* scene_fragment = R"(
+#pragma import_defines(ROAM_TEXTURED, ROAM_BLENDED, ROAM_CUT, ROAM_SECTION, ROAM_SUN)
 varying vec3 roam_position;
 varying vec3 roam_normal;
 varying vec4 roam_surface;
@@ -52,10 +55,17 @@ uniform float roam_cutoff;
 #endif
 #ifdef ROAM_SECTION
 uniform vec4 roam_section[ROAM_SECTION];
+#endif
+#if defined(ROAM_SECTION) || defined(ROAM_SUN)
 varying vec4 roam_place;
 #endif
+#ifdef ROAM_SUN
+uniform sampler2DShadow roam_shadow;
+uniform mat4 roam_sun_map;                // from the graph to metres across the light, and depth
+uniform vec4 roam_sun_tiles[ROAM_SUN];    // centre, half of the side, side of a texel: metres across the light
+uniform float roam_outdoors;
+#endif
 
-const vec3 sun = vec3(0.48, -0.36, 0.80);
 const vec3 ambient = vec3(0.245, 0.26, 0.29);
 const vec3 sky = vec3(0.15, 0.16, 0.18);
 const vec3 sunlight = vec3(0.36, 0.34, 0.31);
@@ -67,13 +77,59 @@ const float haze_reach = 10000.0;
 const float most_haze = 0.6;
 const float knee = 0.6;  // darker tones are kept
 
+#ifdef ROAM_SUN
+const vec3 day_ambient = vec3(0.25, 0.265, 0.30);
+const vec3 day_sky = vec3(0.19, 0.21, 0.25);
+const vec3 day_sun = vec3(0.58, 0.55, 0.48);
+const vec3 window_sun = vec3(0.45, 0.42, 0.36);
+const float round_by_day = 0.45;
+const float lamp_by_day = 0.2;
+
+// The share of the sun that a surface gets, from the finest map that has it; which that is is noisy at a map's border,
+// so that the border is not seen. The map is read from a point off the surface, so that no texel shadows itself. It is
+// read outside of all branches, because drivers without a card run every branch: the mean of four comparisons, each of
+// which the driver smooths over four texels.
+float sunlit(vec3 normal) {
+  const float texel = 0.5 / roam_sun_side;  // of a texture of 2 x 2 maps
+  const float off = 1.8, apart = 0.75;      // texels
+  vec3 at = (roam_sun_map * vec4(roam_place.xyz, 1.0)).xyz;
+  vec3 out_of = mat3(roam_sun_map) * (normal * mat3(osg_ViewMatrix));
+  float noise = fract(52.9829189 * fract(dot(gl_FragCoord.xy, vec2(0.06711056, 0.00583715))));
+  vec3 place = vec3(0.0);
+  float known = 0.0;
+  for (int i = ROAM_SUN - 1; i >= 0; --i) {
+    vec4 tile = roam_sun_tiles[i];
+    vec3 here = at + off * tile.w * out_of;
+    vec2 within = (here.xy - tile.xy) / tile.z;
+    vec2 corner = vec2(mod(float(i), 2.0), floor(0.5 * float(i)));
+    bool inside = max(abs(within.x), abs(within.y)) < 0.88 + 0.1 * noise;
+    place = inside ? vec3((0.5 * within + 0.5 + corner) * 0.5, here.z) : place;
+    known = inside ? 1.0 : known;
+  }
+  vec2 by = vec2(apart * texel, -apart * texel);
+  float light = shadow2D(roam_shadow, place + vec3(by.xx, 0.0)).r + shadow2D(roam_shadow, place + vec3(by.xy, 0.0)).r +
+                shadow2D(roam_shadow, place + vec3(by.yx, 0.0)).r + shadow2D(roam_shadow, place + vec3(by.yy, 0.0)).r;
+  return mix(roam_outdoors, 0.25 * light, known);
+}
+#endif
+
+// Without shadows the sun shines round every corner.
 vec3 lit(vec3 normal, vec3 view, float distance) {
   vec3 up = osg_ViewMatrix[2].xyz;
-  vec3 to_sun = mat3(osg_ViewMatrix) * sun;
+  float towards_sun = dot(normal, mat3(osg_ViewMatrix) * roam_sun);
   float fall_off = 1.0 / (1.0 + distance * distance / (lamp_reach * lamp_reach));
-  float towards_sun = 0.5 + 0.5 * dot(normal, to_sun);
-  return ambient + sky * (0.5 + 0.5 * dot(normal, up)) + sunlight * towards_sun * towards_sun +
-         lamp * dot(normal, view) * fall_off;
+  float round_corners = (0.5 + 0.5 * towards_sun) * (0.5 + 0.5 * towards_sun);
+  float above = 0.5 + 0.5 * dot(normal, up);
+  vec3 by_lamp = lamp * dot(normal, view) * fall_off;
+#ifdef ROAM_SUN
+  float day = roam_outdoors;
+  float shone = towards_sun > 0.0 ? sunlit(normal) : 0.0;
+  return mix(ambient, day_ambient, day) + mix(sky, day_sky, day) * above + by_lamp * mix(1.0, lamp_by_day, day) +
+         sunlight * round_corners * mix(1.0, round_by_day, day) +
+         mix(window_sun, day_sun, day) * max(towards_sun, 0.0) * shone;
+#else
+  return ambient + sky * above + sunlight * round_corners + by_lamp;
+#endif
 }
 
 vec3 toned(vec3 color) {
@@ -148,6 +204,13 @@ void main() {
 }
 )";
 
+/// The head of the fragment shader: the sun, and the side of a map of shadows.
+std::string sun_glsl() {
+  const Vec3 sun = sun_direction();
+  return "#version 120\nconst vec3 roam_sun = vec3(" + number_text(sun.x) + ", " + number_text(sun.y) + ", " +
+         number_text(sun.z) + ");\nconst float roam_sun_side = " + std::to_string(shadow_map_side) + ".0;\n";
+}
+
 osg::ref_ptr<osg::Program> make_program(const char* name, const std::string& vertex, const std::string& fragment) {
   osg::ref_ptr<osg::Program> program = new osg::Program;
   program->setName(name);
@@ -162,6 +225,8 @@ struct Nowhere : osg::Drawable::ComputeBoundingBoxCallback {
 };
 
 }  // namespace
+
+Vec3 sun_direction() { return {0.48, -0.36, 0.80}; }
 
 void apply(const Surface& surface, osg::StateSet& state) {
   if (surface.textured) state.setDefine(textured_define);
@@ -182,7 +247,7 @@ osg::ref_ptr<osg::Group> make_scene_group() {
   osg::ref_ptr<osg::Group> group = new osg::Group;
   group->setName("scene");
   osg::StateSet& state = *group->getOrCreateStateSet();
-  state.setAttribute(make_program("roam scene", std::string(depth_glsl()) + scene_vertex, scene_fragment));
+  state.setAttribute(make_program("roam scene", std::string(depth_glsl()) + scene_vertex, sun_glsl() + scene_fragment));
   state.addUniform(new osg::Uniform("roam_picture", 0));
   state.setMode(GL_CULL_FACE, osg::StateAttribute::OFF);
   return group;

@@ -4,8 +4,9 @@
 ///
 /// One program draws every scene: colour = vertex colour x texture, on both sides of every face. The light suits
 /// interiors: a soft lamp at the eye, a sky brighter than the ground, and a weak sun. So floor, walls and ceiling of
-/// one colour differ, and nothing is black. Photogrammetry (textured, without normals) is not lit, because its pictures
-/// contain light already. If the model has a wall twice with opposite normals, the side that faces the eye is visible.
+/// one colour differ, and nothing is black. Sun (sun.h) adds shadows, and light that suits the open. Photogrammetry
+/// (textured, without normals) is not lit, because its pictures contain light already. If the model has a wall twice
+/// with opposite normals, the side that faces the eye is visible.
 ///
 ///     osg::ref_ptr<osg::Group> scene = roam::graphics::make_scene_group();
 ///     frame.space()->addChild(roam::graphics::make_sky());
@@ -32,6 +33,12 @@ struct Surface {
   bool blended = false;           ///< over the background, by its opacity
   std::optional<float> cutoff{};  ///< pixels with a smaller opacity are not drawn
 };
+
+/// Towards the sun, of length 1.
+[[nodiscard]] Vec3 sun_direction();
+
+/// Texels along a side of one of the sun's maps of shadows.
+inline constexpr int shadow_map_side = 1024;
 
 /// Makes geometries below `state` look as `surface` says.
 void apply(const Surface& surface, osg::StateSet& state);

@@ -43,7 +43,7 @@ std::vector<std::array<Vec3, 3>> triangles_near(osg::Node& graph, const Body& bo
 }  // namespace
 
 Display::Display(Stage& stage, SceneGraph& scene, osgRoam::Manipulator& roamer, News& news, double fov)
-    : stage_(stage), scene_(scene), roamer_(roamer), news_(news), fov_(fov) {}
+    : stage_(stage), scene_(scene), roamer_(roamer), news_(news), fov_(fov), sun_(stage.frame(), scene.group()) {}
 
 void Display::watch(const StepReport& report, const Vec3& wish) {
   if (report.elapsed > 0.0) {
@@ -136,16 +136,31 @@ void Display::update(bool has_body, double room, graphics::Marks marks) {
     }
     marks.triangles = triangles_near(scene_.group(), walker.body(), place);
   }
+  light(has_body);
   stage_.overlay().set_marks(marks);
   show_labels(marks.labels);
 }
 
-/// Puts the labels to their places in the picture of the next frame.
-void Display::show_labels(const std::vector<graphics::LabelMark>& labels) {
+osg::Matrixd Display::view() const {
   osgViewer::Viewer& viewer = stage_.viewer();
   const auto* const leading = viewer.getCameraManipulator();
-  const osg::Matrixd view = leading != nullptr ? leading->getInverseMatrix() : viewer.getCamera()->getViewMatrix();
-  const osg::Matrixd projection = viewer.getCamera()->getProjectionMatrix();
+  return leading != nullptr ? leading->getInverseMatrix() : viewer.getCamera()->getViewMatrix();
+}
+
+void Display::light(bool has_body) {
+  // A coarse page would throw its shadow on the fine one that is seen.
+  sun_.set_shadows(!scene_.is_paged());
+  if (has_body) {
+    const Vec3 eye = osgRoam::to_roam(osg::Matrixd::inverse(view()).getTrans()) + scene_.origin();
+    sun_.set_outdoors(daylight_.follow(open_sky(roamer_.walker()->space(), eye), stage_.now() - lit_at_));
+  }
+  lit_at_ = stage_.now();
+}
+
+/// Puts the labels to their places in the picture of the next frame.
+void Display::show_labels(const std::vector<graphics::LabelMark>& labels) {
+  const osg::Matrixd view = this->view();
+  const osg::Matrixd projection = stage_.viewer().getCamera()->getProjectionMatrix();
   std::vector<graphics::HudLabel> shown;
   for (const graphics::LabelMark& label : labels) {
     const osg::Vec3d eye = osgRoam::to_osg(label.at) * view;

@@ -2,7 +2,9 @@
 /// \file
 /// Everything that a session shows besides the scene: head-up display, marks, overview before the body arrives.
 
+#include "graphics/sun.h"
 #include "osgRoam/Manipulator.h"
+#include "view/daylight.h"
 #include "view/news.h"
 #include "view/scene_graph.h"
 #include "view/stage.h"
@@ -38,8 +40,8 @@ class Display {
   /// The status shown last.
   [[nodiscard]] const Status& shown() const { return shown_; }
 
-  /// Call it in each frame: draws the `marks` of tools and its own, and fits the near plane to `room`, the eye's
-  /// distance from every wall (m).
+  /// Call it in each frame: draws the `marks` of tools and its own, fits the near plane to `room`, the eye's distance
+  /// from every wall (m), and the light to the sky that the eye sees.
   void update(bool has_body, double room, graphics::Marks marks);
   /// A pose from which the whole scene is visible.
   [[nodiscard]] Pose overview() const;
@@ -51,12 +53,18 @@ class Display {
  private:
   [[nodiscard]] double aspect() const;
   void show_labels(const std::vector<graphics::LabelMark>& labels);
+  void light(bool has_body);
+  /// The view matrix of the next frame.
+  [[nodiscard]] osg::Matrixd view() const;
 
   Stage& stage_;
   SceneGraph& scene_;
   osgRoam::Manipulator& roamer_;
   News& news_;
   double fov_;
+  graphics::Sun sun_;
+  Daylight daylight_;
+  double lit_at_ = 0.0;  ///< s
   Hold hold_;
   double speed_ = 0.0;  ///< m/s, mean speed of the body
   bool marks_ = false;

@@ -31,7 +31,7 @@ std::optional<DisplayReport> DisplayLoader::take_report() {
 }
 
 bool DisplayLoader::receive(const DisplayPart& part) {
-  DisplayNode ready{pages_->make(part), part.origin, part.bounds};
+  DisplayNode ready{pages_->make(part), part.origin, part.bounds, !part.pages.empty()};
   loading_.with_state([&](LoadState& state) {
     ready_.push_back(std::move(ready));
     state.triangles += part.triangles;

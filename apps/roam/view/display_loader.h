@@ -20,8 +20,9 @@ namespace roam::app {
 /// A piece of the scene, ready for the graph.
 struct DisplayNode {
   osg::ref_ptr<osg::Node> node;
-  Vec3 origin{0.0};  ///< the graph is scene - origin
-  Box bounds;        ///< in the scene's frame
+  Vec3 origin{0.0};    ///< the graph is scene - origin
+  Box bounds;          ///< in the scene's frame
+  bool paged = false;  ///< its detail depends on the eye
 };
 
 /// Reads in a thread and a reader process of its own, piece by piece.

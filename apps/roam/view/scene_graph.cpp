@@ -35,6 +35,7 @@ SceneGraph::~SceneGraph() {
 void SceneGraph::attach(DisplayNode&& piece) {
   if (pieces_++ == 0) origin_ = piece.origin;
   bounds_.include(piece.bounds);
+  paged_ = paged_ || piece.paged;
   if (compiler_ && !compiler_->getContextSet().empty()) {
     compiler_->add(new osgUtil::IncrementalCompileOperation::CompileSet(group_, piece.node));
   } else {

@@ -41,6 +41,8 @@ class SceneGraph {
   [[nodiscard]] const Vec3& origin() const { return origin_; }
   [[nodiscard]] osg::Group& group() { return *group_; }
   [[nodiscard]] bool has_pieces() const { return pieces_ > 0; }
+  /// Whether the detail of some piece depends on the eye.
+  [[nodiscard]] bool is_paged() const { return paged_; }
   /// Whether everything visible from here is in the graph. Call it once a frame: with pages, it is true after some
   /// frames without a new one.
   [[nodiscard]] bool is_complete();
@@ -63,6 +65,7 @@ class SceneGraph {
   Box bounds_;
   Vec3 origin_{0.0};
   std::uint64_t pieces_ = 0;
+  bool paged_ = false;
   std::uint64_t last_count_ = 0;  ///< count of page reads at the last is_complete()
   int quiet_frames_ = 0;
   std::optional<DisplayReport> report_;

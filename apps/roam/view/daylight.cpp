@@ -1,0 +1,35 @@
+#include "view/daylight.h"
+
+#include <cmath>
+#include <numbers>
+
+#include "view/surroundings.h"
+
+namespace roam::app {
+
+double open_sky(const Space& space, const Vec3& eye) {
+  constexpr int around = 8;
+  constexpr double steep = 0.96, flat = 0.61;  // radians above the horizon, in turns: 55 and 35 degrees
+  const double reach = sight(space, eye);
+  const auto is_open = [&](const Vec3& direction) {
+    const Impact hit = space.ray(eye, reach * direction);
+    return !hit.hit || hit.unknown;
+  };
+  int open = is_open({0.0, 0.0, 1.0}) ? 1 : 0;
+  for (int i = 0; i < around; ++i) {
+    open += is_open(gaze(2.0 * std::numbers::pi * i / around, i % 2 == 0 ? steep : flat)) ? 1 : 0;
+  }
+  return static_cast<double>(open) / (around + 1);
+}
+
+double Daylight::follow(double sky, double seconds) {
+  constexpr double time = 0.5;  // s
+  if (share_ < 0.0) {
+    share_ = sky;
+  } else {
+    share_ += (1.0 - std::exp(-seconds / time)) * (sky - share_);
+  }
+  return share_;
+}
+
+}  // namespace roam::app
