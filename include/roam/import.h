@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Import of scene files: triangles out of OBJ, PLY, STL, glTF, FBX, IFC, OpenSceneGraph files and more.
+/// Import of scene files: triangles out of OBJ, PLY, STL, glTF, 3D Tiles, FBX, IFC, OpenSceneGraph files and more.
 ///
 ///     const roam::ImportedScene scene = roam::import_scene("mine.dae");
 ///     const roam::World world = roam::World::build(scene.meshes);
@@ -14,8 +14,9 @@
 /// running program; in `../libexec/roam` from there; in the folder of its installation; in `../libexec/roam` from the
 /// folders of PATH.
 ///
-/// Coordinates are those of the file, except that glTF is turned from y up to z up, and that a second folder of
-/// photogrammetry tiles is shifted into the frame of the first by their SRSOrigins. ImportOptions can turn and scale.
+/// Coordinates are those of the file, except that glTF is turned from y up to z up, a second folder of photogrammetry
+/// tiles is shifted into the frame of the first by their SRSOrigins, and Earth-centred 3D Tiles are moved to a local
+/// frame. ImportOptions can turn and scale.
 
 #include <cstdint>
 #include <filesystem>
@@ -74,7 +75,7 @@ struct LeftOutObject {
 };
 
 /// Place of the scene on the Earth: position in `srs` = position in the scene + origin. From metadata.xml of the first
-/// folder of tiles.
+/// folder of tiles, or the local frame of the first Earth-centred tileset.
 struct Georeference {
   std::string srs;  ///< spatial reference system, e.g. "EPSG:32632" or "ENU:46.2,8.1"
   Vec3 origin{0.0};
@@ -149,12 +150,14 @@ inline constexpr std::uint64_t piece_triangles = 65'536;
 ImportReport stream_scene(std::span<const std::filesystem::path> paths, const ImportOptions& options,
                           const PieceSink& sink);
 
-/// A part of a scene that can be read alone: a file, or one tile (Data/Tile_x/Tile_x.osgb and its pages) of a folder of
-/// photogrammetry. All parts in order are the scene.
+/// A part of a scene that can be read alone: a file, one tile (Data/Tile_x/Tile_x.osgb and its pages) of a folder of
+/// photogrammetry, or the content of one tile of 3D Tiles. A tileset's first part has no triangles, only what its
+/// report says of the tileset as a whole. All parts in order are the scene.
 struct ScenePart {
   std::string name;                     ///< unique; does not depend on where the scene lies; UTF-8, other bytes as %XX
   std::filesystem::path path;           ///< as passed to scene_parts
-  std::string tile;                     ///< name of the tile in its folder; empty for a file
+  std::string tile;                     ///< name of the tile in its folder, or its place in its tileset; empty for a
+                                        ///< file
   std::optional<Georeference> frame{};  ///< of the first folder, into which this part is placed
   /// Files of the part: absolute, sorted. For a file that file; it may refer to others. For a tile all files of its
   /// folder, then metadata.xml; empty if the tile is missing.
@@ -163,8 +166,9 @@ struct ScenePart {
 };
 
 /// The parts of a scene, in the order of the paths. Within a folder, tiles whose root is missing come first, then the
-/// others by name. Reads folders and metadata.xml, but no scene file. Throws roam::Error for missing paths, unknown
-/// formats and folders in different reference systems; roam::Cancelled if `progress` returns false.
+/// others by name. Reads folders, metadata.xml, tilesets and subtrees, but no other scene file. Throws roam::Error for
+/// missing paths, unknown formats and folders in different reference systems; roam::Cancelled if `progress` returns
+/// false.
 [[nodiscard]] std::vector<ScenePart> scene_parts(std::span<const std::filesystem::path> paths,
                                                  const ImportOptions& options = {});
 

@@ -219,9 +219,7 @@ TEST(ImportRealScenes, LoadSeveralIntoOne) {
 TEST(ImportRealScenes, ThatNoReaderKnowsYetSaySo) {
   ROAM_NEEDS_TEST_DATA();
   EXPECT_TRUE(contains(import_error(test_data() / "terrain/mt_rainier_90m.tif"), "elevation rasters are not read yet"));
-  EXPECT_TRUE(
-      contains(import_error(test_data() / "pit_3dtiles/tileset.json"), "3D Tiles and CityJSON are not read yet"));
-  EXPECT_TRUE(contains(import_error(test_data() / "city/delft.city.json"), "3D Tiles and CityJSON are not read yet"));
+  EXPECT_TRUE(contains(import_error(test_data() / "city/delft.city.json"), "CityJSON is not read yet"));
   // IFC4x3 is newer than assimp's reader; one of these kills it.
   EXPECT_TRUE(contains(import_error(test_data() / "bim/Tin-1.ifc"), "made its reader "));
   EXPECT_TRUE(contains(import_error(test_data() / "bim/UT-Earthworks-01.ifc"), "assimp cannot read this file"));
