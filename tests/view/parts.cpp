@@ -26,7 +26,7 @@ TEST(ViewSettings, TakeEveryEntry) {
     // comments are allowed
     "keys": {"forward": ["Z", "Up"], "jump": "Space"}, "mouse": {"sensitivity": 2, "invert_y": true},
     "body": {"radius": 0.2, "height": 1.6, "eye": 1.4, "step": 0.2, "slope": 30},
-    "speed": 3, "easing": 0, "fov": 80, "hud": "minimal"})"));
+    "speed": 3, "easing": 0, "fov": 80, "hud": "minimal", "picture_scale": 4})"));
   EXPECT_EQ(s.keys.at("forward"), (std::vector<std::string>{"Z", "Up"}));
   EXPECT_EQ(s.keys.at("jump"), std::vector<std::string>{"Space"});
   EXPECT_EQ(s.sensitivity, 2.0);
@@ -40,6 +40,7 @@ TEST(ViewSettings, TakeEveryEntry) {
   EXPECT_EQ(s.easing, 0.0);
   EXPECT_EQ(s.fov, 80.0);
   EXPECT_EQ(s.hud, HudMode::minimal);
+  EXPECT_EQ(s.picture_scale, 4.0);
 }
 
 TEST(ViewSettings, NameFileAndEntryOfWhatIsWrong) {
@@ -224,9 +225,24 @@ TEST(ViewPlan, RefusesNamesOfNoPictureAndOfNoFilm) {
   EXPECT_TRUE(contains(error(), "--screenshot shot.xyz: a picture's name ends in .png, .jpg or .jpeg")) << error();
   options.screenshot = "shot.PNG";
   options.record = "film.avi";
-  EXPECT_TRUE(contains(error(), "--record film.avi: a film's name ends in .mp4")) << error();
+  EXPECT_TRUE(contains(error(), "--record film.avi: a film's name ends in .mp4, .webm, .gif or .webp")) << error();
   options.record = "film.mp4";
   EXPECT_EQ(error(), "");
+}
+
+TEST(ViewPlan, FilmsAtARateThatTheFormatAndTheStepsAllow) {
+  ViewOptions options;
+  const auto rate = [&](const char* file, std::optional<int> asked) {
+    options.record = file;
+    options.film_rate = asked;
+    return make_plan(options, {}).film_rate;
+  };
+  EXPECT_EQ(rate("film.mp4", {}), 30);
+  EXPECT_EQ(rate("film.GIF", {}), 20);
+  EXPECT_EQ(rate("film.webm", 60), 60);
+  EXPECT_EQ(rate("film.gif", 10), 10);
+  EXPECT_TRUE(contains(error_of([&] { rate("film.mp4", 25); }), "--fps 25: take 60, 30, 20"));
+  EXPECT_TRUE(contains(error_of([&] { rate("film.gif", 30); }), "hundredths of a second: take 20 or 10"));
 }
 
 TEST(ViewPlan, RefusesPlacesThatAreNotWritten) {

@@ -5,45 +5,9 @@
 #include <filesystem>
 #include <thread>
 
-#include "view_scenes.h"
+#include "view_program.h"
 
 namespace {
-
-struct View {
-  TestFolder folder;
-  std::string scene;
-  ProgramResult result;
-  double seconds = 0.0;
-
-  explicit View(const std::string& text = room_obj()) : scene(folder.write("scene.obj", text)) {
-    use_no_settings(folder);
-    unsetenv("ROAM_READER");
-  }
-  View& run(const std::vector<std::string>& more, const ProgramOptions& options = {}) {
-    std::vector<std::string> arguments{"view", scene};
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    const auto start = std::chrono::steady_clock::now();
-    result = run_program(ROAM_PROGRAM, arguments, options);
-    seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    return *this;
-  }
-  /// The same, without a screen, small, with the report.
-  View& shot(const std::vector<std::string>& more) {
-    std::vector<std::string> arguments{"--headless", "--size",       "320x200",
-                                       "--json",     "--screenshot", folder.file("shot.png")};
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    return run(arguments);
-  }
-  [[nodiscard]] nlohmann::json json() const { return nlohmann::json::parse(result.out, nullptr, false); }
-  [[nodiscard]] Shot picture() const { return Shot(folder.file("shot.png")); }
-
-  /// A reader that does something else; `$0.real` is the true one.
-  void set_reader(const std::string& script) const {
-    const std::string file = folder.write("reader", "#!/bin/sh\nreal='" ROAM_READER_PROGRAM "'\n" + script);
-    ::chmod(file.c_str(), 0755);
-    setenv("ROAM_READER", file.c_str(), 1);
-  }
-};
 
 // ------------------------------------------------------------------------------------------------------- pictures
 
@@ -63,6 +27,21 @@ TEST(ViewPicture, ShowsASceneHigherThanAMotion) {
   for (const std::vector<std::string>& start : {std::vector<std::string>{}, {"--at", "5,5,1.9e6"}}) {
     view.shot(start);
     EXPECT_EQ(view.result.status, 0) << view.result.err;
+  }
+}
+
+TEST(ViewPicture, IsAsLargeAsAskedFor) {
+  View view;
+  view.run({"--headless", "--size", "5000x2000", "--json", "--at", "2,0,0.95,0", "--screenshot",
+            view.folder.file("large.png")});
+  ASSERT_EQ(view.result.status, 0) << view.result.err;
+  const Shot large(view.folder.file("large.png"));
+  EXPECT_EQ(large.width(), 5000);
+  EXPECT_EQ(large.height(), 2000);
+  view.run({"--headless", "--size", "500x200", "--at", "2,0,0.95,0", "--screenshot", view.folder.file("small.png")});
+  const Shot small(view.folder.file("small.png"));
+  for (const int x : {50, 250, 450}) {
+    for (const int y : {20, 100, 180}) EXPECT_LT((large.at(10 * x, 10 * y) - small.at(x, y)).length(), 0.1f) << x << y;
   }
 }
 
@@ -184,20 +163,6 @@ TEST(ViewPath, IsRecordedAndCanBeGoneAgain) {
   view.run({"--headless", "--path", view.folder.file("again.path"), "--json"});
   EXPECT_EQ(view.result.status, 0) << view.result.err;
   EXPECT_NEAR(view.json()["length_m"], first["length_m"], 0.1);
-}
-
-TEST(ViewPath, IsFilmed) {
-  View view;
-  const std::string path = view.folder.write("p.path", "2 0 0.3\n4.8 0 0.3\n");
-  view.run({"--headless", "--size", "160x96", "--path", path, "--record", view.folder.file("film.mp4")});
-  ASSERT_EQ(view.result.status, 0) << view.result.err;
-  const ProgramResult probe =
-      run_program("/usr/bin/ffprobe", {"-v", "error", "-show_entries", "stream=width,height:format=duration", "-of",
-                                       "default=noprint_wrappers=1", view.folder.file("film.mp4")});
-  EXPECT_TRUE(contains(probe.out, "width=160")) << probe.out << probe.err;
-  EXPECT_TRUE(contains(probe.out, "height=96"));
-  const double seconds = std::stod(probe.out.substr(probe.out.find("duration=") + 9));
-  EXPECT_NEAR(seconds, 2.0, 0.2);  // 2.8 m at 1.4 m/s
 }
 
 // -------------------------------------------------------------------------------------- usage, settings, bookmarks

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "cli/histogram.h"
 #include "messages.h"
 #include "view/commands.h"
@@ -80,6 +82,17 @@ TEST(Status, SaysModeSpeedBodyAndPlace) {
   for (const char* part : {"walk  1.4 m/s", "radius 0.30 m, height 1.80 m", "1.00, 2.00, 3.46", "1.97 M"}) {
     EXPECT_TRUE(contains(text, part)) << part << " in\n" << text;
   }
+}
+
+TEST(Status, SaysWhereTheFeetAreOnTheEarth) {
+  Status status;
+  status.mode = Mode::walk;
+  status.around.feet = {1.0, 2.0, 3.456};
+  status.georeference = Georeference{"EPSG:32632", {512'000.25, 5'403'000.0, 400.0}};
+  const auto lines = status_lines(status);
+  const auto site = std::find_if(lines.begin(), lines.end(), [](const StatusText& l) { return l.label == "site"; });
+  ASSERT_NE(site, lines.end());
+  EXPECT_EQ(site->value, "512001.25, 5403002.00, 403.46 EPSG:32632");
 }
 
 TEST(Status, LeavesFiguresForProgrammersToTheFullDisplay) {

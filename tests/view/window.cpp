@@ -188,6 +188,21 @@ TEST(ViewWindow, WritesPicturesWithoutTheDisplayUnlessAsked) {
   w.end();
 }
 
+TEST(ViewWindow, WritesPicturesLargerThanItself) {
+  Window w({"--at", "2,0,0.95,0", "--picture-scale", "4"});
+  xdo("key p");
+  ASSERT_TRUE(eventually([&] { return std::filesystem::exists(w.folder.file("roam-1.png")); }));
+  const Shot large(w.folder.file("roam-1.png"));
+  EXPECT_EQ(large.width(), 1280);
+  EXPECT_EQ(large.height(), 800);
+  xdo("key ctrl+p");
+  ASSERT_TRUE(eventually([&] { return std::filesystem::exists(w.folder.file("roam-2.png")); }));
+  const Shot window(w.folder.file("roam-2.png"));
+  EXPECT_EQ(window.width(), 320);
+  EXPECT_LT((large.at(1200, 500) - window.at(300, 125)).length(), 0.1f);
+  w.end();
+}
+
 TEST(ViewWindow, ShowsItsMenuByTheMouseAlone) {
   Window w({"--at", "2,0,0.95,0"});
   xdo("search --name '^roam: ' mousemove --window %1 25 160 click 1");

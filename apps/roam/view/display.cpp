@@ -179,8 +179,7 @@ Pose Display::overview() const {
   return app::overview(scene_.bounds(), std::min(fov_, across));
 }
 
-void Display::look_from_above() {
-  const Pose pose = overview();
+void Display::look_from(const Pose& pose) {
   const Vec3 ahead = gaze(glm::radians(pose.yaw), glm::radians(pose.pitch));
   const osg::Vec3d from = osgRoam::to_osg(pose.position - scene_.origin());
   stage_.viewer().getCamera()->setViewMatrixAsLookAt(from, from + osgRoam::to_osg(ahead), osg::Vec3d(0, 0, 1));

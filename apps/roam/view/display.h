@@ -46,12 +46,15 @@ class Display {
   /// A pose from which the whole scene is visible.
   [[nodiscard]] Pose overview() const;
   /// Moves the camera to overview().
-  void look_from_above();
+  void look_from_above() { look_from(overview()); }
+  /// Moves the camera. Degrees.
+  void look_from(const Pose& pose);
+  /// Width divided by height of the picture.
+  [[nodiscard]] double aspect() const;
 
   void fill(ViewReport& report);
 
  private:
-  [[nodiscard]] double aspect() const;
   void show_labels(const std::vector<graphics::LabelMark>& labels);
   void light(bool has_body);
   /// The view matrix of the next frame.

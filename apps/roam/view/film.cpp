@@ -1,5 +1,6 @@
 #include "view/film.h"
 
+#include <cmath>
 #include <mutex>
 #include <optional>
 
@@ -14,16 +15,23 @@ struct Film::State {
   std::string problem;
 };
 
-Film::Film(graphics::Frame& frame, const std::filesystem::path& path)
-    : frame_(frame), path_(path), state_(std::make_shared<State>()) {
+Film::Film(graphics::Frame& frame, const std::filesystem::path& path, int rate)
+    : frame_(frame), path_(path), rate_(rate), state_(std::make_shared<State>()) {
   state_->width = frame.width();
   state_->height = frame.height();
-  state_->video.emplace(path, state_->width, state_->height, frames_per_second);
+  state_->video.emplace(path, state_->width, state_->height, rate);
 }
+
+/// The picture of the film that is shown at this time.
+std::int64_t Film::index(double seconds) const {
+  return static_cast<std::int64_t>(std::floor((seconds - begin_) * rate_ + graphics::Video::time_rounding));
+}
+
+bool Film::is_due(double seconds) const { return begin_ < 0.0 || index(seconds) >= next_; }
 
 void Film::before_frame(double seconds) {
   if (begin_ < 0.0) begin_ = seconds;
-  next_ = seconds + 1.0 / frames_per_second;
+  next_ = index(seconds) + 1;
   const auto add = [state = state_, time = seconds - begin_](osg::ref_ptr<osg::Image> image) {
     const std::lock_guard lock(state->mutex);
     if (!state->video || !state->problem.empty()) return;

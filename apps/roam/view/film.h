@@ -2,6 +2,7 @@
 /// \file
 /// Recorder of a film of the frames: `roam view --record`.
 
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -13,16 +14,15 @@ namespace roam::app {
 
 class Film {
  public:
-  static constexpr int frames_per_second = 30;
-
-  /// Throws roam::Error if films cannot be made; see graphics::Video.
-  Film(graphics::Frame& frame, const std::filesystem::path& path);
+  /// `rate`: pictures a second. Throws roam::Error if films cannot be made; see graphics::Video.
+  Film(graphics::Frame& frame, const std::filesystem::path& path, int rate);
 
   /// Call it before a frame is drawn: captures the frame if one is due. `seconds`: since the session began, never
   /// decreasing.
   void before_frame(double seconds);
-  /// Whether before_frame() would capture a frame at this time.
-  [[nodiscard]] bool is_due(double seconds) const { return seconds >= next_; }
+  /// Whether before_frame() would capture a frame at this time. Pictures are due at multiples of 1 / rate after the
+  /// first.
+  [[nodiscard]] bool is_due(double seconds) const;
   /// Why the film has stopped, for display; empty while it runs.
   [[nodiscard]] std::string problem() const;
   /// Ends the film and gives the file its name. Throws roam::Error if the film could not be written.
@@ -31,11 +31,14 @@ class Film {
 
  private:
   struct State;
+  [[nodiscard]] std::int64_t index(double seconds) const;
+
   graphics::Frame& frame_;
   std::filesystem::path path_;
+  int rate_;
   std::shared_ptr<State> state_;  ///< shared with frames still being drawn
   double begin_ = -1.0;
-  double next_ = 0.0;
+  std::int64_t next_ = 0;  ///< the picture that is due next
 };
 
 }  // namespace roam::app

@@ -15,6 +15,7 @@
 #include "cli/standard_streams.h"
 #include "cli/values.h"
 #include "files/extension.h"
+#include "graphics/capture.h"
 #include "roam/error.h"
 #include "roam/route.h"
 #include "roam/store.h"
@@ -92,9 +93,23 @@ void check_kinds(const ViewOptions& options) {
   if (!options.screenshot.empty() && !ends_in(options.screenshot, {".png", ".jpg", ".jpeg"})) {
     throw UsageError("--screenshot " + options.screenshot.string(), "a picture's name ends in .png, .jpg or .jpeg");
   }
-  if (!options.record.empty() && options.record.extension() != ".mp4") {
-    throw UsageError("--record " + options.record.string(), "a film's name ends in .mp4");
+  if (!options.record.empty() && !graphics::Video::is_film(options.record)) {
+    throw UsageError("--record " + options.record.string(), "a film's name ends in .mp4, .webm, .gif or .webp");
   }
+}
+
+/// The film's pictures a second. Headless frames are 1/60 s: other rates would jerk.
+int film_rate(const ViewOptions& options) {
+  if (!options.film_rate) return graphics::Video::usual_rate(options.record);
+  const int rate = *options.film_rate;
+  if (60 % rate != 0) {
+    throw UsageError(fmt::format("--fps {}", rate), "take 60, 30, 20, 15, 12 or 10, which divide 60");
+  }
+  if (files::lower_extension(options.record) == ".gif" && 100 % rate != 0) {
+    throw UsageError(fmt::format("--fps {} with --record {}", rate, options.record.string()),
+                     "the pictures of a GIF last hundredths of a second: take 20 or 10");
+  }
+  return rate;
 }
 
 /// Refuses outputs that would overwrite an input or another output, or whose folder does not exist.
@@ -199,6 +214,10 @@ void ViewOptions::add_to(CLI::App& verb) {
           "Drawing: auto, full, light or plain (default: auto: full; plain in a window without a graphics card)")
       ->check(one_of({quality_names.begin(), quality_names.end()}))
       ->type_name("Q");
+  verb.add_option("--picture-scale", picture_scale,
+                  "The key P writes pictures N times as wide and high as the window (default: 1)")
+      ->check(from_to(1.0, largest_picture_scale))
+      ->type_name("N");
   verb.add_option(
           "--section", section,
           "Show only this side of a plane, to look into buildings: 'z<2.5', 'x>10'; may be repeated. The body still "
@@ -215,7 +234,22 @@ void ViewOptions::add_to(CLI::App& verb) {
   verb.add_option("--screenshot", screenshot,
                   "Write a picture (.png, .jpg) without the display when all is loaded or the path ends, and end")
       ->type_name("FILE");
-  verb.add_option("--record", record, "Write a film (.mp4) of the session; needs ffmpeg")->type_name("FILE");
+  auto* film =
+      verb.add_option("--record", record, "Write a film (.mp4, .webm, .gif, .webp) of the session; needs ffmpeg")
+          ->type_name("FILE");
+  verb.add_option("--turntable", turntable,
+                  "Film the scene from outside, turning once in S seconds, without the display, and end")
+      ->needs(film)
+      ->excludes(replay)
+      ->excludes(from)
+      ->excludes("--bookmark")
+      ->excludes("--time")
+      ->check(from_to(1.0, 600.0))
+      ->type_name("S");
+  verb.add_option("--fps", film_rate, "Pictures a second of the film: 60, 30, 20, 15, 12 or 10 (default: 30; .gif 20)")
+      ->needs(film)
+      ->check(from_to(10, 60))
+      ->type_name("N");
   verb.add_option("--record-path", record_path, "Write the way as a path file, as the key R does")->type_name("FILE");
   verb.add_option("--trace", trace, "Write every step to this CSV file (-: standard output)")->type_name("FILE");
   verb.add_flag("--verify", verify, "At the end, check every move against all triangles, without the index");
@@ -252,12 +286,15 @@ ViewPlan make_plan(const ViewOptions& options, const ViewSettings& settings,
   plan.easing = settings.easing.value_or(plan.easing);
   plan.hud = options.hud ? parse_hud_mode(*options.hud).value_or(plan.hud) : settings.hud.value_or(plan.hud);
   plan.quality = options.quality.value_or(settings.quality.value_or(plan.quality));
+  plan.picture_scale = options.picture_scale.value_or(settings.picture_scale.value_or(plan.picture_scale));
   plan.edges = settings.edges.value_or(plan.edges);
   for (const std::string& text : options.section) plan.section.push_back(parse_section(text));
   if (plan.section.size() > graphics::most_section_planes) {
     throw UsageError("--section", fmt::format("there are at most {}", graphics::most_section_planes));
   }
   const auto [width, height] = parse_size(options.size);
+  plan.film_rate = app::film_rate(options);
+  if (options.turntable && !options.hud) plan.hud = HudMode::off;
   plan.width = width;
   plan.height = height;
   if (!options.at.empty()) {
@@ -280,9 +317,11 @@ ViewPlan make_plan(const ViewOptions& options, const ViewSettings& settings,
   if (options.verify && plan.mode == Mode::ghost) {
     throw UsageError("--verify with --mode ghost", "a ghost passes through walls, so there is nothing to verify");
   }
-  const bool ends = !options.path.empty() || !options.screenshot.empty() || options.time_limit > 0.0;
+  const bool ends =
+      !options.path.empty() || !options.screenshot.empty() || options.time_limit > 0.0 || options.turntable;
   if (options.headless && !ends) {
-    throw UsageError("--headless", "without a screen nobody can roam; give it a --path, a --screenshot or a --time");
+    throw UsageError("--headless",
+                     "without a screen nobody can roam; give it a --path, a --screenshot, a --turntable or a --time");
   }
   return plan;
 }

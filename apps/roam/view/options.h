@@ -29,7 +29,7 @@ struct ViewOptions {
   std::filesystem::path store;  ///< empty: search beside the scene
   std::optional<std::string> mode;
   BodyOptions body;
-  std::optional<double> speed, fov;
+  std::optional<double> speed, fov, picture_scale;
   std::string size = "1280x720";
   bool fullscreen = false;
   std::vector<double> at;  ///< x, y, z, perhaps yaw, perhaps pitch
@@ -39,7 +39,9 @@ struct ViewOptions {
   double dt = 1.0 / 60.0;
   std::filesystem::path screenshot, record, record_path, trace, settings;
   std::optional<std::string> hud, quality;
-  double time_limit = 0.0;  ///< seconds after the body's arrival; 0: no limit
+  std::optional<double> turntable;  ///< seconds
+  std::optional<int> film_rate;     ///< pictures a second
+  double time_limit = 0.0;          ///< seconds after the body's arrival; 0: no limit
   bool headless = false;
   bool verify = false;
   bool json = false;
@@ -63,8 +65,10 @@ struct ViewPlan {
   HudMode hud = HudMode::plain;
   std::string quality = "auto";  ///< one of quality_names
   bool edges = true;
+  double picture_scale = 1.0;  ///< of the pictures of the key P, times the window
   std::vector<graphics::SectionPlane> section;
   int width = 0, height = 0;   ///< pixels
+  int film_rate = 30;          ///< pictures a second
   std::vector<Waypoint> path;  ///< of --path; make_plan leaves it empty
   std::optional<Pose> at;
   std::string note;  ///< a sentence for the person; may be empty

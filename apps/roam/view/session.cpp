@@ -13,6 +13,7 @@
 #include "view/body.h"
 #include "view/menu.h"
 #include "view/session_handler.h"
+#include "view/turntable.h"
 
 namespace roam::app {
 namespace {
@@ -85,7 +86,8 @@ Session::Session(const ViewOptions& options, const ViewPlan& plan, const ViewSet
   // SessionHandler handles Escape; the viewer would end before any other use of the key.
   stage_.viewer().setKeyEventSetsDone(0);
   show_keys();
-  if (!stage_.headless() && plan_.path.empty()) stage_.hint(first_hint(roamer_->controls()));
+  stage_.hold_film(options_.turntable.has_value());
+  if (!stage_.headless() && plan_.path.empty() && !options_.turntable) stage_.hint(first_hint(roamer_->controls()));
 }
 
 Session::~Session() {
@@ -102,7 +104,7 @@ bool Session::frame() {
     enter();
   }
   see_to_store();
-  const double passed = stage_.advance(roaming() && (!replay_ || is_replaying()));
+  const double passed = stage_.advance(runs());
   news_.set_time(stage_.now());
 
   arrival_.fly_without_ground();
@@ -116,7 +118,10 @@ bool Session::frame() {
     if (replay_) replay_->look(*roamer_, passed);
     if (roamer_->steps() > 0) log_.take_frame(roamer_->collisionNanoseconds(), roamer_->collisionOwnNanoseconds());
     records_.add_frame(stage_.now());
-  } else {
+  }
+  if (options_.turntable) {
+    turn_around();
+  } else if (!roaming()) {
     display_.look_from_above();
   }
   display_.tell_news();
@@ -124,7 +129,8 @@ bool Session::frame() {
   const bool last = at_end && (options_.screenshot.empty() || scene_.is_complete());
   show(last);
   if (!last) {
-    stage_.draw_if_seen(at_end);
+    load_pages_of_film();
+    stage_.draw_if_seen(at_end || (options_.turntable && !turning_at_));
   } else if (!options_.screenshot.empty()) {
     stage_.draw_picture(options_.screenshot, options_.hud.has_value());
   }
@@ -146,12 +152,40 @@ void Session::enter() {
   roamer_->setStepCallback([this](const StepReport& report, double seconds) { step_taken(report, seconds); });
   if (plan_.path.empty()) step_taken(roamer_->report(), 0.0);
   cameras_->setNode(stage_.frame().root());
-  stage_.viewer().setCameraManipulator(cameras_, false);
+  if (!options_.turntable) stage_.viewer().setCameraManipulator(cameras_, false);
   if (!options_.record_path.empty()) records_.record(options_.record_path);
   if (plan_.path.empty()) return;
   // The path leads at once, and finds missing ground itself, as in `roam walk`.
   replay_.emplace(*roamer_->walker(), plan_.path, RouteOptions{.speed = plan_.walker.speed, .dt = options_.dt});
   replay_->lead(*roamer_);
+}
+
+/// Whether time goes on for what the session is for.
+bool Session::runs() const {
+  if (options_.turntable) return turning_at_.has_value();
+  return roaming() && (!replay_ || is_replaying());
+}
+
+/// Turns the camera, as soon as everything is to be seen.
+void Session::turn_around() {
+  if (!turning_at_ && roaming() && scene_.is_complete()) {
+    turning_at_ = stage_.now();
+    stage_.hold_film(false);
+  }
+  const double share = turning_at_ ? (stage_.now() - *turning_at_) / *options_.turntable : 0.0;
+  display_.look_from(on_turntable(scene_.bounds(), plan_.fov, display_.aspect(), share));
+}
+
+/// A film without a screen is made faster or slower than time goes by, so pages are waited for.
+void Session::load_pages_of_film() {
+  if (!stage_.headless() || !stage_.is_filmed() || !runs() || !scene_.report() || !scene_.report()->paged) return;
+  stage_.hold_film(true);
+  do {
+    stop_if_interrupted();
+    stage_.draw_if_seen(true);
+    scene_.update();
+  } while (!scene_.is_complete());
+  stage_.hold_film(false);
 }
 
 void Session::step_taken(const StepReport& report, double seconds) {
@@ -255,6 +289,10 @@ void Session::show_keys() {
 bool Session::is_at_its_end() const {
   if (!roaming()) return false;
   if (replay_) return replay_->done();
+  if (options_.turntable) {
+    constexpr double rounding = 1e-6;  // s
+    return turning_at_ && stage_.now() - *turning_at_ >= *options_.turntable - rounding;
+  }
   if (options_.time_limit > 0.0) return stage_.now() - placed_at_ >= options_.time_limit;
   return !options_.screenshot.empty();
 }
@@ -269,6 +307,10 @@ void Session::show(bool at_once) {
   arrival_.note_failures(stage_.now());
   Status status = display_.status(roaming());
   if (roaming() && !roamer_leads()) status.camera = cameras_->present();
+  // It is said of the file's own frame.
+  if (scene_.report() && frame_of(what_.scene) == SceneFrame{}) {
+    status.georeference = scene_.report()->import.georeference;
+  }
   arrival_.fill(status);
   building_.fill(status);
   records_.fill(status);

@@ -78,12 +78,15 @@ class Session {
   /// Whether the body is in the scene, led by the person or the path.
   [[nodiscard]] bool roaming() const { return arrival_.is_placed(); }
   /// Whether the body's camera receives the keys.
-  [[nodiscard]] bool roamer_leads() const { return roaming() && cameras_->leads(*roamer_); }
+  [[nodiscard]] bool roamer_leads() const { return roaming() && !options_.turntable && cameras_->leads(*roamer_); }
 
  private:
   void enter();
   void step_taken(const StepReport& report, double seconds);
   void see_to_store();
+  [[nodiscard]] bool runs() const;
+  void turn_around();
+  void load_pages_of_film();
   void show_keys();
   void turn();
   void name_bookmark();
@@ -114,7 +117,8 @@ class Session {
   StoreBuilding building_;
   std::optional<Learning> learning_;
   std::optional<Replay> replay_;
-  double placed_at_ = 0.0;  ///< s since the session began
+  double placed_at_ = 0.0;            ///< s since the session began
+  std::optional<double> turning_at_;  ///< s since the session began, of the turntable's start
   bool quits_ = false;
   std::optional<NextSession> next_;
 };

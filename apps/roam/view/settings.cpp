@@ -161,6 +161,7 @@ ViewSettings read_settings(const std::filesystem::path& file) {
     settings.quality = quality->get<std::string>();
   }
   settings.edges = all.flag("edges");
+  settings.picture_scale = all.number("picture_scale", 1.0, largest_picture_scale);
   all.end();
   return settings;
 }

@@ -13,7 +13,8 @@
 ///       "fov": 65,
 ///       "hud": "plain",
 ///       "quality": "auto",
-///       "edges": true
+///       "edges": true,
+///       "picture_scale": 2
 ///     }
 
 #include <array>
@@ -44,8 +45,9 @@ struct ViewSettings {
   std::optional<double> easing;                          ///< seconds to full speed and to rest, >= 0
   std::optional<double> fov;                             ///< degrees, vertical
   std::optional<HudMode> hud;
-  std::optional<std::string> quality;  ///< see quality_names
-  std::optional<bool> edges;           ///< thin lines along outlines
+  std::optional<std::string> quality;   ///< see quality_names
+  std::optional<bool> edges;            ///< thin lines along outlines
+  std::optional<double> picture_scale;  ///< of the pictures of the key P, times the window
 };
 
 /// The qualities of drawing. auto: plain in a window without a graphics card, else full. The others as
@@ -55,6 +57,7 @@ inline constexpr std::array<const char*, 4> quality_names{"auto", "full", "light
 /// Range of the field of view, degrees.
 inline constexpr double least_fov = 10.0;
 inline constexpr double largest_fov = 150.0;
+inline constexpr double largest_picture_scale = 16.0;
 
 /// The folder of settings and bookmarks: $XDG_CONFIG_HOME/roam, else ~/.config/roam. Empty if neither variable is set.
 [[nodiscard]] std::filesystem::path settings_folder();

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <iterator>
 #include <sstream>
@@ -11,6 +12,8 @@
 #include <thread>
 #include <utility>
 
+#include "cli/interrupt.h"
+#include "graphics/large_picture.h"
 #include "graphics/lettering.h"
 #include "osg_plugins/plugins.h"
 #include "roam/error.h"
@@ -33,11 +36,25 @@ void load_plugins() {
   graphics::load_fonts();
 }
 
+/// The size of a screenshot that is drawn in tiles; the window has its shape and is smaller.
+std::optional<std::array<int, 2>> large_size(const ViewOptions& options, const ViewPlan& plan) {
+  const bool alone = !options.screenshot.empty() && options.record.empty() && !options.hud;
+  if (!alone || graphics::is_drawn_at_once(plan.width, plan.height)) return std::nullopt;
+  return std::array{plan.width, plan.height};
+}
+
 graphics::Context open(const ViewOptions& options, const ViewPlan& plan) {
   load_plugins();
-  if (options.headless) return graphics::open_headless(plan.width, plan.height);
-  std::string title = "roam: " + options.scene.names();
-  return graphics::open_window(title, plan.width, plan.height);
+  int width = plan.width, height = plan.height;
+  if (large_size(options, plan)) {
+    constexpr double side = 1280.0;  // pixels
+    const double scale = side / std::max(width, height);
+    const auto scaled = [&](int length) { return std::max(1, static_cast<int>(std::lround(scale * length))); };
+    width = scaled(width);
+    height = scaled(height);
+  }
+  if (options.headless) return graphics::open_headless(width, height);
+  return graphics::open_window("roam: " + options.scene.names(), width, height);
 }
 
 graphics::Quality quality(const std::string& name, const graphics::Context& context) {
@@ -70,7 +87,10 @@ constexpr std::pair<HudMode, const char*> hud_modes[] = {{HudMode::plain, "displ
 }  // namespace
 
 Stage::Stage(const ViewOptions& options, const ViewPlan& plan)
-    : context_(open(options, plan)), viewer_(new osgViewer::Viewer) {
+    : context_(open(options, plan)),
+      viewer_(new osgViewer::Viewer),
+      large_(large_size(options, plan)),
+      picture_scale_(plan.picture_scale) {
   // One thread: events, steps and drawing follow each other, and the picture is at most one frame old.
   viewer_->setThreadingModel(osgViewer::ViewerBase::SingleThreaded);
   graphics::FrameSettings settings;
@@ -83,10 +103,13 @@ Stage::Stage(const ViewOptions& options, const ViewPlan& plan)
   hud_.emplace(*frame_);
   overlay_.emplace(*frame_);
   set_hud(plan.hud);
+  // Pages are loaded in the detail of the picture that they are for.
+  if (large_)
+    viewer_->getCamera()->setLODScale(static_cast<float>(frame_->height()) / static_cast<float>((*large_)[1]));
   viewer_->realize();
   if (options.fullscreen && !context_.headless) toggle_fullscreen();
   if (options.record.empty()) return;
-  film_.emplace(*frame_, options.record);
+  film_.emplace(*frame_, options.record, plan.film_rate);
   written_.push_back(options.record.string());
 }
 
@@ -127,6 +150,10 @@ void Stage::add_to(Commands& commands) {
   commands.add("fullscreen", [this] { toggle_fullscreen(); });
   for (const auto& [name, with_display] : {std::pair("picture", false), std::pair("picture_with_display", true)}) {
     commands.add(name, [this, with_display = with_display] {
+      if (!with_display && picture_scale_ > 1.0) {
+        enlarged_wanted_ = true;
+        return;
+      }
       pictures_.emplace_back(*frame_, "roam.png", with_display, files::Naming::numbered);
     });
   }
@@ -176,7 +203,7 @@ void Stage::toggle_fullscreen() {
 }
 
 std::vector<Picture> Stage::poll_pictures() {
-  std::vector<Picture> told;
+  std::vector<Picture> told = std::exchange(failed_, {});
   std::erase_if(pictures_, [&](graphics::Screenshot& picture) {
     if (!picture.done()) return false;
     told.push_back({picture.path(), {}});
@@ -225,20 +252,48 @@ void Stage::see_events() {
 }
 
 void Stage::draw() {
-  if (film_ && film_->is_due(now_)) film_->before_frame(now_);
+  if (is_filmed()) film_->before_frame(now_);
   const auto begin = Clock::now();
   viewer_->updateTraversal();
   viewer_->renderingTraversals();
   const double ns = std::chrono::duration<double, std::nano>(Clock::now() - begin).count();
   if (times_.count() > 0) last_ms_ = ns * 1e-6;
   times_.add(ns);
+  if (std::exchange(enlarged_wanted_, false)) take_enlarged();
+}
+
+osg::ref_ptr<osg::Image> Stage::large_picture(int width, int height) {
+  osg::Camera& camera = *viewer_->getCamera();
+  const float detail = camera.getLODScale();
+  camera.setLODScale(1.0f);
+  // Without updates, which would add pages from one tile to the next.
+  osg::ref_ptr<osg::Image> picture = graphics::draw_large_picture(*frame_, width, height, [this] {
+    stop_if_interrupted();
+    viewer_->renderingTraversals();
+  });
+  camera.setLODScale(detail);
+  return picture;
+}
+
+/// The picture of the key, larger than the window.
+void Stage::take_enlarged() {
+  constexpr double longest = 16384.0;  // pixels
+  const char* const file = "roam.png";
+  const double scale = std::min(picture_scale_, longest / std::max(frame_->width(), frame_->height()));
+  const auto scaled = [&](int length) { return static_cast<int>(std::lround(scale * length)); };
+  try {
+    pictures_.emplace_back(large_picture(scaled(frame_->width()), scaled(frame_->height())), file,
+                           files::Naming::numbered);
+  } catch (const Error& error) {
+    failed_.push_back({file, error.what()});
+  }
 }
 
 void Stage::draw_if_seen(bool wanted) {
   if (!headless()) {
     draw();
     std::this_thread::sleep_until(frame_begin_ + shortest_frame);
-  } else if (wanted || (runs_ && film_ && film_->is_due(now_))) {
+  } else if (wanted || (runs_ && is_filmed())) {
     draw();
   } else if (!runs_) {
     // Nothing to draw: leave the processor to the loaders.
@@ -247,9 +302,14 @@ void Stage::draw_if_seen(bool wanted) {
 }
 
 void Stage::draw_picture(const std::filesystem::path& path, bool with_display) {
-  graphics::Screenshot picture(*frame_, path, with_display);
-  draw();
-  picture.finish();
+  if (large_ && !with_display) {
+    draw();
+    graphics::Screenshot(large_picture((*large_)[0], (*large_)[1]), path).finish();
+  } else {
+    graphics::Screenshot picture(*frame_, path, with_display);
+    draw();
+    picture.finish();
+  }
   written_.push_back(path.string());
 }
 

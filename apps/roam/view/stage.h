@@ -3,6 +3,7 @@
 /// The output of a session: window or off-screen picture, head-up display, pictures and films.
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <filesystem>
 #include <limits>
@@ -72,9 +73,14 @@ class Stage {
   void see_events();
   /// Updates and draws the frame. Call see_events() first.
   void draw();
+  /// While held, the film leaves out what is drawn.
+  void hold_film(bool held) { film_held_ = held; }
+  /// Whether the next frame is one of the film's.
+  [[nodiscard]] bool is_filmed() const { return film_ && !film_held_ && film_->is_due(now_); }
   /// Draws the frame if it is `wanted`, shown in a window, or due in a film. Then rests, which limits the frame rate.
   void draw_if_seen(bool wanted);
-  /// Draws one frame into a file and waits for it. Throws roam::Error if it cannot be written.
+  /// Draws the view into a file of the plan's size, however large that is, and waits for it. Throws roam::Error if it
+  /// cannot be written.
   void draw_picture(const std::filesystem::path& path, bool with_display = false);
   /// Adds the frame statistics, and the files that options request.
   void fill(ViewReport& report) const;
@@ -87,6 +93,8 @@ class Stage {
  private:
   using Clock = std::chrono::steady_clock;
 
+  [[nodiscard]] osg::ref_ptr<osg::Image> large_picture(int width, int height);
+  void take_enlarged();
   void cycle_hud();
   void fade_hint();
   void toggle_fullscreen();
@@ -97,7 +105,12 @@ class Stage {
   std::optional<graphics::Hud> hud_;
   std::optional<graphics::Overlay> overlay_;
   std::optional<Film> film_;
+  bool film_held_ = false;
   std::vector<graphics::Screenshot> pictures_;
+  std::vector<Picture> failed_;              ///< pictures that could not be drawn
+  std::optional<std::array<int, 2>> large_;  ///< pixels, of a picture larger than the window
+  double picture_scale_ = 1.0;
+  bool enlarged_wanted_ = false;
   HudMode hud_mode_ = HudMode::plain;
   std::string hint_;
   double hint_end_ = 0.0;             ///< s

@@ -118,6 +118,11 @@ std::vector<StatusText> status_lines(const Status& status) {
   if (status.mode && status.camera.empty()) {
     const Vec3& p = status.around.feet;
     lines.push_back({"feet", fmt::format("{:.2f}, {:.2f}, {:.2f}", p.x, p.y, p.z)});
+    if (status.georeference) {
+      const auto& [srs, origin] = *status.georeference;
+      const Vec3 site = p + origin;
+      lines.push_back({"site", fmt::format("{:.2f}, {:.2f}, {:.2f} {}", site.x, site.y, site.z, printable(srs))});
+    }
     if (const std::string height = height_text(status); !height.empty()) lines.push_back({"height", height});
     lines.push_back({"heading", heading_text(status.yaw, status.pitch)});
     if (const std::string ahead = ahead_text(status.around); !ahead.empty()) lines.push_back({"ahead", ahead});

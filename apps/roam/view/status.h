@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "roam/error.h"
+#include "roam/import.h"
 #include "roam/pager.h"
 #include "roam/walker.h"
 #include "view/hold.h"
@@ -47,8 +48,9 @@ struct Status {
   bool crouched = false;
   bool grounded = false;
   Surroundings around;
-  double yaw = 0.0, pitch = 0.0;  ///< degrees
-  std::string camera;             ///< name of the active camera, if not the body's; else empty
+  std::optional<Georeference> georeference;  ///< of the scene's coordinates
+  double yaw = 0.0, pitch = 0.0;             ///< degrees
+  std::string camera;                        ///< name of the active camera, if not the body's; else empty
   LoadState display, collision;
   std::uint64_t triangles = 0;        ///< of the collision; 0: not known yet
   std::uint64_t resident = 0;         ///< bytes of the process
