@@ -115,7 +115,7 @@ TEST(WalkPicture, IsRefusedInOtherFormatsBeforeTheSceneIsRead) {
   for (const char* file : {"tour.pdf", "tour", "tour.svgz", "tour.jpg"}) {
     picture.draw(file);
     EXPECT_EQ(picture.result.status, 2) << file;
-    EXPECT_TRUE(contains(picture.result.err, ".svg or a .png")) << picture.result.err;
+    EXPECT_TRUE(contains(picture.result.err, "an .svg, a .png or a .dxf")) << picture.result.err;
     EXPECT_FALSE(std::filesystem::exists(picture.folder.file(file)));
   }
 }

@@ -229,7 +229,7 @@ TEST(ProbeVerb, RefusesWhatCannotBeMeant) {
   refused({"--radius", "0.3", "--seed", "-1"}, "--seed");
   refused({"--matrix", "0.3", "--path", "p.path"}, "--path");
   refused({"--radius", "0.3", "--height", "1.8", "--mode", "fly"}, "sphere");
-  refused({"--radius", "0.3", "--picture", "door.txt"}, ".svg or a .png");
+  refused({"--radius", "0.3", "--picture", "door.txt"}, "an .svg, a .png or a .dxf");
   refused({"--radius", "0.3", "--path", probe.scene}, "would overwrite");
   EXPECT_EQ(probe.ask({"--radius", "0.3", "--from", "2,0"}).result.status, 2);
   for (const char* place : {"nan,0,1", "inf,0,1", "1e300,0,1", "a,0,1", "1,2"}) {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 #include <limits>
@@ -64,6 +65,12 @@ glm::dmat4 transform_of(const Json& node) {
                     r ? rotation_of((*r)[0], (*r)[1], (*r)[2], (*r)[3]) : no_rotation,
                     three_numbers(member(node, "scale")).value_or(Vec3(1.0)));
 }
+
+/// Metres. Objects that meet have the same corners, although their nodes' matrices round differently: otherwise floors
+/// would have cracks there. It is the tolerance of worlds.
+constexpr double grid = 0x1p-20;
+
+Vec3 on_grid(const Vec3& position) { return grid * glm::round(position / grid); }
 
 }  // namespace
 
@@ -165,7 +172,7 @@ void GltfWalk::add(const Json& described, const Primitive& primitive, const glm:
     if (index == not_added) {
       const Vec3 position = positions.vector(vertex);
       for (int k = 0; k < 3 && positions.are_floats(); ++k) sink_.note_rounded(scale * position[k]);
-      index = sink_.add_shared_vertex(Vec3(to_sink * glm::dvec4(position, 1.0)),
+      index = sink_.add_shared_vertex(on_grid(Vec3(to_sink * glm::dvec4(position, 1.0))),
                                       looks_ ? looks_->of(vertex) : VertexLook{});
     }
     return index;
