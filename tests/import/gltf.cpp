@@ -266,7 +266,8 @@ TEST(ImportGltf, PutsCornersOnAGridSoThatObjectsThatMeetShareThem) {
   const double half = std::sqrt(0.5);
   made.json["nodes"][0]["rotation"] = {half, 0.0, 0.0, half};
   made.json["nodes"][0]["translation"] = {0.1, 0.3, 0.7};
-  for (const Vec3& corner : read(folder, made).at(0)) {
+  const Triangle triangle = read(folder, made).at(0);
+  for (const Vec3& corner : triangle) {
     for (int k = 0; k < 3; ++k) EXPECT_EQ(std::remainder(corner[k], 0x1p-20), 0.0) << corner[k];
   }
 }
