@@ -199,6 +199,25 @@ TEST(ImportDisplayLooks, ReadsMaterialsOfGltf) {
   EXPECT_EQ(glass.triangles.at(0).colours[0][3], 128);
   EXPECT_EQ(glass.triangles[0].look.cover, DisplayCover::blended);
   EXPECT_EQ(glass.report.textures, 0u);
+  const Shown dull = show({folder.write("d.gltf", gltf(R"({"pbrMetallicRoughness":{}})", "wood.bmp"))});
+  EXPECT_EQ(dull.triangles.at(0).look.roughness, 1.0f);
+  const Shown brass = show({folder.write(
+      "m.gltf", gltf(R"({"pbrMetallicRoughness":{"metallicFactor":0.75,"roughnessFactor":0.25}})", "wood.bmp"))});
+  EXPECT_EQ(brass.triangles.at(0).look.metalness, 0.75f);
+  EXPECT_EQ(brass.triangles[0].look.roughness, 0.25f);
+  const Shown odd = show({folder.write(
+      "o.gltf", gltf(R"({"pbrMetallicRoughness":{"metallicFactor":-7,"roughnessFactor":1e30,
+                         "baseColorTexture":{"index":0}},"alphaMode":"MASK","alphaCutoff":1.5})",
+                     "wood.bmp"))});
+  EXPECT_EQ(odd.triangles.at(0).look.metalness, 0.0f);
+  EXPECT_EQ(odd.triangles[0].look.roughness, 1.0f);
+  EXPECT_EQ(odd.triangles[0].look.cutoff, 1.0f);
+  // An image says where it is metal, which is not drawn.
+  const Shown patchy = show({folder.write(
+      "p.gltf", gltf(R"({"pbrMetallicRoughness":{"roughnessFactor":0.25,"metallicRoughnessTexture":{"index":0}}})",
+                     "wood.bmp"))});
+  EXPECT_EQ(patchy.triangles.at(0).look.roughness, 1.0f);
+  EXPECT_EQ(patchy.triangles[0].look.metalness, 0.0f);
   const Shown air = show({folder.write(
       "c.gltf", gltf(R"({"pbrMetallicRoughness":{"baseColorFactor":[1,1,1,0]},"alphaMode":"BLEND"})", "wood.bmp"))});
   EXPECT_EQ(air.triangles.at(0).colours[0][3], 255);

@@ -36,6 +36,7 @@ class AssimpLooks {
   TextureId texture_of(const aiMaterial& material, unsigned& coordinates);
   TextureId embedded(const aiTexture& texture, const std::string& name, Wrapping wrapping);
   void take_gltf_transparency(const aiMaterial& material, Look& look) const;
+  static void take_gltf_gloss(const aiMaterial& material, Look& look);
   [[nodiscard]] Colour shown(const aiColor4D& colour) const;
 
   const aiScene& scene_;
