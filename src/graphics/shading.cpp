@@ -41,7 +41,7 @@ void main() {
 // The terms of the light add up to 1 on a floor before the eye. Walls get about 0.7, a ceiling 0.6, and the dark end of
 // a long corridor 0.4. The brightest tones are compressed, so that white surfaces keep their shape.
 constexpr const char* scene_fragment = R"(#version 120
-#pragma import_defines(ROAM_TEXTURED, ROAM_BLENDED, ROAM_CUT, ROAM_SECTION)
+#pragma import_defines(ROAM_TEXTURED, ROAM_BLENDED, ROAM_CUT, ROAM_SECTION, ROAM_GLOSS)
 varying vec3 roam_position;
 varying vec3 roam_normal;
 varying vec4 roam_surface;
@@ -49,6 +49,9 @@ uniform mat4 osg_ViewMatrix;
 uniform sampler2D roam_picture;
 #ifdef ROAM_CUT
 uniform float roam_cutoff;
+#endif
+#ifdef ROAM_GLOSS
+uniform vec2 roam_gloss;  // roughness, metalness
 #endif
 #ifdef ROAM_SECTION
 uniform vec4 roam_section[ROAM_SECTION];
@@ -75,6 +78,22 @@ vec3 lit(vec3 normal, vec3 view, float distance) {
   return ambient + sky * (0.5 + 0.5 * dot(normal, up)) + sunlight * towards_sun * towards_sun +
          lamp * dot(normal, view) * fall_off;
 }
+
+#ifdef ROAM_GLOSS
+// Dielectrics mirror 4 % of the light, metals their own colour (Fresnel's law after Schlick). What is mirrored: bright
+// above, dark below, and the sun; rough surfaces mirror the mean light instead.
+vec3 glossy(vec3 color, vec3 light, vec3 normal, vec3 view) {
+  float rough = roam_gloss.x, metal = roam_gloss.y, sharp = 1.0 - rough;
+  vec3 mirrored = reflect(-view, normal);
+  vec3 share = mix(vec3(0.04), color, metal);
+  share += (max(vec3(sharp), share) - share) * pow(1.0 - max(dot(normal, view), 0.0), 5.0);
+  float blur = 0.08 + 0.6 * rough;
+  float up = smoothstep(-blur, blur, dot(mirrored, osg_ViewMatrix[2].xyz));
+  vec3 around = mix(mix(vec3(0.30, 0.31, 0.33), vec3(1.05, 1.08, 1.12), up), light, rough * rough);
+  float glint = pow(max(dot(mirrored, mat3(osg_ViewMatrix) * sun), 0.0), mix(4.0, 180.0, sharp * sharp)) * sharp;
+  return color * (1.0 - metal) * light + share * (around + 1.5 * glint);
+}
+#endif
 
 vec3 toned(vec3 color) {
   float most = max(color.r, max(color.g, color.b));
@@ -106,7 +125,11 @@ void main() {
   if (dot(normal, view) < 0.0) normal = -normal;
   vec3 light = lit(normal, view, distance);
   float shade = 1.0;  // the share of later effects that this surface takes
+#ifdef ROAM_GLOSS
+  vec3 seen = toned(glossy(color.rgb, light, normal, view));
+#else
   vec3 seen = toned(color.rgb * light);
+#endif
 #ifdef ROAM_TEXTURED
   if (!has_normal) {
     seen = color.rgb;
@@ -168,6 +191,10 @@ void apply(const Surface& surface, osg::StateSet& state) {
   if (surface.cutoff) {
     state.setDefine("ROAM_CUT");
     state.addUniform(new osg::Uniform("roam_cutoff", *surface.cutoff));
+  }
+  if (surface.gloss) {
+    state.setDefine("ROAM_GLOSS");
+    state.addUniform(new osg::Uniform("roam_gloss", osg::Vec2(surface.gloss->roughness, surface.gloss->metalness)));
   }
   if (surface.blended) {
     state.setDefine("ROAM_BLENDED");

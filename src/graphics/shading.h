@@ -26,11 +26,18 @@ namespace roam::graphics {
 /// The define (StateSet::setDefine) of textured surfaces.
 inline constexpr const char* textured_define = "ROAM_TEXTURED";
 
+/// As in glTF 2.0, 3.9.2: 0..1 each.
+struct Gloss {
+  float roughness = 1.0f;  ///< 0: a mirror of the sky and the ground
+  float metalness = 0.0f;
+};
+
 /// A surface's material. Its colours are those of its vertices.
 struct Surface {
   bool textured = false;          ///< with an image on texture unit 0, which the caller sets
   bool blended = false;           ///< over the background, by its opacity
   std::optional<float> cutoff{};  ///< pixels with a smaller opacity are not drawn
+  std::optional<Gloss> gloss{};   ///< none: dull, no metal
 };
 
 /// Makes geometries below `state` look as `surface` says.

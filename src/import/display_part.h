@@ -49,7 +49,9 @@ struct DisplayLook {
 
   std::uint32_t texture = no_texture;  ///< index in DisplayPart::textures
   DisplayCover cover = DisplayCover::opaque;
-  float cutoff = 0.5f;  ///< 0..1
+  float cutoff = 0.5f;     ///< 0..1
+  float roughness = 1.0f;  ///< 0 (a mirror) .. 1 (dull)
+  float metalness = 0.0f;  ///< 0..1
 };
 
 /// At most 16,384 triangles that lie close together and are drawn together.

@@ -119,9 +119,13 @@ DisplayLook take_look(Reader& from, const DisplayPart& part) {
   look.texture = from.take<std::uint32_t>();
   look.cover = from.take(DisplayCover::cut);
   look.cutoff = from.take<float>();
+  look.roughness = from.take<float>();
+  look.metalness = from.take<float>();
   const bool textured = look.texture != DisplayLook::no_texture;
   if (textured && look.texture >= part.textures.size()) throw StreamDamaged{"a look without its image"};
-  if (!(look.cutoff >= 0.0f && look.cutoff <= 1.0f)) throw StreamDamaged{"a value of no meaning"};
+  for (const float share : {look.cutoff, look.roughness, look.metalness}) {
+    if (!(share >= 0.0f && share <= 1.0f)) throw StreamDamaged{"a value of no meaning"};
+  }
   return look;
 }
 
@@ -212,6 +216,8 @@ std::vector<std::byte> encode(const DisplayPart& part) {
     to.add(look.texture);
     to.add(look.cover);
     to.add(look.cutoff);
+    to.add(look.roughness);
+    to.add(look.metalness);
   }
   to.add(std::uint64_t{part.geometries.size()});
   for (const DisplayGeometry& g : part.geometries) {

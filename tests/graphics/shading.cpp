@@ -186,5 +186,21 @@ TEST(GraphicsShading, ASectionHidesWhatIsBeyondItsPlanes) {
   EXPECT_TRUE(is_wall(8, 32) && is_wall(56, 32) && is_wall(32, 8) && is_wall(32, 56));
 }
 
+TEST(GraphicsShading, MetalMirrorsAndRoughSurfacesAreAsWithoutGloss) {
+  const auto wall_of = [](std::optional<graphics::Gloss> gloss) {
+    osg::ref_ptr<osg::Geometry> red = paint(wall(), {0.7f, 0.2f, 0.1f, 1.0f});
+    graphics::apply({.gloss = gloss}, *red->getOrCreateStateSet());
+    return middle_of(red);
+  };
+  const Pixel dull = wall_of(std::nullopt);
+  EXPECT_LT(wall_of(graphics::Gloss{1.0f, 1.0f}).distance(dull), 6) << "glTF's default";
+  EXPECT_LT(wall_of(graphics::Gloss{1.0f, 0.0f}).distance(dull), 24);
+  const Pixel steel = wall_of(graphics::Gloss{0.1f, 1.0f}), varnish = wall_of(graphics::Gloss{0.1f, 0.0f});
+  EXPECT_GT(steel.distance(dull), 24);
+  EXPECT_GT(steel.r, 2 * steel.b) << "metal mirrors in its own colour: " << steel;
+  EXPECT_GE(varnish.b, dull.b) << "varnish mirrors white: " << varnish;
+  EXPECT_LT(varnish.distance(dull), steel.distance(dull));
+}
+
 }  // namespace
 }  // namespace roam::test

@@ -199,6 +199,16 @@ TEST(ImportDisplayLooks, ReadsMaterialsOfGltf) {
   EXPECT_EQ(glass.triangles.at(0).colours[0][3], 128);
   EXPECT_EQ(glass.triangles[0].look.cover, DisplayCover::blended);
   EXPECT_EQ(glass.report.textures, 0u);
+  const Shown dull = show({folder.write("d.gltf", gltf(R"({"pbrMetallicRoughness":{}})", "wood.bmp"))});
+  EXPECT_EQ(dull.triangles.at(0).look.roughness, 1.0f);
+  const Shown brass = show({folder.write(
+      "m.gltf", gltf(R"({"pbrMetallicRoughness":{"metallicFactor":0.75,"roughnessFactor":0.25}})", "wood.bmp"))});
+  EXPECT_EQ(brass.triangles.at(0).look.metalness, 0.75f);
+  EXPECT_EQ(brass.triangles[0].look.roughness, 0.25f);
+  const Shown odd = show({folder.write(
+      "o.gltf", gltf(R"({"pbrMetallicRoughness":{"metallicFactor":-7,"roughnessFactor":1e30}})", "wood.bmp"))});
+  EXPECT_EQ(odd.triangles.at(0).look.metalness, 0.0f);
+  EXPECT_EQ(odd.triangles[0].look.roughness, 1.0f);
   const Shown air = show({folder.write(
       "c.gltf", gltf(R"({"pbrMetallicRoughness":{"baseColorFactor":[1,1,1,0]},"alphaMode":"BLEND"})", "wood.bmp"))});
   EXPECT_EQ(air.triangles.at(0).colours[0][3], 255);

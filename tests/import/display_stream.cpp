@@ -133,6 +133,8 @@ TEST(ImportDisplayStream, RefusesWhatIsNoValue) {
   EXPECT_EQ(with([](DisplayPart& p) { p.textures[0].texels = DisplayTexels(8); }), "a value of no meaning");
   EXPECT_EQ(with([](DisplayPart& p) { p.looks[1].texture = 2; }), "a look without its image");
   EXPECT_EQ(with([&](DisplayPart& p) { p.looks[1].cutoff = nan; }), "a value of no meaning");
+  EXPECT_EQ(with([&](DisplayPart& p) { p.looks[1].roughness = nan; }), "a value of no meaning");
+  EXPECT_EQ(with([](DisplayPart& p) { p.looks[0].metalness = 1.5f; }), "a value of no meaning");
   EXPECT_EQ(with([](DisplayPart& p) { p.geometries[0].look = 3; }), "a geometry without a place");
   EXPECT_EQ(with([](DisplayPart& p) { p.geometries[0].group = 3; }), "a geometry without a place");
   EXPECT_EQ(with([](DisplayPart& p) { p.geometries[0].indices[5] = 4; }), "a triangle of vertices that are not there");

@@ -74,11 +74,13 @@ osg::ref_ptr<osg::Texture2D> texture_of(const DisplayTexture& from, const Textur
 
 /// Null if the look is plain.
 osg::ref_ptr<osg::StateSet> state_of(const DisplayLook& look, osg::Texture2D* texture) {
-  if (texture == nullptr && look.cover == DisplayCover::opaque) return nullptr;
+  const bool dull = look.roughness >= 1.0f && look.metalness <= 0.0f;
+  if (texture == nullptr && look.cover == DisplayCover::opaque && dull) return nullptr;
   osg::ref_ptr<osg::StateSet> state = new osg::StateSet;
   if (texture != nullptr) state->setTextureAttributeAndModes(0, texture);
   graphics::Surface surface{.textured = texture != nullptr, .blended = look.cover == DisplayCover::blended};
   if (look.cover == DisplayCover::cut) surface.cutoff = look.cutoff;
+  if (!dull) surface.gloss = graphics::Gloss{look.roughness, look.metalness};
   graphics::apply(surface, *state);
   return state;
 }

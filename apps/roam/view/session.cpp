@@ -215,7 +215,8 @@ void Session::name_bookmark() {
     news_.tell("there is no bookmark to name: keep one first");
     return;
   }
-  prompt_->ask("Name of the bookmark", name, [this](const std::string& text) {
+  const bool is_number = name.find_first_not_of("0123456789") == std::string::npos;
+  prompt_->ask("Name of the bookmark", is_number ? "" : name, [this](const std::string& text) {
     try {
       records_.name_bookmark(text);
     } catch (const Error& error) {

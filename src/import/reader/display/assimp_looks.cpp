@@ -3,6 +3,7 @@
 #include <assimp/GltfMaterial.h>
 #include <assimp/material.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 
@@ -14,6 +15,13 @@ namespace {
 /// The sRGB transfer function (IEC 61966-2-1). glTF's colours are linear; images and screens are not.
 double to_srgb(double linear) {
   return linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1.0 / 2.4) - 0.055;
+}
+
+/// A value of a material, limited to 0..1; `otherwise` if there is none, or it is no number.
+float share_of(const aiMaterial& material, const char* key, unsigned type, unsigned index, float otherwise) {
+  float value = otherwise;
+  material.Get(key, type, index, value);
+  return std::isnan(value) ? otherwise : std::clamp(value, 0.0f, 1.0f);
 }
 
 DisplayWrap wrap_of(aiTextureMapMode mode) {
@@ -98,6 +106,8 @@ AssimpLooks::Material AssimpLooks::material_of(const aiMaterial& from) {
   if (material.colour[3] == 0) material.colour[3] = 255;
   if (gltf_) {
     take_gltf_transparency(from, material.look);
+    material.look.roughness = share_of(from, AI_MATKEY_ROUGHNESS_FACTOR, 1.0f);
+    material.look.metalness = share_of(from, AI_MATKEY_METALLIC_FACTOR, 0.0f);
     return material;
   }
   float opacity = 1.0f;
@@ -115,7 +125,7 @@ void AssimpLooks::take_gltf_transparency(const aiMaterial& material, Look& look)
   if (std::strcmp(mode.C_Str(), "BLEND") == 0) look.transparency = Transparency::blend;
   if (std::strcmp(mode.C_Str(), "MASK") == 0) {
     look.transparency = Transparency::mask;
-    material.Get(AI_MATKEY_GLTF_ALPHACUTOFF, look.cutoff);
+    look.cutoff = share_of(material, AI_MATKEY_GLTF_ALPHACUTOFF, look.cutoff);
   }
 }
 

@@ -39,7 +39,9 @@ enum class Transparency : std::uint8_t {
 struct Look {
   TextureId texture = no_texture;
   Transparency transparency = Transparency::none;
-  float cutoff = 0.5f;  ///< for mask
+  float cutoff = 0.5f;     ///< for mask
+  float roughness = 1.0f;  ///< 0..1
+  float metalness = 0.0f;  ///< 0..1
   auto operator<=>(const Look&) const = default;
 };
 

@@ -117,6 +117,8 @@ std::uint32_t PartGraph::number_of(const Look& look) {
   DisplayLook shown;
   shown.texture = texture.number;
   shown.cutoff = look.cutoff;
+  shown.roughness = look.roughness;
+  shown.metalness = look.metalness;
   if (look.transparency == Transparency::mask && textured) shown.cover = DisplayCover::cut;
   if (look.transparency == Transparency::blend ||
       (look.transparency == Transparency::by_texture && texture.translucent)) {
