@@ -46,7 +46,7 @@ class Outside {
     const double up = std::min(glm::length(space_.bounds().size()), Space::motion_limit);
     if (triangles_ == 0 || !space_.ray(place, {0.0, 0.0, up}).hit) return true;
     examined_ += triangles_;
-    // Of too many places only those under the sky are sure to be outside; one in the largest scenes is examined.
+    // Beyond this much work only a place under the sky counts as outside; in the largest scenes one is examined.
     if (examined_ > std::max(most_examined, triangles_)) return false;
     return winding_number(meshes_, place) < solid;
   }

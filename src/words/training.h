@@ -22,7 +22,7 @@ struct Decisive {
   Vec3 direction{0.0};  ///< unit, across
   [[nodiscard]] const char* kind() const { return split ? "split" : "opening"; }
 };
-/// Of the upper end, then of the lower, as far as there are any.
+/// First those of the upper end, then those of the lower; may be empty.
 [[nodiscard]] std::vector<Decisive> decisive(const Training& training);
 
 /// Names of the objects on both sides of each of decisive(); empty if unknown.

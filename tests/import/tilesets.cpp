@@ -298,7 +298,7 @@ TEST(ImportTilesets, HaveAPartForEachContent) {
   const std::vector<ScenePart> moved = scene_parts({&tileset, 1});
   EXPECT_EQ(moved[1].tile, parts[1].tile);
   EXPECT_NE(moved[2].tile, parts[2].tile);
-  // What concerns the whole tileset belongs to the first part.
+  // The first part has the notes on the whole tileset.
   fs::remove(folder.path() / "tiles/3.b3dm");
   const std::vector<ScenePart> coarse = scene_parts({&tileset, 1});
   ASSERT_EQ(coarse.size(), 2u);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <vector>
 
+#include "box_made.h"
 #include "training/places/places.h"
 #include "walker_scenes.h"
 
@@ -14,21 +15,7 @@ namespace shells {
 using roam::Mesh;
 using roam::Vec3;
 
-/// A box. Its triangles show their fronts to the inside, or with `solid` to the outside.
-inline void add_room(Mesh& mesh, const Vec3& lo, const Vec3& hi, bool solid = false) {
-  const auto face = [&](const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
-    if (solid)
-      scenes::add_quad(mesh, d, c, b, a);
-    else
-      scenes::add_quad(mesh, a, b, c, d);
-  };
-  face({lo.x, lo.y, lo.z}, {hi.x, lo.y, lo.z}, {hi.x, hi.y, lo.z}, {lo.x, hi.y, lo.z});
-  face({lo.x, lo.y, hi.z}, {lo.x, hi.y, hi.z}, {hi.x, hi.y, hi.z}, {hi.x, lo.y, hi.z});
-  face({lo.x, lo.y, lo.z}, {lo.x, lo.y, hi.z}, {hi.x, lo.y, hi.z}, {hi.x, lo.y, lo.z});
-  face({lo.x, hi.y, lo.z}, {hi.x, hi.y, lo.z}, {hi.x, hi.y, hi.z}, {lo.x, hi.y, hi.z});
-  face({lo.x, lo.y, lo.z}, {lo.x, hi.y, lo.z}, {lo.x, hi.y, hi.z}, {lo.x, lo.y, hi.z});
-  face({hi.x, lo.y, lo.z}, {hi.x, lo.y, hi.z}, {hi.x, hi.y, hi.z}, {hi.x, hi.y, lo.z});
-}
+using scenes::add_room;
 
 inline void flip(Mesh& mesh) {
   for (auto& t : mesh.triangles) std::swap(t[1], t[2]);

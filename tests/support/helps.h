@@ -45,7 +45,7 @@ struct Help {
   std::string text;
 };
 
-/// Of the program, its verbs and their kinds. Those of bench are in another program.
+/// The helps of the program, its verbs and their kinds. Those of bench are in another program.
 inline std::vector<Help> all_helps() {
   std::vector<Help> helps{{"roam", help_of({})}};
   for (const std::string& verb : names_in(helps.front().text)) {

@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
+#include "box_made.h"
 #include "roam/generate.h"
 #include "roam/world.h"
 #include "walker_scenes.h"
@@ -15,19 +16,6 @@ namespace {
 
 using namespace roam;
 using namespace roam::app;
-
-/// A box; its triangles show their fronts to the outside, or with `room` to the inside.
-void add_box(Mesh& mesh, const Vec3& lo, const Vec3& hi, bool room = false) {
-  const auto face = [&](const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
-    room ? scenes::add_quad(mesh, a, b, c, d) : scenes::add_quad(mesh, d, c, b, a);
-  };
-  face({lo.x, lo.y, lo.z}, {hi.x, lo.y, lo.z}, {hi.x, hi.y, lo.z}, {lo.x, hi.y, lo.z});
-  face({lo.x, lo.y, hi.z}, {lo.x, hi.y, hi.z}, {hi.x, hi.y, hi.z}, {hi.x, lo.y, hi.z});
-  face({lo.x, lo.y, lo.z}, {lo.x, lo.y, hi.z}, {hi.x, lo.y, hi.z}, {hi.x, lo.y, lo.z});
-  face({lo.x, hi.y, lo.z}, {hi.x, hi.y, lo.z}, {hi.x, hi.y, hi.z}, {lo.x, hi.y, hi.z});
-  face({lo.x, lo.y, lo.z}, {lo.x, hi.y, lo.z}, {lo.x, hi.y, hi.z}, {lo.x, lo.y, hi.z});
-  face({hi.x, lo.y, lo.z}, {hi.x, lo.y, hi.z}, {hi.x, hi.y, hi.z}, {hi.x, hi.y, lo.z});
-}
 
 /// A closed ball, stretched to `half`, with its fronts outside.
 Mesh hull(const Vec3& centre, const Vec3& half) {
@@ -47,9 +35,9 @@ Mesh hull(const Vec3& centre, const Vec3& half) {
 /// Two rooms of 5 x 6 x 2.6 m with thick walls and a gable roof on top.
 Mesh house() {
   Mesh mesh{.name = "house"};
-  add_box(mesh, {0, 0, 0}, {10.6, 6.4, 3});
-  add_box(mesh, {0.2, 0.2, 0.2}, {5.2, 6.2, 2.8}, true);
-  add_box(mesh, {5.4, 0.2, 0.2}, {10.4, 6.2, 2.8}, true);
+  scenes::add_room(mesh, {0, 0, 0}, {10.6, 6.4, 3}, true);
+  scenes::add_room(mesh, {0.2, 0.2, 0.2}, {5.2, 6.2, 2.8});
+  scenes::add_room(mesh, {5.4, 0.2, 0.2}, {10.4, 6.2, 2.8});
   scenes::add_quad(mesh, {-0.3, -0.3, 3}, {10.9, -0.3, 3}, {10.9, 3.2, 4.6}, {-0.3, 3.2, 4.6});
   scenes::add_quad(mesh, {-0.3, 3.2, 4.6}, {10.9, 3.2, 4.6}, {10.9, 6.7, 3}, {-0.3, 6.7, 3});
   return mesh;
@@ -70,7 +58,7 @@ void expect_framed(const StartPlace& start, const Box& box) {
   EXPECT_NE(start.note, "");
   const Body body = Body::capsule(0.3, 1.8);
   Mesh block;
-  add_box(block, box.lower, box.upper);
+  scenes::add_room(block, box.lower, box.upper, true);
   EXPECT_GT(World::build({&block, 1}).clearance(body, start.pose.position, 10.0).distance, 0.0);
   for (int corner = 0; corner < 8; ++corner) {
     const Vec3 p(corner & 1 ? box.upper.x : box.lower.x, corner & 2 ? box.upper.y : box.lower.y,
@@ -87,7 +75,7 @@ TEST(StartPlace, IsOutsideOfAClosedHullEvenIfTheBodyFitsInside) {
 TEST(StartPlace, IsBeforeAnObjectThatIsSmallerThanTheBody) {
   for (const double size : {0.1, 0.5, 1.0, 2.5}) {
     Mesh block{.name = "block"};
-    add_box(block, {0, 0, 0}, {size, size, size});
+    scenes::add_room(block, {0, 0, 0}, {size, size, size}, true);
     expect_framed(start_in({block}), {{0, 0, 0}, {size, size, size}});
   }
 }
@@ -113,7 +101,7 @@ TEST(StartPlace, IsInTheStreetAndNeitherOnNorInTheBlocks) {
   for (const double x : {0.0, 30.0}) {
     for (const double y : {0.0, 30.0}) {
       meshes.push_back({.name = "block"});
-      add_box(meshes.back(), {x, y, 0}, {x + 20, y + 20, 12});
+      scenes::add_room(meshes.back(), {x, y, 0}, {x + 20, y + 20, 12}, true);
     }
   }
   const StartPlace start = start_in(meshes);
@@ -137,13 +125,13 @@ TEST(StartPlace, IsOnTheGroundOfATerrainWithAViewOverIt) {
 
 TEST(StartPlace, IsOnLandThatHasABottom) {
   Mesh slab{.name = "land"};
-  add_box(slab, {0, 0, -20}, {500, 500, 0});
+  scenes::add_room(slab, {0, 0, -20}, {500, 500, 0}, true);
   EXPECT_EQ(start_in({slab}).mode, Mode::walk);
 }
 
 TEST(StartPlace, IsInARoomWhoseWallsAreSheets) {
   Mesh room{.name = "scan"};
-  add_box(room, {0, 0, 0}, {5, 4, 2.5}, true);
+  scenes::add_room(room, {0, 0, 0}, {5, 4, 2.5});
   const StartPlace start = start_in({room});
   EXPECT_EQ(start.mode, Mode::walk);
   EXPECT_NEAR(start.pose.position.z, 0.9, 0.1);

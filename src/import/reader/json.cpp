@@ -29,7 +29,7 @@ std::string as_utf8(std::string_view text) {
   return valid;
 }
 
-/// What is wrong and where, without the words of the file.
+/// The fault and its place. Quotes nothing of the file.
 std::string reason_of(std::string what) {
   if (const std::size_t tag = what.find("] "); tag != std::string::npos) what.erase(0, tag + 2);
   return what.substr(0, what.find("; last read: "));

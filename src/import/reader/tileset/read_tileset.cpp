@@ -95,7 +95,7 @@ void read_tileset(const fs::path& path, SceneFiles& files, MeshSink& sink, const
   const bool only_outline = settings.tile.starts_with(outline_part);
   if (!settings.tile.empty() && !only_outline) {
     const auto content = content_of(settings.tile, folder);
-    if (!content) throw Error(path.string(), "a part was asked for that the tileset does not have; install roam anew.");
+    if (!content) throw Error(path.string(), "the tileset does not have the requested part; install roam anew.");
     add_if_whole(*content, files, sink);
     return;
   }
