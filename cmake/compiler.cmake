@@ -15,6 +15,18 @@ if(ROAM_CCACHE AND PROJECT_IS_TOP_LEVEL AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
   set(CMAKE_CXX_COMPILER_LAUNCHER ${ROAM_CCACHE})
 endif()
 
+# roam_unity(TARGET...): compiles several files of a target together, in less than half of the time. Names in unnamed
+# namespaces must then differ in a target. ROAM_UNITY=OFF compiles each file alone: that shows missing includes.
+function(roam_unity)
+  set_target_properties(${ARGN} PROPERTIES UNITY_BUILD ${ROAM_UNITY})
+  if(ROAM_UNITY)
+    foreach(target IN LISTS ARGN)
+      # g++ takes types of an included file for types of a header.
+      target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
+    endforeach()
+  endif()
+endfunction()
+
 # Link the list of races in foreign libraries into programs under the thread sanitizer.
 if(CMAKE_CXX_FLAGS MATCHES "-fsanitize=[a-z,]*thread")
   add_library(roam_sanitizer OBJECT ${CMAKE_CURRENT_LIST_DIR}/sanitizers.cpp)

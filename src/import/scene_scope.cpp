@@ -20,7 +20,6 @@ bool is_below(const fs::path& path, const fs::path& folder) {
   return std::mismatch(folder.begin(), folder.end(), path.begin(), path.end()).first == folder.end();
 }
 
-constexpr std::size_t longest_path = 4096;  ///< bytes; the system opens no longer one
 
 /// The absolute form of a path, with no links in the folders above its last part. A folder at the end of a link is
 /// followed, too, if `through_link`.

@@ -2,6 +2,7 @@
 /// \file
 /// The files that belong to a scene.
 
+#include <cstddef>
 #include <filesystem>
 #include <optional>
 #include <vector>
@@ -11,6 +12,8 @@ struct ImportOptions;
 }  // namespace roam
 
 namespace roam::reader {
+
+inline constexpr std::size_t longest_path = 4096;  ///< bytes; Linux opens no longer one (PATH_MAX)
 
 /// The folders and files that a scene may be read from: the folder of the scene's file, or the folder that is the
 /// scene, and those that the user allowed. The program and its readers both use it.

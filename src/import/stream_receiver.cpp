@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "import/scene_scope.h"
 #include "text/printable.h"
 
 namespace roam::reader {
@@ -28,7 +29,6 @@ constexpr std::size_t buffer_bytes = payload_limit + 2 * room_bytes;
 
 /// Most notes that one reader may send.
 constexpr std::size_t note_limit = 100;
-constexpr std::size_t longest_path = 4096;  ///< bytes; PATH_MAX of Linux
 
 }  // namespace
 

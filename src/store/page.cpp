@@ -16,7 +16,7 @@ namespace {
 using index::Node;
 using index::StepBox;
 
-struct Header {
+struct PageHeader {
   char magic[8];
   std::uint32_t tiles;
   std::uint32_t nodes;
@@ -24,8 +24,8 @@ struct Header {
   double step;
   std::uint64_t zero[10];
 };
-static_assert(sizeof(Header) == 128);
-constexpr char magic_number[8] = {'R', 'O', 'A', 'M', 'P', 'A', 'G', 'E'};
+static_assert(sizeof(PageHeader) == 128);
+constexpr char page_magic[8] = {'R', 'O', 'A', 'M', 'P', 'A', 'G', 'E'};
 
 /// Metres. Boxes also hold stored triangles, which may lie slightly beyond the limit for source coordinates.
 constexpr double farthest_off = coordinate_limit * 1.001;
@@ -134,8 +134,8 @@ EncodedPage encode_page(std::span<const TileEntry> tiles) {
   index::WideTree wide = index::tree_over(boxes);
 
   EncodedPage page;
-  Header header{};
-  std::memcpy(header.magic, magic_number, sizeof magic_number);
+  PageHeader header{};
+  std::memcpy(header.magic, page_magic, sizeof page_magic);
   header.tiles = static_cast<std::uint32_t>(tiles.size());
   header.nodes = static_cast<std::uint32_t>(wide.nodes.size());
   for (int k = 0; k < 3; ++k) header.origin[k] = grid.origin[k];
@@ -154,10 +154,10 @@ EncodedPage encode_page(std::span<const TileEntry> tiles) {
 }
 
 const char* view_page(std::span<const std::byte> bytes, std::uint64_t pack_bytes, PageView& view) {
-  Header header{};
+  PageHeader header{};
   if (bytes.size() < sizeof header) return "too short for a page";
   std::memcpy(&header, bytes.data(), sizeof header);
-  if (std::memcmp(header.magic, magic_number, sizeof magic_number) != 0) return "not a page of an index";
+  if (std::memcmp(header.magic, page_magic, sizeof page_magic) != 0) return "not a page of an index";
   if (header.tiles < 1 || header.tiles > page_tiles || header.nodes < 1 || header.nodes > header.tiles) {
     return "its counts are out of range";
   }

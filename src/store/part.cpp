@@ -14,10 +14,10 @@
 namespace roam::store {
 namespace {
 
-constexpr char magic_number[8] = {'R', 'O', 'A', 'M', 'P', 'A', 'R', 'T'};
-constexpr int compression_level = 3;
+constexpr char part_magic[8] = {'R', 'O', 'A', 'M', 'P', 'A', 'R', 'T'};
+constexpr int part_compression_level = 3;
 
-struct Header {
+struct PartHeader {
   char magic[8];
   std::uint64_t triangles;
   std::uint64_t objects;
@@ -26,7 +26,7 @@ struct Header {
   std::uint32_t zero;
   std::uint64_t content_bytes;  ///< before compression
 };
-static_assert(sizeof(Header) == 48);
+static_assert(sizeof(PartHeader) == 48);
 
 /// Bytes. More than the names of a hundred million objects need.
 constexpr std::uint64_t most_content = 1ull << 32;
@@ -139,7 +139,7 @@ class Content {
 /// A frame of the content at `place`. Returns its bytes. `window`: log2 of its window; 0: any.
 std::size_t pack(std::span<const std::byte> content, std::span<std::byte> place, int window) {
   const std::unique_ptr<ZSTD_CCtx, std::size_t (*)(ZSTD_CCtx*)> zstd(demanded(ZSTD_createCCtx()), ZSTD_freeCCtx);
-  ZSTD_CCtx_setParameter(zstd.get(), ZSTD_c_compressionLevel, compression_level);
+  ZSTD_CCtx_setParameter(zstd.get(), ZSTD_c_compressionLevel, part_compression_level);
   ZSTD_CCtx_setParameter(zstd.get(), ZSTD_c_windowLog, window);
   const std::size_t packed = ZSTD_compress2(zstd.get(), place.data(), place.size(), content.data(), content.size());
   if (ZSTD_isError(packed) != 0) throw Error(fmt::format("cannot compress a part file: {}", ZSTD_getErrorName(packed)));
@@ -173,8 +173,8 @@ std::vector<std::byte> encode_part(const PartFile& part) {
     append_number(content, cell.triangles);
   }
   if (content.size() > most_content) throw Error("the names of the objects take more than 4 GiB; leave some out");
-  Header header{};
-  std::memcpy(header.magic, magic_number, sizeof magic_number);
+  PartHeader header{};
+  std::memcpy(header.magic, part_magic, sizeof part_magic);
   header.triangles = part.triangles;
   header.objects = part.objects.size();
   header.cells = part.cells.size();
@@ -193,13 +193,13 @@ std::vector<std::byte> encode_part(const PartFile& part) {
 void visit_part(const std::function<std::size_t(std::span<std::byte>)>& more, std::uint64_t bytes,
                 const std::string& file, const PartVisitor& visitor) {
   const auto refuse = [&](const char* why) { throw PartDamage(file, why); };
-  Header header{};
+  PartHeader header{};
   for (auto rest = std::as_writable_bytes(std::span(&header, 1)); !rest.empty();) {
     const std::size_t got = more(rest);
     if (got == 0) refuse("it is too short");
     rest = rest.subspan(got);
   }
-  if (std::memcmp(header.magic, magic_number, sizeof magic_number) != 0) refuse("it is no part file");
+  if (std::memcmp(header.magic, part_magic, sizeof part_magic) != 0) refuse("it is no part file");
   if (header.cell_bits > 127 || header.zero != 0 || header.content_bytes > most_content) {
     refuse("its header is not what it should be");
   }

@@ -25,12 +25,12 @@ constexpr double large_factor = 2.5;  // the large plan shows so much more
 constexpr double least_half = 2.0, largest_half = 200.0;
 constexpr double margin_factor = 1.4;  // of what is shown: cut, so that the body can go on
 constexpr double rays_across = 500.0;
-constexpr double least_spacing = 0.02;           // m
-constexpr double knee = 0.3;                     // m above the feet: the lower cut
-constexpr double storey = 0.25;                  // m: a change of height that needs a new cut
-constexpr double trail_spacing = 0.25;           // m
-constexpr std::size_t longest_trail = 4000;      // points
-constexpr std::size_t most_triangles = 500'000;  // of a store in one plan
+constexpr double least_spacing = 0.02;                // m
+constexpr double knee = 0.3;                          // m above the feet: the lower cut
+constexpr double storey = 0.25;                       // m: a change of height that needs a new cut
+constexpr double trail_spacing = 0.25;                // m
+constexpr std::size_t longest_trail = 4000;           // points
+constexpr std::size_t most_plan_triangles = 500'000;  // of a store in one plan
 
 /// The triangles of a store in a box, without those that cannot be read: the pager says which.
 World part_of(const Store& store, const Box& box, const std::function<bool()>& goes_on) {
@@ -41,7 +41,7 @@ World part_of(const Store& store, const Box& box, const std::function<bool()>& g
     near.clear();
     std::copy_if(triangles.begin(), triangles.end(), std::back_inserter(near),
                  [&](const Triangle& triangle) { return meet(box, box_around(triangle)); });
-    if (mesh.triangles.size() + near.size() <= most_triangles) store::append(mesh, near);
+    if (mesh.triangles.size() + near.size() <= most_plan_triangles) store::append(mesh, near);
   };
   store.for_each_triangle(box, take, [](const std::string&) {});
   return World::build({&mesh, 1}, {.threads = 1});

@@ -19,9 +19,9 @@ namespace {
 using json = nlohmann::ordered_json;
 
 /// An object of the file. Reading removes its entries; the remaining ones are unknown.
-class Section {
+class SettingsObject {
  public:
-  Section(const std::filesystem::path& file, std::string where, json object)
+  SettingsObject(const std::filesystem::path& file, std::string where, json object)
       : file_(file), where_(std::move(where)), object_(std::move(object)) {
     if (object_.is_object()) return;
     fail("", where_.empty() ? "the file must hold one JSON object, { ... }" : "must be an object, { ... }");
@@ -56,10 +56,10 @@ class Section {
     return value->get<bool>();
   }
 
-  std::optional<Section> section(const std::string& entry) {
+  std::optional<SettingsObject> section(const std::string& entry) {
     std::optional<json> value = take(entry);
     if (!value) return std::nullopt;
-    return Section(file_, where_.empty() ? entry : where_ + "." + entry, std::move(*value));
+    return SettingsObject(file_, where_.empty() ? entry : where_ + "." + entry, std::move(*value));
   }
 
   void end() const {
@@ -75,7 +75,7 @@ class Section {
   std::string known_;
 };
 
-std::map<std::string, std::vector<std::string>> keys_of(const Section& section) {
+std::map<std::string, std::vector<std::string>> keys_of(const SettingsObject& section) {
   constexpr const char* what = "must be the name of a key, or a list of them: [\"W\", \"Up\"]";
   std::map<std::string, std::vector<std::string>> keys;
   for (const auto& [command, value] : section.object().items()) {
@@ -131,7 +131,7 @@ ViewSettings read_settings(const std::filesystem::path& file) {
   constexpr double least = 1e-3;
   ViewSettings settings;
   settings.file = file;
-  Section all(file, "", std::move(document));
+  SettingsObject all(file, "", std::move(document));
   if (const auto keys = all.section("keys")) settings.keys = keys_of(*keys);
   if (auto mouse = all.section("mouse")) {
     settings.sensitivity = mouse->number("sensitivity", 0.01, 100.0);

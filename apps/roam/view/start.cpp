@@ -19,7 +19,7 @@ namespace {
 constexpr double degree = std::numbers::pi / 180.0;
 constexpr int headings = 32;
 // m: radius that is loaded from a store to choose the direction
-constexpr double sight = 60.0;
+constexpr double view_limit = 60.0;
 constexpr double overview_yaw = 60.0;     // degrees: shows two sides of a building, neither frontally
 constexpr double overview_pitch = -30.0;  // degrees
 
@@ -138,7 +138,7 @@ StartPlace find_start(const Store& store, std::uint64_t memory, const WalkerSett
       settings, mode, store.info().bounds, [&](Mode way) { return free_start(store, memory, settings, way, goes_on); },
       [&](const Vec3& eye) {
         Mesh mesh;
-        store::append(mesh, triangles_around(store, eye, sight, indexed_in(memory), goes_on).triangles);
+        store::append(mesh, triangles_around(store, eye, view_limit, indexed_in(memory), goes_on).triangles);
         return look(World::build({&mesh, 1}), eye);
       });
 }

@@ -23,7 +23,7 @@ namespace roam::reader {
 namespace {
 
 /// Limit of nested pages. Deeper scenes have no end.
-constexpr std::size_t nesting_limit = 64;
+constexpr std::size_t page_nesting_limit = 64;
 
 /// Reads `size` bytes. False at the end of the input.
 bool take(void* to, std::size_t size) {
@@ -42,7 +42,7 @@ void read_page(const std::string& token, SceneFiles& files, MeshSink& sink, Page
   if (!page) throw Error("a page was asked for that no part has named; install roam anew.");
   const std::string name = page->file.string();
   const bool circle = std::find(page->above.begin(), page->above.end(), hash_of(page->file)) != page->above.end();
-  if (circle || page->above.size() > nesting_limit) {
+  if (circle || page->above.size() > page_nesting_limit) {
     throw Error(name, "this page is reached through itself, or through too many others; the scene is damaged.");
   }
   prepare_osg(sink, files, true);

@@ -17,7 +17,7 @@
 namespace roam::store {
 namespace {
 
-constexpr char magic_number[8] = {'r', 'o', 'a', 'm', 'r', 'u', 'n', '1'};
+constexpr char run_magic[8] = {'r', 'o', 'a', 'm', 'r', 'u', 'n', '1'};
 /// Blocks encoded in parallel before they are written.
 constexpr std::size_t blocks_at_once = 32;
 
@@ -154,7 +154,7 @@ void write_run(const Folder& store, const std::string& name, const RunContent& r
   }
   const auto index_bytes = std::as_bytes(std::span(index));
   RunReader::Footer footer{};
-  std::memcpy(footer.magic, magic_number, sizeof magic_number);
+  std::memcpy(footer.magic, run_magic, sizeof run_magic);
   footer.first_number = run.first;
   footer.index_offset = out.size();
   footer.index_hash = xxh3(index_bytes);
@@ -177,7 +177,7 @@ RunReader::RunReader(const Folder& store, const std::string& name)
   const auto size = static_cast<std::uint64_t>(status.st_size);
   if (size < sizeof footer) refuse("it is too short");
   get(size - sizeof footer, std::as_writable_bytes(std::span(&footer, 1)));
-  if (std::memcmp(footer.magic, magic_number, sizeof magic_number) != 0 ||
+  if (std::memcmp(footer.magic, run_magic, sizeof run_magic) != 0 ||
       footer.hash != xxh3(std::as_bytes(std::span(&footer, 1)).first(offsetof(Footer, hash))) ||
       footer.blocks > size / sizeof(Entry)) {
     refuse("its end is damaged");

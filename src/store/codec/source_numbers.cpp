@@ -14,7 +14,7 @@ namespace {
 /// The letter of a number that is stored in full: its part is another, or the difference needs more than 32 bits.
 constexpr std::uint32_t jump = 255;
 
-enum Stream : std::uint8_t { part_stream, letter_count, jump_stream, bit_stream, stream_count };
+enum NumberStream : std::uint8_t { part_stream, letter_count, jump_stream, bit_stream, number_stream_count };
 
 constexpr std::size_t bytes_of_part = 8;
 
@@ -23,7 +23,7 @@ constexpr std::size_t bytes_of_part = 8;
 }  // namespace
 
 std::vector<std::byte> encode_numbers(std::span<const SourceNumber> numbers) {
-  std::array<std::vector<std::byte>, stream_count> streams;
+  std::array<std::vector<std::byte>, number_stream_count> streams;
   std::vector<std::uint64_t> parts;
   BitWriter bits;
   SourceNumber last;
@@ -48,7 +48,7 @@ std::vector<std::byte> encode_numbers(std::span<const SourceNumber> numbers) {
   }
   streams[bit_stream] = bits.finish();
   std::vector<std::byte> coded;
-  for (const Stream s : {part_stream, jump_stream, bit_stream}) append_number(coded, streams[s].size());
+  for (const NumberStream s : {part_stream, jump_stream, bit_stream}) append_number(coded, streams[s].size());
   append_frame(coded, streams);
   return coded;
 }

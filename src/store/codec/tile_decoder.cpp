@@ -61,13 +61,14 @@ constexpr auto apexes() {
 }
 constexpr std::array<std::uint16_t, 256> apexes_of_letter = apexes();
 
-using Place = std::array<std::uint32_t, 3>;
+using GridPlace = std::array<std::uint32_t, 3>;
 
 /// Reads the differences of vertices that share a kind of prediction, from their classes and bits. This loop is
 /// separate from the rest of the decoding because no value in it depends on a branch. False if there are too few
 /// bits.
 template <bool fine>
-bool read_differences(const std::array<const std::byte*, 3>& letters, BitReader bits, std::span<Place> differences) {
+bool read_differences(const std::array<const std::byte*, 3>& letters, BitReader bits,
+                      std::span<GridPlace> differences) {
   for (std::size_t i = 0; i < differences.size(); ++i) {
     std::uint64_t word = bits.peek();
     for (int k = 0; k < 3; ++k) {
@@ -86,8 +87,8 @@ bool read_differences(const std::array<const std::byte*, 3>& letters, BitReader 
 template <bool fine>
 class LeafDecoder {
  public:
-  LeafDecoder(const std::array<Letters, stream_count>& streams, BitReader name_bits, std::span<const Place> beyond_gates,
-              std::span<const Place> free, FrontVertex* vertices)
+  LeafDecoder(const std::array<Letters, stream_count>& streams, BitReader name_bits,
+              std::span<const GridPlace> beyond_gates, std::span<const GridPlace> free, FrontVertex* vertices)
       : gates_(streams[gate_stream]),
         seeds_(streams[seed_stream]),
         names_(streams[name_stream]),
@@ -138,7 +139,7 @@ class LeafDecoder {
     switch (apex) {
       case Apex::fresh: {
         const FrontVertex& across = vertices_[from.across];
-        Place near;
+        GridPlace near;
         for (int k = 0; k < 3; ++k) near[k] = from.at[k] + to.at[k] - across.at[k];
         v = fresh(beyond_gates_, near);
         return v == no_vertex ? Step::full : growth_.add(gate, Apex::fresh, v);
@@ -184,7 +185,7 @@ class LeafDecoder {
     return age < count_ ? static_cast<std::uint16_t>(count_ - 1 - age) : no_vertex;
   }
 
-  std::uint16_t fresh(std::span<const Place>& differences, const Place& near) {
+  std::uint16_t fresh(std::span<const GridPlace>& differences, const GridPlace& near) {
     if (differences.empty()) return no_vertex;
     FrontVertex& v = vertices_[count_];
     for (int k = 0; k < 3; ++k) {
@@ -198,11 +199,11 @@ class LeafDecoder {
 
   Letters gates_, seeds_, names_;
   BitReader name_bits_;
-  std::span<const Place> beyond_gates_, free_;  ///< differences of the vertices to come
+  std::span<const GridPlace> beyond_gates_, free_;  ///< differences of the vertices to come
   FrontVertex* vertices_;
   std::size_t count_ = 0;  ///< of vertices
   Growth<fine> growth_;
-  Place last_{};
+  GridPlace last_{};
   std::uint32_t apexes_ = 1;  ///< the remaining ones of the letter, and a one above
 };
 
@@ -213,7 +214,7 @@ struct TileDecoder::State {
   TreeBuilder tree;
   std::array<std::byte, most_bytes + overrun> raw;
   std::array<FrontVertex, tile_vertices> vertices;
-  std::array<Place, tile_vertices> differences;
+  std::array<GridPlace, tile_vertices> differences;
 
   State() : raw{} {
     if (zstd == nullptr) throw std::bad_alloc();
@@ -225,8 +226,8 @@ struct TileDecoder::State {
   template <bool fine>
   const char* leaves(const std::array<Letters, stream_count>& streams, const StreamSizes& sizes,
                      std::span<index::Leaf> leaves, index::FineLeaf* low, std::uint32_t triangles) {
-    const std::span<Place> beyond_gates{differences.data(), sizes.gate_vertices};
-    const std::span<Place> free{differences.data() + sizes.gate_vertices, sizes.free_vertices};
+    const std::span<GridPlace> beyond_gates{differences.data(), sizes.gate_vertices};
+    const std::span<GridPlace> free{differences.data() + sizes.gate_vertices, sizes.free_vertices};
     const auto bits = [&streams](Stream s) { return BitReader(streams[s].at(), streams[s].size()); };
     const auto places = [&streams](Stream x) {
       return std::array<const std::byte*, 3>{streams[x].at(), streams[x + 1].at(), streams[x + 2].at()};

@@ -11,7 +11,7 @@ namespace roam::store {
 namespace {
 
 using index::node_width;
-using Place = std::array<std::uint32_t, 3>;
+using GridPlace = std::array<std::uint32_t, 3>;
 
 /// The numbers of the vertices seen so far, by grid position.
 class VertexTable {
@@ -19,7 +19,7 @@ class VertexTable {
   explicit VertexTable(std::size_t vertices) : slots_(std::bit_ceil(2 * vertices), no_vertex) {}
 
   /// The slot that holds the number of this position, or will hold it.
-  std::uint16_t& find(const Place& at, const FrontVertex* vertices) {
+  std::uint16_t& find(const GridPlace& at, const FrontVertex* vertices) {
     std::uint64_t h = (at[0] * 0x9e3779b97f4a7c15U) ^ (at[1] * 0xc2b2ae3d27d4eb4fU) ^ (at[2] * 0x165667b19e3779f9U);
     for (h ^= h >> 29U;; ++h) {
       std::uint16_t& slot = slots_[h & (slots_.size() - 1)];
@@ -34,12 +34,12 @@ class VertexTable {
 /// A leaf of the builder, still to be reordered.
 struct Source {
   int triangles = 0;
-  std::uint32_t undone = 0;                                 ///< a bit a triangle
+  std::uint32_t undone = 0;                                     ///< a bit a triangle
   std::array<std::array<std::uint8_t, 3>, node_width> corners;  ///< slots
-  std::array<Place, node_width> places;
+  std::array<GridPlace, node_width> places;
   std::array<std::uint16_t, node_width> numbers;  ///< of the vertices, no_vertex for those not seen before
   std::array<std::array<std::uint8_t, node_width>, node_width> beyond;  ///< triangle by its edge; node_width: none
-  std::array<std::uint8_t, node_width> slot;                        ///< of the source, for each of the leaf that grows
+  std::array<std::uint8_t, node_width> slot;  ///< of the source, for each of the leaf that grows
 
   /// The slot of the third corner of triangle `t`, which has an edge from .. to.
   [[nodiscard]] unsigned third(int t, unsigned from, unsigned to) const {
@@ -157,7 +157,7 @@ class TileEncoder {
   Step add(Source& s, unsigned third, Gate& gate, Apex how) {
     if (how == Apex::fresh) {
       const FrontVertex &from = vertices_[gate.from], &to = vertices_[gate.to], &across = vertices_[from.across];
-      Place near;
+      GridPlace near;
       for (int k = 0; k < 3; ++k) near[k] = from.at[k] + to.at[k] - across.at[k];
       put_fresh(s, third, gate_x, near);
     } else if (how == Apex::other) {
@@ -242,8 +242,8 @@ class TileEncoder {
     for (int c = 0; c < 3; ++c) s.slot[growth_.slot_of(corners[c])] = s.corners[t][(first + c) % 3];
   }
 
-  void put_fresh(Source& s, unsigned slot, int stream, const Place& near) {
-    const Place& at = s.places[slot];
+  void put_fresh(Source& s, unsigned slot, int stream, const GridPlace& near) {
+    const GridPlace& at = s.places[slot];
     for (int k = 0; k < 3; ++k) {
       std::uint32_t difference = at[k] - near[k];
       if (!fine) difference = static_cast<std::uint32_t>(static_cast<std::int16_t>(difference));
@@ -277,7 +277,8 @@ class TileEncoder {
     streams_[gate_bit_stream] = gate_bits_.finish();
     streams_[free_bit_stream] = free_bits_.finish();
     std::vector<std::byte> coded;
-    for (const int s : {gate_stream, seed_stream, name_stream, gate_x, free_x, name_bit_stream, gate_bit_stream, free_bit_stream}) {
+    for (const int s :
+         {gate_stream, seed_stream, name_stream, gate_x, free_x, name_bit_stream, gate_bit_stream, free_bit_stream}) {
       append_number(coded, streams_[s].size());
     }
     append_frame(coded, streams_);
@@ -290,7 +291,7 @@ class TileEncoder {
   Growth<fine> growth_;
   int count_ = 0;  ///< of vertices
   std::size_t apexes_ = 0;
-  Place last_{};
+  GridPlace last_{};
   BitWriter name_bits_, gate_bits_, free_bits_;
   std::array<std::vector<std::byte>, stream_count> streams_;
 };

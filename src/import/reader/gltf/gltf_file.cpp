@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "import/reader/gltf/meshopt.h"
+#include "import/reader/little_endian.h"
 #include "import/reader/named_file.h"
 #include "roam/error.h"
 #include "text/printable.h"
@@ -15,20 +16,14 @@
 namespace roam::reader {
 namespace {
 
-constexpr int json_depth = 64;
+constexpr int gltf_depth = 64;
 constexpr std::string_view magic = "glTF";
 constexpr std::size_t header_bytes = 12, chunk_header_bytes = 8;
-
-std::uint32_t u32(std::string_view bytes, std::size_t at) {
-  std::uint32_t value = 0;
-  std::memcpy(&value, bytes.data() + at, sizeof(value));
-  return value;
-}
 
 }  // namespace
 
 bool is_gltf_1(std::string_view bytes) {
-  return bytes.size() >= header_bytes && bytes.starts_with(magic) && u32(bytes, 4) == 1;
+  return bytes.size() >= header_bytes && bytes.starts_with(magic) && u32_at(bytes, 4) == 1;
 }
 
 GltfFile::GltfFile(std::string_view bytes, std::filesystem::path file, SceneFiles& files)
@@ -36,14 +31,14 @@ GltfFile::GltfFile(std::string_view bytes, std::filesystem::path file, SceneFile
   std::string_view text = bytes;
   if (bytes.starts_with(magic)) {
     if (bytes.size() < header_bytes + chunk_header_bytes) throw damaged("it ends in its header");
-    if (u32(bytes, 4) != 2) throw damaged(fmt::format("it is binary glTF of version {}", u32(bytes, 4)));
-    const std::size_t length = u32(bytes, 8);
+    if (u32_at(bytes, 4) != 2) throw damaged(fmt::format("it is binary glTF of version {}", u32_at(bytes, 4)));
+    const std::size_t length = u32_at(bytes, 8);
     if (length > bytes.size()) throw damaged(fmt::format("it has {} bytes and states {}", bytes.size(), length));
     bytes = bytes.substr(0, length);
     std::size_t at = header_bytes;
     text = {};
     for (int chunk = 0; bytes.size() >= at && bytes.size() - at >= chunk_header_bytes; ++chunk) {
-      const std::size_t size = u32(bytes, at);
+      const std::size_t size = u32_at(bytes, at);
       const std::string_view kind = bytes.substr(at + 4, 4);
       at += chunk_header_bytes;
       if (size > bytes.size() - at) throw damaged("a chunk is longer than the file");
@@ -60,7 +55,7 @@ GltfFile::GltfFile(std::string_view bytes, std::filesystem::path file, SceneFile
              first == bytes.npos || bytes[first] != '{') {
     throw damaged("it begins neither as binary glTF nor as JSON");
   }
-  json_ = parse_json(text, path_.string(), json_depth);
+  json_ = parse_json(text, path_.string(), gltf_depth);
   if (!json_.is_object()) throw damaged("its JSON is no object");
 }
 

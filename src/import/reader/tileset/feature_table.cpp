@@ -11,7 +11,7 @@
 namespace roam::reader {
 namespace {
 
-constexpr int json_depth = 32;
+constexpr int table_depth = 32;
 
 template <class T>
 T read(std::string_view bytes, std::size_t at) {
@@ -26,7 +26,7 @@ FeatureTable::FeatureTable(std::string_view text, std::string_view binary, std::
     : binary_(binary), place_(std::move(place)) {
   // The JSON is padded with blanks, by some exporters with zeros. An empty one is allowed.
   while (!text.empty() && (text.back() == ' ' || text.back() == '\0')) text.remove_suffix(1);
-  if (!text.empty()) json_ = parse_json(text, place_, json_depth);
+  if (!text.empty()) json_ = parse_json(text, place_, table_depth);
 }
 
 std::optional<Vec3> FeatureTable::global_vector(const char* name) const {

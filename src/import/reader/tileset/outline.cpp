@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
 /// Most tiles in each other, those of external tilesets included. Real tilesets have some 30.
 constexpr std::size_t depth_limit = 1000;
 /// Each tile is an object in a list.
-constexpr int json_depth = 2 * static_cast<int>(depth_limit) + 64;
+constexpr int tileset_depth = 2 * static_cast<int>(depth_limit) + 64;
 
 glm::dmat4 transform_of(const Json& tile, const std::string& place) {
   const Json& transform = member(tile, "transform");
@@ -94,7 +94,7 @@ class OutlineWalk {
     sink_.count_file();
     sink_.report_more_progress(bytes->size());
     outline_.files.push_back(path);
-    Json json = parse_json(without_gzip(std::move(*bytes), path.string()), path.string(), json_depth);
+    Json json = parse_json(without_gzip(std::move(*bytes), path.string()), path.string(), tileset_depth);
     if (text(member(json, "type")) == "CityJSON") {
       throw Error(path.string(), "CityJSON is not read yet; convert it to glTF, OBJ or PLY.");
     }

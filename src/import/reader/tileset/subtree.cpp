@@ -12,7 +12,7 @@
 namespace roam::reader {
 namespace {
 
-constexpr int json_depth = 32;
+constexpr int subtree_depth = 32;
 /// Numbers of tiles fit into 64 bits.
 constexpr std::uint64_t most_subtree_bits = 60, most_levels = 60;
 
@@ -79,7 +79,7 @@ Subtree::Subtree(std::string bytes, const std::filesystem::path& file, const Imp
     chunk_ = text.substr(header + sizes[0], sizes[1]);
     text = text.substr(header, sizes[0]);
   }
-  json_ = parse_json(text, file_.string(), json_depth);
+  json_ = parse_json(text, file_.string(), subtree_depth);
   const Json& buffers = member(json_, "buffers");
   buffers_.resize(buffers.is_array() ? buffers.size() : 0);
   tiles_ = bits(member(json_, "tileAvailability"), tiles_in(tiling.subtree_levels, tiling.dimensions));

@@ -11,6 +11,7 @@
 
 #include "import/reader/gltf/gltf_file.h"
 #include "import/reader/gltf/gltf_walk.h"
+#include "import/reader/little_endian.h"
 #include "import/reader/named_file.h"
 #include "import/reader/tileset/feature_table.h"
 #include "import/reader/tileset/gzip.h"
@@ -26,12 +27,6 @@ namespace fs = std::filesystem;
 
 /// Composite tiles may be nested.
 constexpr int most_nesting = 16;
-
-std::uint32_t u32(std::string_view bytes, std::size_t at) {
-  std::uint32_t value = 0;
-  if (bytes.size() >= at + sizeof(value)) std::memcpy(&value, bytes.data() + at, sizeof(value));
-  return value;
-}
 
 class ContentReader {
  public:
@@ -66,10 +61,10 @@ class ContentReader {
   };
   [[nodiscard]] Tables tables(std::string_view bytes, std::size_t header) const {
     if (bytes.size() < header) throw damaged("it ends in its header");
-    if (u32(bytes, 4) != 1) throw damaged(fmt::format("it is of version {}", u32(bytes, 4)));
-    const std::uint64_t length = u32(bytes, 8);
+    if (u32_at(bytes, 4) != 1) throw damaged(fmt::format("it is of version {}", u32_at(bytes, 4)));
+    const std::uint64_t length = u32_at(bytes, 8);
     if (length > bytes.size()) throw damaged(fmt::format("it has {} bytes and states {}", bytes.size(), length));
-    std::array<std::uint64_t, 4> sizes{u32(bytes, 12), u32(bytes, 16), u32(bytes, 20), u32(bytes, 24)};
+    std::array<std::uint64_t, 4> sizes{u32_at(bytes, 12), u32_at(bytes, 16), u32_at(bytes, 20), u32_at(bytes, 24)};
     if (length < header || sizes[0] + sizes[1] + sizes[2] + sizes[3] > length - header) {
       throw damaged("its tables are longer than the tile");
     }
@@ -90,7 +85,7 @@ class ContentReader {
   void read_instanced(std::string_view bytes) {
     constexpr std::size_t header = 32;
     const Tables parts = tables(bytes, header);
-    const std::uint32_t format = u32(bytes, 28);
+    const std::uint32_t format = u32_at(bytes, 28);
     const std::vector<glm::dmat4> places = instances_of(FeatureTable(parts.json, parts.binary, name()), name());
     if (format == 1) return add_gltf(parts.rest, places);
     // The tile names a file with the shape of its instances.
@@ -105,13 +100,13 @@ class ContentReader {
 
   void read_composite(std::string_view bytes, int nesting) {
     constexpr std::size_t header = 16;
-    if (bytes.size() < header || u32(bytes, 4) != 1) throw damaged("its header is damaged");
+    if (bytes.size() < header || u32_at(bytes, 4) != 1) throw damaged("its header is damaged");
     if (nesting == most_nesting)
       throw damaged(fmt::format("composite tiles are nested more than {} deep", most_nesting));
-    const std::uint32_t tiles = u32(bytes, 12);
+    const std::uint32_t tiles = u32_at(bytes, 12);
     std::string_view rest = bytes.substr(header);
     for (std::uint32_t i = 0; i < tiles; ++i) {
-      const std::uint64_t length = u32(rest, 8);
+      const std::uint64_t length = u32_at(rest, 8);
       if (length < content_start_bytes || length > rest.size()) {
         throw damaged(fmt::format("its tile {} of {} reaches beyond its end", i + 1, tiles));
       }
@@ -157,7 +152,7 @@ ContentKind kind_of(std::string_view bytes) {
 
 std::uint64_t stated_bytes(std::string_view bytes) {
   const ContentKind kind = kind_of(bytes);
-  return kind == ContentKind::mesh || kind == ContentKind::points ? u32(bytes, 8) : 0;
+  return kind == ContentKind::mesh || kind == ContentKind::points ? u32_at(bytes, 8) : 0;
 }
 
 void add_tile_content(std::string bytes, const fs::path& file, const TilePlace& place, SceneFiles& files,
