@@ -83,7 +83,7 @@ def comment_text(lines):
 
 
 def chunks(lines):
-    """The declarations at the left margin, with the comment above: (comment lines, code lines). Blank lines part them."""
+    """The declarations at the left margin, each with the comment above: (comment lines, code lines)."""
     comment, code, depth = [], [], 0
     for line in [*lines, ""]:
         if depth == 0 and not line.strip():
