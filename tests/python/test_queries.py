@@ -10,15 +10,13 @@ import numpy as np
 import pytest
 
 import roam
+from conftest import Clutter
 
 
-def test_results_are_those_of_cpp_to_the_bit(clutter, clutter_world, tmp_path):
+def test_a_million_results_are_those_of_cpp_to_the_bit(clutter_world, tmp_path):
+    clutter = Clutter(queries=1_000_000)  # in the same triangles
     n = len(clutter.from_)
-    with open(tmp_path / "in", "wb") as file:
-        np.array([len(clutter.vertices), len(clutter.triangles), n], np.uint64).tofile(file)
-        for array in (clutter.vertices, clutter.triangles, clutter.radius, clutter.half_height, clutter.from_,
-                      clutter.motion):
-            array.tofile(file)
+    clutter.save(tmp_path / "in")
     subprocess.run([os.environ["ROAM_QUERY_ANSWERS"], tmp_path / "in", tmp_path / "out"], check=True)
     expected = np.fromfile(tmp_path / "out", np.dtype([
         ("hit", "?"), ("unknown", "?"), ("fits", "?"), ("found", "?"), ("object", "i4"), ("time", "f8"), ("gap", "f8"),
