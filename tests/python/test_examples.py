@@ -81,7 +81,7 @@ def test_the_map_of_a_flat(flat, tmp_path):
 
 
 def test_the_map_of_a_gallery(gallery, tmp_path):
-    said = run("clearance_map.py", gallery, "--grid", 0.7, tmp_path / "map.png")
+    said = run("clearance_map.py", gallery, "--grid", 2, tmp_path / "map.png")
     assert 500 < float(said.split()[0]) < 2000  # some 500 m of tunnel; a mesh so coarse narrows it
 
 
