@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <utility>
 
 #include "roam/passage.h"
 #include "walker_scenes.h"
@@ -118,6 +119,37 @@ TEST(PassageSteps, LeadOverASplitAndOverNoOpenDrop) {
     add_floor(m, 5.0 + 0.5 * gap, -2.0, 10.0, 2.0, 0.0);
     EXPECT_EQ(widest(m, one_end, other_end).found, gap < 2.0) << gap;
   }
+}
+
+/// A room with two benches along the way, from x = 3 to 7.
+Mesh benches(double apart, double high) {
+  Mesh m = room();
+  add_box(m, {3.0, -2.0, 0.0}, {7.0, -0.5 * apart, high});
+  add_box(m, {3.0, 0.5 * apart, 0.0}, {7.0, 2.0, high});
+  return m;
+}
+
+TEST(PassageSteps, BetweenBenchesTooHighToStepOnAreAsWideAsAWalkerIsThere) {
+  constexpr double aside = 0.4;
+  using Case = std::pair<double, double>;  // heights of benches and body
+  for (const auto& [high, tall] : {Case(0.32, height), Case(0.36, height), Case(0.5, height), Case(0.36, 0.0)}) {
+    SCOPED_TRACE(testing::Message() << high << " " << tall);
+    const Survey survey = survey_of(benches(2.0 * aside, high));
+    const Passage p = roam::widest_way(survey, one_end, other_end, {.height = tall});
+    ASSERT_TRUE(p.found && p.limited && p.opening);
+    // A round body touches the edge of a low bench with its lower half ball.
+    const double touches = high < aside ? (aside * aside + high * high) / (2.0 * high) : aside;
+    EXPECT_NEAR(p.radius, touches, 1e-3);
+    EXPECT_NEAR(std::abs(p.opening->direction.y), 1.0, 1e-3);
+    EXPECT_EQ(try_way(survey, {.height = tall}, 0.98 * touches, 0.0, p.way).outcome, Outcome::reached);
+    EXPECT_EQ(try_way(survey, {.height = tall}, 1.02 * touches, 0.0, p.way).outcome, Outcome::blocked);
+  }
+}
+
+TEST(PassageSteps, BetweenKerbsThatOneStepsOnAreNotNarrow) {
+  const Passage p = widest(benches(0.8, 0.2), one_end, other_end);
+  ASSERT_TRUE(p.found);
+  EXPECT_FALSE(p.limited) << p.radius;
 }
 
 TEST(PassageSteps, EndWhereTheFloorEnds) {
