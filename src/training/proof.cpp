@@ -12,6 +12,7 @@
 #include "training/interval.h"
 #include "training/judgement.h"
 #include "training/over_gap.h"
+#include "ways/refine/refine.h"
 #include "ways/trials/on_way.h"
 
 namespace roam::training {
@@ -25,6 +26,9 @@ constexpr double longest_run_up = 12.0;
 
 /// m: a path must continue beyond an opening by this and a body's radius, or the opening stops no body.
 constexpr double past_opening = 0.1;
+/// Radii: sides of an opening are at most this far from the body that just passes. An opening that was measured too
+/// narrow by less is still tried.
+constexpr double side_reach = 0.25;
 /// m, seen from above, between two points of a way on both sides of an edge.
 constexpr double edge = 0.1;
 
@@ -123,6 +127,7 @@ class Proof {
     // A way planned around something has a wider one beside it, which a larger body may find.
     if (!layout_.paths[path].is_widest) return;
     if (drops_off(stretch(passage.way, place, outside + layout_.measure.step))) return;
+    if (!has_two_sides(passage, place)) return;
     std::vector<Vec3> through = stretch(passage.way, place, run_up);
     const auto has_room = [&] { return fits(through.front(), outside) && fits(through.back(), outside); };
     for (double reach = run_up; reach <= longest_run_up && !has_room(); reach += 0.5 * run_up)
@@ -130,6 +135,17 @@ class Proof {
     // If the path begins or ends in a narrow place, or within a radius of one, the opening need not stop the body.
     if (!has_room() || place < outside + past_opening || passage.length - place < outside + past_opening) return;
     all.push_back({path, outside, foot_, std::move(through), TriedBody::outside_opening});
+  }
+
+  /// Whether the opening of a way has two sides. A larger body passes farther from a single side, where it may stand
+  /// higher or lower than the lattice's foot.
+  [[nodiscard]] bool has_two_sides(const Passage& passage, double place) const {
+    bool found = false;
+    // The place itself may lie beside a straight piece of the way.
+    ways::for_each_station(stretch(passage.way, place, edge), 0.2 * edge, [&](const Vec3& at, const Vec3&, double) {
+      found = found || ways::is_between(survey_, layout_.measure, at, *passage.opening, side_reach * passage.radius);
+    });
+    return found;
   }
 
   /// Whether a way leads over an edge higher than a step. A body of any width drops down there, and none comes up.
