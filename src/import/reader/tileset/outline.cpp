@@ -6,6 +6,7 @@
 #include <functional>
 #include <iterator>
 #include <optional>
+#include <unordered_set>
 #include <utility>
 
 #include "import/reader/named_file.h"
@@ -64,6 +65,13 @@ struct Tileset {
 
 /// Whether finer tiles replace a tile, or are added to it.
 enum class Refine { replace, add };
+
+/// Drops elements with a text that one before has. Some ten bytes of JSON may make any number of them.
+template <class T, class TextOf>
+void drop_repeated(std::vector<T>& list, const TextOf& text_of) {
+  std::unordered_set<std::string> known;
+  std::erase_if(list, [&](const T& element) { return !known.insert(text_of(element)).second; });
+}
 
 Refine refine_of(const Json& tile, Refine inherited) {
   const std::string refine = text(member(tile, "refine"));
@@ -287,6 +295,8 @@ class OutlineWalk {
 Outline outline_of(const fs::path& tileset, SceneFiles& files, MeshSink& sink, const ReadingSettings& settings) {
   Outline outline;
   OutlineWalk(files, sink, outline).walk(tileset, settings);
+  drop_repeated(outline.contents, [](const TileContent& content) { return token_of(content, {}); });
+  drop_repeated(outline.files, [](const fs::path& file) { return file.string(); });
   return outline;
 }
 
