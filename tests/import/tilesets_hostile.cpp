@@ -233,6 +233,18 @@ TEST(ImportTilesetsHostile, LeaveOutATileWithANumberBeyondDoubles) {
   EXPECT_EQ(scene.report.missing_pages, 1u);
 }
 
+TEST(ImportTilesetsHostile, LeaveOutATileWhoseTransformsOverflow) {
+  const TemporaryFolder folder;
+  folder.write("a.glb", MadeGrid(1).gltf().glb());
+  folder.write("b.glb", MadeGrid(1).gltf().glb());
+  Json huge = made_node("", Json::array({made_node("b.glb")}));
+  huge["transform"] = huge["children"][0]["transform"] = {1e200, 0, 0, 0, 0, 1e200, 0, 0, 0, 0, 1e200, 0, 0, 0, 0, 1};
+  const fs::path tileset =
+      folder.write("tileset.json", made_tileset(made_node("", Json::array({made_node("a.glb"), huge}))));
+  EXPECT_EQ(import_scene(tileset).report.missing_pages, 1u);
+  EXPECT_EQ(error_of_parts(tileset, {}), "");
+}
+
 TEST(ImportTilesetsHostile, RefuseInstancesWhoseAttributesDifferInNumber) {
   const TemporaryFolder folder;
   MadeGltf gltf = MadeGrid(1).gltf();

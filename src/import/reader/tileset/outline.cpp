@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <iterator>
 #include <optional>
@@ -34,6 +35,15 @@ glm::dmat4 transform_of(const Json& tile, const std::string& place) {
   glm::dmat4 matrix;
   for (int i = 0; i < 16; ++i) matrix[i / 4][i % 4] = (*m)[static_cast<std::size_t>(i)];
   return matrix;
+}
+
+bool is_finite(const glm::dmat4& matrix) {
+  for (int column = 0; column < 4; ++column) {
+    for (int k = 0; k < 4; ++k) {
+      if (!std::isfinite(matrix[column][k])) return false;
+    }
+  }
+  return true;
 }
 
 std::string uri_of(const Json& content) {
@@ -217,6 +227,10 @@ class OutlineWalk {
   /// Returns whether the content is complete.
   bool add_content(const std::string& uri, const Tileset& tileset, const glm::dmat4& matrix, Refine inherited) {
     const fs::path file = contents_.place(tileset.folder(), uri);
+    if (!is_finite(matrix)) {
+      sink_.report_note_once(fmt::format("{}: the transforms of its tile overflow; it is left out.", file.string()));
+      return missing(file.string());
+    }
     switch (contents_.state_of(file)) {
       case TileContents::State::missing:
         return missing(file.empty() ? uri : file.string());
