@@ -59,6 +59,8 @@ inline constexpr std::uint32_t frame_magic = 0x31524d52;  // "RMR1"
 inline constexpr std::uint32_t payload_limit = 4u << 20;
 /// Largest text, in bytes; the sender cuts longer names.
 inline constexpr std::uint32_t text_limit = 64u << 10;
+/// Most bytes of an object's name that the receiver keeps.
+inline constexpr std::size_t object_name_limit = 1024;
 
 enum class FrameKind : std::uint16_t {
   hello,

@@ -7,6 +7,7 @@
 #include "import/read_all.h"
 #include "import/report_notes.h"
 #include "import/scene_scope.h"
+#include "import/stream_part.h"
 #include "math/floating_point.h"
 #include "roam/import.h"
 
@@ -14,11 +15,12 @@ namespace roam {
 namespace {
 
 ImportReport stream(std::span<const reader::Source> sources, const ImportOptions& options, const PieceSink& sink,
-                    const LookUpSink& look_ups = {}) {
+                    const LookUpSink& look_ups = {}, reader::SceneBudget* scene = nullptr) {
   ImportReport report;
   reader::read_all(sources, options, report, [&](reader::Reading& reading, std::vector<bool>& matched) {
     const std::uint64_t triangles_before = report.triangles;
     reading.wanted = reader::Reading::Wanted::pieces;
+    reading.scene = scene;
     reader::PieceReceiver receiver(report, options.ignore.size(), sink);
     receiver.pass_look_ups(look_ups);
     reader::read_one(reading, receiver, matched);
@@ -55,10 +57,16 @@ ImportReport stream_scene(std::span<const std::filesystem::path> paths, const Im
 
 ImportReport stream_part(const ScenePart& part, const ImportOptions& options, const PieceSink& sink,
                          const LookUpSink& look_ups) {
+  reader::SceneBudget alone;
+  return reader::stream_part_within(alone, part, options, sink, look_ups);
+}
+
+ImportReport reader::stream_part_within(SceneBudget& scene, const ScenePart& part, const ImportOptions& options,
+                                        const PieceSink& sink, const LookUpSink& look_ups) {
   const DefaultFloatingPoint guard;
-  const reader::Source source{part.path, part.tile, part.frame, part.bytes};
+  const Source source{part.path, part.tile, part.frame, part.bytes};
   if (!part.tile.empty() && part.files.empty()) return report_missing(source, options);
-  return stream(std::span(&source, 1), options, sink, look_ups);
+  return stream(std::span(&source, 1), options, sink, look_ups, &scene);
 }
 
 }  // namespace roam

@@ -49,7 +49,9 @@ class Planner {
           fmt::format("the patterns to ignore and the allowed folders are longer than {} kB together; name fewer",
                       longest_options >> 10));
     }
-    parts_ = scene_parts(work_.options.scene, work_.options.import);
+    ImportOptions listing = work_.options.import;
+    listing.memory_limit = work_.options.memory;
+    parts_ = scene_parts(work_.options.scene, listing);
     plan_.lossless = work_.options.lossless;
     take_records();
     report_.parts = parts_.size();
@@ -191,7 +193,7 @@ class Planner {
     // A sixteenth of the memory for the names of files.
     LookUps look_ups(parts_[i], sources_.scope(parts_[i].path),
                      work_.options.memory / (16 * static_cast<std::uint64_t>(readers)));
-    PartRecord record = read_part(work_, parts_[i], plan_.parts[i].id, readers, look_ups);
+    PartRecord record = read_part(work_, parts_[i], plan_.parts[i].id, readers, look_ups, budget_);
     SourcePart sources(parts_[i]);
     for (const auto& [name, file] : look_ups.files()) {
       record.info.references.push_back(name);
@@ -366,6 +368,7 @@ class Planner {
   const std::set<std::string>& damaged_;
   StoreBuildReport& report_;
   Sources sources_;
+  reader::SceneBudget budget_;
   std::optional<Manifest> in_force_;
   std::vector<ScenePart> parts_;
   std::vector<std::size_t> unknown_;  ///< parts that must be read in any case
