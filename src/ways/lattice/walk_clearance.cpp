@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "math/level_distance.h"
 #include "math/nested_ball.h"
 #include "ways/lattice/walk_place.h"
 
@@ -42,8 +43,8 @@ std::optional<Stand> capsule_at(const Survey& survey, const Measure& measure, co
     // Bodies of growing radius contain each other, so a contact of a larger one bounds every free one.
     const Clearance c = survey.world().clearance(body_of(measure, std::max(radius - slack, 0.0)), centre, 0.0);
     if (!c.found) return Stand{radius, 0.0};
-    const double limit = capsule_limit(std::hypot(c.point.x - centre.x, c.point.y - centre.y),
-                                       c.point.z - (place.z + knee(measure)), place.z + measure.height - c.point.z);
+    const double limit = capsule_limit(level_distance(c.point, centre), c.point.z - (place.z + knee(measure)),
+                                       place.z + measure.height - c.point.z);
     radius = std::min(limit, radius - std::max(least_cut, -c.distance));
   }
   return std::nullopt;
@@ -80,7 +81,7 @@ class Spheres {
         if (i == 0 && held.radius < largest_) held.radius = sphere_limit(held.aside, held.height - lift);
         return held;
       }
-      held.aside = std::hypot(c.point.x - place_.x, c.point.y - place_.y);
+      held.aside = level_distance(c.point, place_);
       held.height = c.point.z - place_.z;
       met_[count_++ % met_.size()] = held;
       // If stored triangles are coarser than the slack, the contact may lie outside the sphere.
