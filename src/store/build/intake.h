@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "roam/import.h"
+#include "import/parts.h"
 #include "store/build/references.h"
 #include "store/build/work.h"
 #include "store/json_reader.h"
