@@ -12,8 +12,8 @@
 ///   merge_store   checks that all shards are there, writes the manifest, publishes it by rename, removes the scratch
 ///
 /// Each step may end at any moment, also by a power cut, and be run again: complete work is kept. The result is the
-/// same to the last byte for any number of threads and any memory. Unchanged parts of a scene (ScenePart) are not read
-/// again, and shards of unchanged parts are not built again.
+/// same to the last byte for any number of threads and any memory. Unchanged files and tiles of a scene are not read
+/// again, and their shards are not built again.
 
 #include <cstdint>
 #include <filesystem>
@@ -46,7 +46,7 @@ struct StoreBuildOptions {
   int threads = 0;                                ///< 0: one per core
   bool lossless = false;                          ///< as BuildOptions::lossless
   /// With a key, the store gets an authentication code (Store::is_authentic). An older store in `output` without a code
-  /// of the same key is refused (NotAuthentic), and unfinished work without one is done again. All steps need the same
+  /// of the same key is refused, and unfinished work without one is done again. All steps need the same
   /// key. Without a key, everything in `output` is trusted: only for folders that nobody else can write.
   std::optional<StoreKey> key{};
   /// With a key: trusts the store in `output`, whoever built it, and gives it a code of the key.
@@ -74,19 +74,13 @@ struct StoreBuildReport {
   StoreInfo store;                 ///< as published, or `unchanged`
 };
 
-/// The store in `output` has no authentication code of the key.
-class NotAuthentic : public Error {
- public:
-  using Error::Error;
-};
-
 /// Runs plan_store, build_shard for each shard, and merge_store. Throws as they do.
 StoreBuildReport build_store(const StoreBuildOptions& options);
 
 /// Reads changed parts and divides the scene into shards. Returns how many shards must be built; 0 if `unchanged`.
 /// Planning again gives the same plan, and keeps shards that are built. Throws roam::Error if the scene cannot be read,
 /// the folder is neither empty nor a store, another build is at work on it (the message names its process), or memory
-/// or disk are too small; NotAuthentic; roam::Cancelled.
+/// or disk are too small, or the store in `output` has no code of the key; roam::Cancelled.
 std::uint64_t plan_store(const StoreBuildOptions& options, StoreBuildReport& report);
 
 /// Builds shard `i` of the plan in `options.output`, 0 <= i < plan_store(). Uses `key`, `memory`, `threads` and

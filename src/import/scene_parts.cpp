@@ -7,9 +7,9 @@
 
 #include "files/escaped.h"
 #include "import/find_reader.h"
+#include "import/parts.h"
 #include "import/read_all.h"
 #include "math/floating_point.h"
-#include "roam/import.h"
 
 namespace roam {
 namespace {

@@ -11,8 +11,8 @@
 #include <utility>
 #include <vector>
 
+#include "import/parts.h"
 #include "import/stream.h"
-#include "roam/import.h"
 
 namespace roam::reader {
 

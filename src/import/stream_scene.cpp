@@ -3,13 +3,13 @@
 #include <system_error>
 #include <vector>
 
+#include "import/parts.h"
 #include "import/piece_receiver.h"
 #include "import/read_all.h"
 #include "import/report_notes.h"
 #include "import/scene_scope.h"
 #include "import/stream_part.h"
 #include "math/floating_point.h"
-#include "roam/import.h"
 
 namespace roam {
 namespace {

@@ -47,7 +47,7 @@ Mesh room() {
 }
 constexpr Vec3 one_end{1.0, 0.0, 0.0}, other_end{9.0, 0.0, 0.0};
 
-TEST(PassageSteps, CrossTheWidestGapThatTheLargestFootSpansAndNoWider) {
+TEST(PassageSteps, CrossTheWidestGapThatTheLargestDiscSpansAndNoWider) {
   constexpr double foot = 1.0;
   for (const double gap : {1.994, 2.006}) {
     SCOPED_TRACE(gap);
@@ -62,7 +62,7 @@ TEST(PassageSteps, CrossTheWidestGapThatTheLargestFootSpansAndNoWider) {
   }
 }
 
-TEST(PassageSteps, CrossNoGapThatTheLargestFootSpansByAHairsBreadth) {
+TEST(PassageSteps, CrossNoGapThatTheLargestDiscSpansByAHairsBreadth) {
   // To be sure of such gaps every walker that is sent over one would look at all of their rims.
   for (const double foot : {1.0, 0.4}) {
     for (const double share : {0.997, 0.999, 0.9998}) {

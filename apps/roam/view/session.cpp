@@ -1,14 +1,9 @@
 #include "view/session.h"
 
-#include <fmt/format.h>
-
 #include <memory>
 #include <utility>
 
 #include "cli/interrupt.h"
-#include "roam/error.h"
-#include "roam/profile.h"
-#include "roam/world.h"
 #include "scenes/frame.h"
 #include "view/body.h"
 #include "view/menu.h"
@@ -29,16 +24,6 @@ ViewOptions with_scene(ViewOptions options, const SceneAndStore& what) {
 ViewPlan with_bookmark(ViewPlan plan, const std::string& bookmark, Records& records) {
   if (!bookmark.empty()) plan.at = records.named(bookmark);
   return plan;
-}
-
-/// The pattern that matches this name alone.
-std::string pattern_of(const std::string& name) {
-  std::string pattern;
-  for (const char c : name) {
-    if (std::string("*?[]\\").find(c) != std::string::npos) pattern += '\\';
-    pattern += c;
-  }
-  return pattern;
 }
 
 std::unique_ptr<DisplayLoader> load_picture(const SceneAndStore& what, CollisionLoader& collision, const Stage& stage) {
@@ -66,17 +51,16 @@ Session::Session(const ViewOptions& options, const ViewPlan& plan, const ViewSet
       display_(stage_, scene_, *roamer_, news_, plan_.fov),
       prompt_(new Prompt(stage_)),
       tools_(new Tools(stage_, scene_, *roamer_, what_, options.program, plan_.section)),
-      building_(what_, options.program, *roamer_, news_) {
+      building_(what_, options.program, *roamer_, news_),
+      rereading_(what_, options_, arrival_, *roamer_, display_, news_) {
   for (const std::string& note : {plan_.note, link_beside(what_)}) {
     if (!note.empty()) news_.note(note);
   }
   stage_.add_to(commands_);
   display_.add_to(commands_);
   commands_.add("store", [this] { building_.toggle(arrival_.pager(), place(), arrival_.triangles()); });
-  commands_.add("turn", [this] { turn(); });
-  commands_.add("name_bookmark", [this] { name_bookmark(); });
-  commands_.add("leave_out", [this] { leave_out_ahead(); });
-  commands_.add("show_all", [this] { show_all(); });
+  commands_.add("name_bookmark", [this] { records_.ask_name(*prompt_); });
+  rereading_.add_to(commands_);
   commands_.add("quit", [this] { quits_ = true; });
   roamer_->setCommandCallback([this](const std::string& name) { run(name); });
   stage_.viewer().addEventHandler(prompt_);
@@ -113,7 +97,7 @@ bool Session::frame() {
   if (stage_.headless() && roaming()) arrival_.wait_for_tiles(passed);
   arrival_.fly_without_ground();
   if (learning_) learning_->update();
-  if (quits_ || next_ || stage_.viewer().done()) return false;
+  if (quits_ || next() || stage_.viewer().done()) return false;
   if (roaming()) {
     if (replay_) replay_->look(*roamer_, passed);
     if (roamer_->steps() > 0) log_.take_frame(roamer_->collisionNanoseconds(), roamer_->collisionOwnNanoseconds());
@@ -215,69 +199,6 @@ void Session::see_to_store() {
 Vec3 Session::place() const {
   if (roaming()) return roamer_->walker()->position();
   return scene_.bounds().empty() ? Vec3(0.0) : scene_.bounds().center();
-}
-
-/// Whether another session may follow this one. Says why not.
-bool Session::can_begin_anew() {
-  const bool writes = !options_.trace.empty() || !options_.record.empty() || !options_.record_path.empty();
-  if (options_.path.empty() && !options_.verify && !writes) return true;
-  news_.tell("the scene is not read anew on a path, or while a trace, a film or a way is written");
-  return false;
-}
-
-/// Ends the session to begin it anew with another axis up, which the profile keeps.
-void Session::turn() {
-  const std::optional<SceneFrame> frame = frame_of(what_.scene);
-  if (!what_.store.empty() || !frame) {
-    news_.tell("a store keeps the frame in which it was built: turn its scene, and build it again");
-  } else if (can_begin_anew()) {
-    next_ = NextSession{next_frame(*frame, arrival_.likely_up()), {}, {}, Mode::walk};
-    if (what_.scene.no_profile) return;
-    try {
-      const std::filesystem::path file = profile_path(what_.scene.scenes);
-      if (save_frame(*next_->frame, file))
-        news_.note(file.string() + " had a body for the scene as it was: train again");
-    } catch (const Error& error) {
-      news_.note(fmt::format("the turn is not kept: {}", error.what()));
-    }
-  }
-}
-
-void Session::name_bookmark() {
-  const std::string name = records_.bookmark();
-  if (name.empty()) {
-    news_.tell("there is no bookmark to name: keep one first");
-    return;
-  }
-  prompt_->ask("Name of the bookmark", name, [this](const std::string& text) {
-    try {
-      records_.name_bookmark(text);
-    } catch (const Error& error) {
-      news_.note(error.what());
-    }
-  });
-}
-
-void Session::leave_out_ahead() {
-  const std::string& name = status().around.ahead;
-  if (!roaming() || name.empty()) {
-    news_.tell("no object with a name is in the middle of the picture");
-  } else if (arrival_.pager() != nullptr) {
-    news_.tell("a store keeps its objects: build one with --ignore to leave some out");
-  } else if (const auto* world = dynamic_cast<const World*>(roamer_->space().get());
-             world != nullptr && world->stats().objects == 1) {
-    news_.tell("the scene has only this object");
-  } else if (can_begin_anew()) {
-    begin_anew(pattern_of(name));
-  }
-}
-
-void Session::show_all() {
-  if (roaming() && can_begin_anew()) begin_anew({});
-}
-
-void Session::begin_anew(const std::string& leave_out) {
-  next_ = NextSession{std::nullopt, leave_out, standing_pose_of(*roamer_), roamer_->mode()};
 }
 
 void Session::show_keys() {

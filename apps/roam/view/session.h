@@ -16,6 +16,7 @@
 #include "view/prompt.h"
 #include "view/records.h"
 #include "view/replay.h"
+#include "view/rereading.h"
 #include "view/scene_graph.h"
 #include "view/stage.h"
 #include "view/store_building.h"
@@ -25,14 +26,6 @@
 
 namespace roam::app {
 
-/// How the person wants to read the scene next: in another frame, or without some objects.
-struct NextSession {
-  std::optional<SceneFrame> frame;  ///< another frame, where places of this one mean nothing
-  std::string leave_out;            ///< without `frame`: pattern of an object to leave out too; empty: show all again
-  Pose at;                          ///< the body at the end
-  Mode mode = Mode::walk;
-};
-
 /// Joins the objects of a session, each of which owns its state:
 ///
 ///     Arrival        loads the collision, puts the body into the scene
@@ -41,6 +34,7 @@ struct NextSession {
 ///     Records        the recorded path, bookmarks
 ///     Display        head-up display, marks, overview
 ///     Tools          measuring by clicks, the plan
+///     Rereading      the end of the session for another one
 ///     Stage          window, time, pictures and films
 ///
 /// All of them write to News, and add their actions to Commands. The body collides with the scene's store if it matches
@@ -63,7 +57,7 @@ class Session {
   /// scene can be loaded, or if the path or --verify is not possible.
   bool frame();
   /// Set if the session has ended for another one.
-  [[nodiscard]] const std::optional<NextSession>& next() const { return next_; }
+  [[nodiscard]] const std::optional<NextSession>& next() const { return rereading_.next(); }
   /// Ends the session and writes its outputs.
   [[nodiscard]] ViewReport finish();
 
@@ -88,12 +82,6 @@ class Session {
   void turn_around();
   void load_pages_of_film();
   void show_keys();
-  void turn();
-  void name_bookmark();
-  void leave_out_ahead();
-  void show_all();
-  [[nodiscard]] bool can_begin_anew();
-  void begin_anew(const std::string& leave_out);
   void show(bool at_once);
   [[nodiscard]] Vec3 place() const;
   [[nodiscard]] bool is_replaying() const { return replay_ && !replay_->done(); }
@@ -115,12 +103,12 @@ class Session {
   const osg::ref_ptr<Prompt> prompt_;
   const osg::ref_ptr<Tools> tools_;
   StoreBuilding building_;
+  Rereading rereading_;
   std::optional<Learning> learning_;
   std::optional<Replay> replay_;
   double placed_at_ = 0.0;            ///< s since the session began
   std::optional<double> turning_at_;  ///< s since the session began, of the turntable's start
   bool quits_ = false;
-  std::optional<NextSession> next_;
 };
 
 }  // namespace roam::app

@@ -76,18 +76,17 @@ void note(StoreBuildReport& report, std::string sentence) {
 }
 
 /// From the folder that is held, even if its path leads elsewhere by now.
-StoreInfo info_of(const Folder& store) { return Store::open(files_of(store), store.string())->info(); }
+StoreInfo info_of(const Folder& store) { return open_store(files_of(store), store.string())->info(); }
 
 /// Repairs the root of the store before planning, or removes it. Returns the damage as a sentence for the user.
-/// Throws NotAuthentic, without any change, if nothing shows that the store was built with the key.
+/// Throws Error, without any change, if nothing shows that the store was built with the key.
 std::string mend_or_remove_root(Work& work) {
   const std::string store = work.store.string();
   const std::optional<StoreKey> key = work.options.adopt ? std::nullopt : work.options.key;
   const RootMending mending = mend_root(work.store, key, [&] { work.tick(); });
   if (mending.wrong.empty()) return "";
   if (!mending.mended && key && holds_results(work.store)) {
-    throw NotAuthentic(store,
-                       fmt::format("its {}, and no copy of its manifest has the code of your key, so nothing shows "
+    throw Error(store, fmt::format("its {}, and no copy of its manifest has the code of your key, so nothing shows "
                                    "that you built it; --adopt builds all of it again; else remove it, or choose "
                                    "another output",
                                    mending.wrong));
@@ -102,10 +101,10 @@ std::string mend_or_remove_root(Work& work) {
 /// key.
 void demand_authentic(const Work& work) {
   if (!work.options.key || !is_file(work.store, current_file)) return;
-  const auto there = Store::open(files_of(work.store), work.store.string());
+  const auto there = open_store(files_of(work.store), work.store.string());
   if (there->is_authentic(*work.options.key)) return;
   if (!work.options.adopt) {
-    throw NotAuthentic(
+    throw Error(
         work.store.string(),
         "it was not built with your key: it may have come with the scene, and lack a wall, or be a colleague's; if you "
         "trust whoever built it, --adopt makes it yours; else remove it, or choose another output");
@@ -291,7 +290,7 @@ StoreBuildReport repair_store(const StoreBuildOptions& options) {
   const Manifest manifest = *manifest_in_force(store);
   as_built.lossless = manifest.lossless;
   read_as(manifest.options, as_built.import);
-  if (options.key && !Store::open(files_of(store), store.string())->is_authentic(*options.key)) {
+  if (options.key && !open_store(files_of(store), store.string())->is_authentic(*options.key)) {
     // A repair gives it no code, and does not continue from anything that its builder left.
     as_built.key.reset();
     remove_scratch(store);

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "import/parts.h"
 #include "import/stream_part.h"
-#include "roam/import.h"
 #include "store/build/references.h"
 #include "store/build/work.h"
 #include "store/json_reader.h"

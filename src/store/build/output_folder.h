@@ -16,6 +16,9 @@ namespace roam::store {
 /// As in StoreBuildOptions.
 using BuildProgress = std::function<bool(const StoreBuildProgress&)>;
 
+/// Throws roam::Error if the output folder cannot be used for this scene.
+void check_output(const StoreBuildOptions& options);
+
 /// Locks the store. Waits for another holder up to 1 s. If the holder's builder was killed while it started a reader,
 /// waits up to 5 s, until that process has become the reader. While waiting it calls `progress`; false ends it. Throws
 /// roam::Error naming the holder, and roam::Cancelled.

@@ -44,9 +44,6 @@ void write_plan(const Work& work, const Plan& plan);
 /// The notes of each part of a store, as in PartRecord.
 [[nodiscard]] std::vector<std::vector<std::string>> notes_by_part(const Manifest& manifest);
 
-/// Throws roam::Error if the output folder cannot be used for this scene.
-void check_output(const StoreBuildOptions& options);
-
 /// Reads the changed parts and decides the shards. None if the store is up to date. Files whose SHA-256 is in `damaged`
 /// count as missing. The store must be locked.
 [[nodiscard]] std::optional<Plan> make_plan(Work& work, const std::set<std::string>& damaged, StoreBuildReport& report);

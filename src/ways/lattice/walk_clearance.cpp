@@ -5,6 +5,7 @@
 #include <limits>
 #include <vector>
 
+#include "math/level_distance.h"
 #include "math/nested_ball.h"
 #include "math/slope.h"
 #include "roam/support.h"
@@ -103,10 +104,9 @@ std::optional<Stand> capsule_at(const Survey& survey, const Measure& measure, co
   for (std::size_t i = 0; i < most_cuts && radius >= least; ++i) {
     // Bodies of growing radius contain each other, so a contact of a larger one bounds every free one.
     const Body body = body_of(measure, std::max(radius - slack, 0.0));
-    const auto beside = [&](const Vec3& point) { return std::hypot(point.x - centre.x, point.y - centre.y); };
     const Clearance c = survey.world().clearance(body, centre, 0.0);
     if (c.found) {
-      const double limit = capsule_limit(beside(c.point), c.point.z - (place.z + knee(measure)), top - c.point.z);
+      const double limit = capsule_limit(level_distance(c.point, centre), c.point.z - (place.z + knee(measure)), top - c.point.z);
       radius = std::min(limit, radius - std::max(least_cut, -c.distance));
       continue;
     }
@@ -114,7 +114,7 @@ std::optional<Stand> capsule_at(const Survey& survey, const Measure& measure, co
     const Impact met = survey.world().sweep(body, centre, Vec3(0.0, 0.0, -down));
     if (!met.hit || !is_too_high(survey, measure, place.z, body.radius, met))
       return Stand{radius, knee(measure) - met.time * down};
-    radius = std::min(capsule_limit(beside(met.point), met.point.z - place.z, top - met.point.z), radius - least_cut);
+    radius = std::min(capsule_limit(level_distance(met.point, centre), met.point.z - place.z, top - met.point.z), radius - least_cut);
   }
   return std::nullopt;
 }
@@ -150,7 +150,7 @@ class Spheres {
         if (i == 0 && held.radius < largest_) held.radius = sphere_limit(held.aside, held.height - lift);
         return held;
       }
-      held.aside = std::hypot(c.point.x - place_.x, c.point.y - place_.y);
+      held.aside = level_distance(c.point, place_);
       held.height = c.point.z - place_.z;
       met_[count_++ % met_.size()] = held;
       // If stored triangles are coarser than the slack, the contact may lie outside the sphere.

@@ -47,10 +47,10 @@ struct Stand {
 [[nodiscard]] std::optional<Stand> stand_at(const Survey& survey, const Measure& measure, const Vec3& place,
                                             double largest, double least);
 
-/// A foot at rest.
+/// A place where feet rest.
 struct FloorPlace {
   Vec3 place{0.0};
-  /// m. The height of the floor under the axis, or of the rim that carries the foot. The next step counts from it. On a
+  /// m. The height of the floor under the axis, or of the rim that carries the feet. The next step counts from it. On a
   /// kerb's rim, `place` lies between the two floors; a step from there would climb too much.
   double level = 0.0;
   bool over_gap = false;  ///< over a gap of the floor
@@ -90,8 +90,8 @@ class KnownGaps {
   std::array<Part, 16> parts_;
 };
 
-/// The floor for a foot that stands at height `level` beside (x, y); see foot_at. If the foot hangs on a rim with no
-/// floor below, the gap must be one that carries the largest foot.
+/// The floor for feet at height `level` beside (x, y); see foot_at. If they hang over a rim with no
+/// floor below, the gap must be one that carries the largest support disc.
 [[nodiscard]] std::optional<FloorPlace> floor_below(const Survey& survey, const Measure& measure, double x, double y,
                                                     double level, KnownGaps* gaps = nullptr);
 /// The same over a gap without any floor below.
