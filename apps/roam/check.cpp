@@ -39,15 +39,15 @@ struct CheckOptions {
 /// Maximum bytes of a certificate: some 5 million segments.
 constexpr std::uint64_t limit = 1ull << 30;
 
-double height_of(const check::Size& size) { return 2.0 * (size.radius + size.half_height); }
+double height_of(const checking::Size& size) { return 2.0 * (size.radius + size.half_height); }
 
 /// The facts that an accepted certificate proves.
 struct Claim {
   double length = 0.0, least_gap = 0.0;  ///< m
 
-  explicit Claim(const check::Certificate& certificate) {
+  explicit Claim(const checking::Certificate& certificate) {
     least_gap = certificate.segments.front().clearance - certificate.segments.front().size.radius;
-    for (const check::Segment& s : certificate.segments) {
+    for (const checking::Segment& s : certificate.segments) {
       length += glm::distance(s.from, s.to);
       least_gap = std::min(least_gap, s.clearance - s.size.radius);
     }
@@ -56,8 +56,8 @@ struct Claim {
 
 /// The result, with the certificate as far as it could be read.
 struct Result {
-  std::optional<check::Certificate> certificate;
-  std::optional<check::Refused> refused;
+  std::optional<checking::Certificate> certificate;
+  std::optional<checking::Refused> refused;
 
   /// "segment 17, from (...) to (...): ".
   [[nodiscard]] std::string place() const {
@@ -65,25 +65,25 @@ struct Result {
     if (!certificate || refused->segment > certificate->segments.size()) {
       return fmt::format("segment {}: ", refused->segment);
     }
-    const check::Segment& s = certificate->segments[refused->segment - 1];
+    const checking::Segment& s = certificate->segments[refused->segment - 1];
     return fmt::format("segment {}, from {} to {}: ", refused->segment, words::exactly_at(s.from),
                        words::exactly_at(s.to));
   }
 };
 
 /// Refuses a body that is smaller than the options say.
-void demand_size(const CheckOptions& options, const check::Certificate& certificate) {
-  for (const check::Size& size : certificate.sizes) {
-    if (size.radius < options.radius.value_or(0.0)) throw check::Refused("the body is thinner than --radius", 0);
+void demand_size(const CheckOptions& options, const checking::Certificate& certificate) {
+  for (const checking::Size& size : certificate.sizes) {
+    if (size.radius < options.radius.value_or(0.0)) throw checking::Refused("the body is thinner than --radius", 0);
     // A capsule's height is stored as two numbers.
     if (height_of(size) < options.height.value_or(0.0) - 1e-9) {
-      throw check::Refused("the body is lower than --height, at least for a part of its way", 0);
+      throw checking::Refused("the body is lower than --height, at least for a part of its way", 0);
     }
   }
 }
 
 /// Checks every triangle while the scene is read.
-void check_scene(const SceneOptions& scene, check::Checker& checker) {
+void check_scene(const SceneOptions& scene, checking::Checker& checker) {
   ImportReport report;
   {
     Progress progress("checking against " + scene.names(), "B");
@@ -108,10 +108,10 @@ Json json_report(const CheckOptions& options, const Result& result) {
                {"segments", nullptr}};
   if (result.refused && result.refused->segment > 0) json["segment"] = result.refused->segment;
   if (!result.certificate) return json;
-  const check::Certificate& certificate = *result.certificate;
+  const checking::Certificate& certificate = *result.certificate;
   const Claim claim(certificate);
   Json sizes = Json::array();
-  for (const check::Size& size : certificate.sizes) {
+  for (const checking::Size& size : certificate.sizes) {
     sizes.push_back({{"radius", size.radius}, {"height", height_of(size)}});
   }
   json["segments"] = certificate.segments.size();
@@ -127,7 +127,7 @@ Json json_report(const CheckOptions& options, const Result& result) {
 std::string text_report(const CheckOptions& options, const Result& result) {
   const std::string name = printable_part(options.certificate.string());
   if (result.refused) return words::Lines("REFUSED: " + name + ": " + result.place() + result.refused->what()).text();
-  const check::Certificate& certificate = *result.certificate;
+  const checking::Certificate& certificate = *result.certificate;
   const Claim claim(certificate);
   words::Lines lines(fmt::format("ACCEPTED: {}: its {} segments keep away from all {} triangles", name,
                                  words::grouped(certificate.segments.size()),
@@ -136,7 +136,7 @@ std::string text_report(const CheckOptions& options, const Result& result) {
                                words::exactly_at(certificate.segments.front().from),
                                words::exactly_at(certificate.segments.back().to)));
   std::string sizes;
-  for (const check::Size& size : certificate.sizes) {
+  for (const checking::Size& size : certificate.sizes) {
     sizes += (sizes.empty() ? "" : "; ") + words::size_of(size.radius, height_of(size));
   }
   lines.add("body", sizes);
@@ -157,12 +157,12 @@ ExitStatus check_certificate(CheckOptions options) {
   }
   Result result;
   try {
-    result.certificate = check::read_certificate(text);
+    result.certificate = checking::read_certificate(text);
     demand_size(options, *result.certificate);
-    check::Checker checker(*result.certificate);
+    checking::Checker checker(*result.certificate);
     check_scene(options.scene, checker);
     checker.finish();
-  } catch (const check::Refused& refused) {
+  } catch (const checking::Refused& refused) {
     result.refused = refused;
   }
   print_report(options.json, json_report(options, result),

@@ -181,7 +181,7 @@ std::string title(const WalkOptions& options) {
 
 /// The scene of --against is added to `sum`.
 verification::Verification verified(const WalkOptions& options, const OpenScene& scene,
-                                    const verification::PieceLog& pieces, check::SceneSum& sum) {
+                                    const verification::PieceLog& pieces, checking::SceneSum& sum) {
   if (!options.against.scenes.empty()) {
     Progress progress("verifying against " + options.against.names(), "B");
     return verify_against(
@@ -227,7 +227,7 @@ draw::Sheet sheet(const WalkOptions& options, const OpenScene& scene, const Walk
 
 /// Verifies all moves; after Ctrl-C, if there is time.
 void check_moves(const WalkOptions& options, const OpenScene& scene, const verification::PieceLog& pieces,
-                 WalkReport& report, check::SceneSum& sum) {
+                 WalkReport& report, checking::SceneSum& sum) {
   const auto begin = std::chrono::steady_clock::now();
   try {
     report.verified = verified(options, scene, pieces, sum);
@@ -336,7 +336,7 @@ ExitStatus walk(WalkOptions options) {
   std::optional<draw::Measured> seen;
   if (drawing) seen = measured(scene, report, recorder.record());
   scene.leave();
-  check::SceneSum sum;
+  checking::SceneSum sum;
   if (options.checks()) check_moves(options, scene, recorder.pieces(), report, sum);
   Unwritten certificate;
   certificate.attempt([&] { certify(options.certify, scene, recorder.pieces(), report.verified ? &sum : nullptr); });

@@ -9,7 +9,7 @@
 #include <locale>
 #include <sstream>
 
-namespace roam::check {
+namespace roam::checking {
 namespace {
 
 /// FNV-1a of 64 bits.
@@ -168,4 +168,4 @@ void Checker::finish() const {
   if (near || other) throw Refused(why, near ? refused_ + 1 : 0);
 }
 
-}  // namespace roam::check
+}  // namespace roam::checking

@@ -15,7 +15,7 @@
 
 #include "roam/mesh.h"
 
-namespace roam::check {
+namespace roam::checking {
 
 /// Identifies a scene: its number of triangles, and the sum of the hashes of their coordinates, in any order.
 struct SceneSum {
@@ -74,4 +74,4 @@ class Checker {
   std::uint64_t refused_by_ = 0;  ///< the triangle
 };
 
-}  // namespace roam::check
+}  // namespace roam::checking

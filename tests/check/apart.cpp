@@ -12,8 +12,8 @@ namespace {
 
 using roam::Triangle;
 using roam::Vec3;
-using roam::check::apart;
-using roam::check::Segment;
+using roam::checking::apart;
+using roam::checking::Segment;
 
 /// Segments and triangles of hard kinds, far from the origin.
 class Cases {

@@ -13,7 +13,7 @@ namespace {
 
 using roam::Triangle;
 using roam::Vec3;
-using namespace roam::check;
+using namespace roam::checking;
 
 /// A floor and a wall at x = 6.
 const std::vector<Triangle> scene{{Vec3(0, -9, 0), Vec3(9, -9, 0), Vec3(0, 9, 0)},
@@ -22,12 +22,13 @@ const std::vector<Triangle> scene{{Vec3(0, -9, 0), Vec3(9, -9, 0), Vec3(0, 9, 0)
 
 /// Forward, a crouch, and up again.
 const std::string good =
-    "way 5 1 0 1 5 0 1\nsize 0.3 0.6\nsize 0.3 0.25\n"
+    "way 6 1 0 1 5 0 1\nsize 0.3 0.6\nsize 0.3 0.25\n"
     "segment 1 1 0 1 2 0 1 0.3 0.6 0.4\n"
     "segment 2 2 0 1 2 0 0.65 0.3 0.25 0.4\n"
     "segment 3 2 0 0.65 4 0 0.65 0.3 0.25 0.39\n"
     "segment 4 4 0 0.65 4 0 1 0.3 0.25 0.35\n"
-    "segment 5 4 0 1 5 0 1 0.3 0.6 0.3999999999\n";
+    "segment 5 4 0 1 4 0 1 0.3 0.6 0.35\n"
+    "segment 6 4 0 1 5 0 1 0.3 0.6 0.3999999999\n";
 
 std::string with_head(const std::string& text, const std::vector<Triangle>& triangles = scene) {
   SceneSum sum;
@@ -79,17 +80,17 @@ TEST(Certificate, IsRefusedForEachForgery) {
            {"1 2 0 1 0.3", "1 2 0.1 1 0.3", joint},                      // a corner moved
            {"0.4\nsegment 2", "0.41\nsegment 2", "1: triangle 0 of the scene is nearer than it says"},
            {"0.39\n", "0.41\n", "3: triangle 0 of the scene is nearer"},  // bounds raised
-           {"0.3999999999\n", "0.4000001\n", "5: triangle 0 of the scene is nearer"},
+           {"0.3999999999\n", "0.4000001\n", "6: triangle 0 of the scene is nearer"},
            {"0.39\n", "0.2999\n", "3: its clearance is below the radius"},
            {"segment 3 2 0 0.65 4 0 0.65 0.3 0.25 0.39\n", "", "4: a segment before it is missing"},  // left out
            {"segment 1 1 0 1 2 0 1 0.3 0.6 0.4\n", "", "2: a segment before it is missing"},
-           {"segment 5 4 0 1 5 0 1 0.3 0.6 0.3999999999\n", "", "another number of segments"},
-           {"way 5 1", "way 5 1.5", joint},
+           {"segment 6 4 0 1 5 0 1 0.3 0.6 0.3999999999\n", "", "another number of segments"},
+           {"way 6 1", "way 6 1.5", joint},
            {"5 0 1\nsize", "5.5 0 1\nsize", end},
            {"segment 4", "segment 5", "5: a segment before it is missing"},
            {"0.39\n", "nan\n", "3: it is not as the format says"},
            {"0.39\n", "1e300\n", "3: it is not as the format says"},
-           {"segment 5", "segments 5", "another number of segments"},
+           {"segment 6", "segments 6", "another number of segments"},
        }) {
     const std::string found = forged(replaced(good, part, by));
     if (*why == '\0') {
@@ -102,7 +103,9 @@ TEST(Certificate, IsRefusedForEachForgery) {
 
 TEST(Certificate, NamesTheNumberOfASegmentThatWasLeftOutAndCovered) {
   std::string text = replaced(good, "segment 3 2 0 0.65 4 0 0.65 0.3 0.25 0.39\n", "");
-  text = replaced(replaced(replaced(text, "segment 4", "segment 3"), "segment 5", "segment 4"), "way 5", "way 4");
+  text =
+      replaced(replaced(replaced(text, "segment 4", "segment 3"), "segment 5", "segment 4"), "segment 6", "segment 5");
+  text = replaced(text, "way 6", "way 5");
   EXPECT_TRUE(contains(forged(text), "3: it does not begin where the one before it ends")) << forged(text);
 }
 

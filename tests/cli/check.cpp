@@ -52,7 +52,7 @@ class CheckVerb : public testing::Test {
   void expect_refused(const std::vector<std::string>& lines, const json& segment, const std::string& why) {
     std::string text;
     for (const std::string& line : lines) text += line + "\n";
-    folder_.write("certificate", text + roam::check::checksum_line(text));
+    folder_.write("certificate", text + roam::checking::checksum_line(text));
     const json found = report();
     EXPECT_EQ(found["accepted"], false) << why;
     EXPECT_EQ(found["segment"], segment) << why;
@@ -141,7 +141,7 @@ TEST_F(CheckVerb, RefusesASmallerRadius) {
   }
   std::string text;
   for (const std::string& line : forged) text += line + "\n";
-  folder_.write("certificate", text + roam::check::checksum_line(text));
+  folder_.write("certificate", text + roam::checking::checksum_line(text));
   EXPECT_EQ(report()["sizes"][0]["radius"], 0.25);
   EXPECT_EQ(check({"--radius", "0.25"}).status, 0);
   const ProgramResult thin = check({"--radius", "0.3"});
@@ -206,9 +206,9 @@ TEST_F(CheckVerb, AcceptsNothingWithAWrongByte) {
     std::string other = text;
     other[random() % other.size()] ^= static_cast<char>(1 + random() % 255);
     try {
-      (void)roam::check::read_certificate(other);
+      (void)roam::checking::read_certificate(other);
       ADD_FAILURE() << "accepted: " << i;
-    } catch (const roam::check::Refused&) {
+    } catch (const roam::checking::Refused&) {
     }
     if (i % 30 > 0) continue;
     folder_.write("certificate", other);

@@ -23,7 +23,7 @@ void check_against(const SceneOptions& scene) {
 verification::Verification verify_against(const SceneOptions& scene, const OpenScene& walked,
                                           const verification::PieceLog& pieces,
                                           const std::function<bool(std::uint64_t, std::uint64_t)>& progress,
-                                          check::SceneSum& sum) {
+                                          checking::SceneSum& sum) {
   // Half of the memory for pieces: in 64 MiB, more than an hour's walk.
   const auto together = static_cast<std::size_t>(walked.memory() / (2 * sizeof(verification::Piece)));
   const std::uint64_t readings = std::max<std::uint64_t>(1, (pieces.size() + together - 1) / together);

@@ -21,6 +21,6 @@ void check_against(const SceneOptions& scene);
 /// `sum`.
 [[nodiscard]] verification::Verification verify_against(
     const SceneOptions& scene, const OpenScene& walked, const verification::PieceLog& pieces,
-    const std::function<bool(std::uint64_t, std::uint64_t)>& progress, check::SceneSum& sum);
+    const std::function<bool(std::uint64_t, std::uint64_t)>& progress, checking::SceneSum& sum);
 
 }  // namespace roam::app

@@ -42,12 +42,12 @@ class Segments {
   }
 
   [[nodiscard]] bool empty() const { return count_ == 0; }
-  [[nodiscard]] std::string certificate(const check::SceneSum& scene) const {
-    std::string text = fmt::format("{}\nscene {} {:016x}\nway {} {} {}\n", check::first_line, scene.triangles,
+  [[nodiscard]] std::string certificate(const checking::SceneSum& scene) const {
+    std::string text = fmt::format("{}\nscene {} {:016x}\nway {} {} {}\n", checking::first_line, scene.triangles,
                                    scene.hash, count_, numbers(start_), numbers(last_->to));
     for (const Body& size : sizes_) text += "size " + numbers(size) + "\n";
     text += lines_;
-    return text + check::checksum_line(text);
+    return text + checking::checksum_line(text);
   }
 
  private:
@@ -60,15 +60,15 @@ class Segments {
 
 }  // namespace
 
-void add(check::SceneSum& sum, const Mesh& mesh) {
+void add(checking::SceneSum& sum, const Mesh& mesh) {
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) sum.add(mesh.triangle(i));
 }
 
 void certify(const std::filesystem::path& file, const OpenScene& scene, const verification::PieceLog& pieces,
-             const check::SceneSum* source) {
+             const checking::SceneSum* source) {
   if (file.empty()) return;
   if (scene.store() && !source) return tell("note: no certificate: Ctrl-C came before the scene was read");
-  check::SceneSum sum;
+  checking::SceneSum sum;
   if (scene.store()) sum = *source;
   for (const Mesh& mesh : scene.loaded().meshes) add(sum, mesh);
   Segments segments;

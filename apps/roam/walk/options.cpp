@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "cli/exit_status.h"
+#include "cli/output_file.h"
 #include "cli/standard_streams.h"
 #include "cli/values.h"
 #include "roam/error.h"
@@ -62,7 +63,7 @@ void check_outputs(const WalkOptions& options) {
   check_output(options, "--picture", options.picture);
   check_output(options, "--certify", options.certify);
   if (!options.certify.empty()) {
-    check_output(options.scene.scenes, "--certify", options.certify);
+    app::check_output(options.scene.scenes, "--certify", options.certify);
     if (options.scene.name_a_store() && options.against.scenes.empty()) {
       throw UsageError("--certify", "a store keeps triangles to within 2 mm only; name its scene by --against, too");
     }
