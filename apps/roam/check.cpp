@@ -186,7 +186,6 @@ scene that the store was built from.
 Exit status 0 if the certificate is accepted, 3 if it is refused.
 
 Examples:
-  roam walk mine.dae --path tour.path --certify tour.certificate
   roam check tour.certificate mine.dae
   roam check tour.certificate mine.dae --radius 0.3 --height 1.1 --json
 )";
