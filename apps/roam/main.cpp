@@ -62,6 +62,7 @@ int main(int argc, char** argv) {
   roam::app::add_train(program, chosen);
   roam::app::add_make(program, chosen);
   roam::app::add_verify(program, chosen);
+  roam::app::add_check(program, chosen);
   roam::app::add_build(program, chosen);
   roam::app::add_bench(program, chosen);
   roam::app::add_reference(program, chosen);

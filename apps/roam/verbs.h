@@ -15,6 +15,7 @@ void add_build(CLI::App& program, Run& run);
 void add_bench(CLI::App& program, Run& run);
 void add_train(CLI::App& program, Run& run);
 void add_verify(CLI::App& program, Run& run);
+void add_check(CLI::App& program, Run& run);
 void add_probe(CLI::App& program, Run& run);
 void add_view(CLI::App& program, Run& run);
 /// Hidden: the build writes man pages with it.
