@@ -23,6 +23,10 @@ std::uint32_t DisplayTexture::all_levels(std::uint32_t width, std::uint32_t heig
   return static_cast<std::uint32_t>(std::bit_width(std::max(width, height)));
 }
 
+bool DisplayLook::has_image() const {
+  return texture != no_texture || gloss_texture != no_texture || emission_texture != no_texture;
+}
+
 std::uint64_t DisplayPart::node_bytes() const {
   // A geometry of OpenSceneGraph with its arrays and buffers; other nodes take less.
   constexpr std::uint64_t most = 2048;

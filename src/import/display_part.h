@@ -47,9 +47,17 @@ enum class DisplayCover : std::uint8_t {
 struct DisplayLook {
   static constexpr std::uint32_t no_texture = std::numeric_limits<std::uint32_t>::max();
 
-  std::uint32_t texture = no_texture;  ///< index in DisplayPart::textures
+  std::uint32_t texture = no_texture;  ///< index in DisplayPart::textures; multiplied with the colours
   DisplayCover cover = DisplayCover::opaque;
-  float cutoff = 0.5f;  ///< 0..1
+  float cutoff = 0.5f;     ///< 0..1
+  float roughness = 1.0f;  ///< 0 (a mirror) .. 1 (dull)
+  float metalness = 0.0f;  ///< 0..1
+  /// Of roughness (grey) and metalness (opacity), multiplied with the two.
+  std::uint32_t gloss_texture = no_texture;
+  std::array<std::uint8_t, 3> emission{};       ///< the colour in which it shines by itself
+  std::uint32_t emission_texture = no_texture;  ///< multiplied with the emission
+
+  [[nodiscard]] bool has_image() const;
 };
 
 /// At most 16,384 triangles that lie close together and are drawn together.

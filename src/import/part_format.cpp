@@ -119,9 +119,19 @@ DisplayLook take_look(Reader& from, const DisplayPart& part) {
   look.texture = from.take<std::uint32_t>();
   look.cover = from.take(DisplayCover::cut);
   look.cutoff = from.take<float>();
-  const bool textured = look.texture != DisplayLook::no_texture;
-  if (textured && look.texture >= part.textures.size()) throw StreamDamaged{"a look without its image"};
-  if (!(look.cutoff >= 0.0f && look.cutoff <= 1.0f)) throw StreamDamaged{"a value of no meaning"};
+  look.roughness = from.take<float>();
+  look.metalness = from.take<float>();
+  look.gloss_texture = from.take<std::uint32_t>();
+  for (std::uint8_t& c : look.emission) c = from.take<std::uint8_t>();
+  look.emission_texture = from.take<std::uint32_t>();
+  for (const std::uint32_t image : {look.texture, look.gloss_texture, look.emission_texture}) {
+    if (image != DisplayLook::no_texture && image >= part.textures.size()) {
+      throw StreamDamaged{"a look without its image"};
+    }
+  }
+  for (const float share : {look.cutoff, look.roughness, look.metalness}) {
+    if (!(share >= 0.0f && share <= 1.0f)) throw StreamDamaged{"a value of no meaning"};
+  }
   return look;
 }
 
@@ -142,7 +152,7 @@ DisplayGeometry take_geometry(Reader& from, const DisplayPart& part) {
   check_finite(g.normals);
   check_finite(g.coordinates);
   const std::size_t n = g.positions.size();
-  const bool textured = part.looks[g.look].texture != DisplayLook::no_texture;
+  const bool textured = part.looks[g.look].has_image();
   if (n == 0 || g.indices.empty() || g.indices.size() % 3 != 0 || g.colours.size() != n ||
       (!g.normals.empty() && g.normals.size() != n) || g.coordinates.size() != (textured ? n : 0)) {
     throw StreamDamaged{"a geometry that is not whole"};
@@ -212,6 +222,11 @@ std::vector<std::byte> encode(const DisplayPart& part) {
     to.add(look.texture);
     to.add(look.cover);
     to.add(look.cutoff);
+    to.add(look.roughness);
+    to.add(look.metalness);
+    to.add(look.gloss_texture);
+    for (const std::uint8_t c : look.emission) to.add(c);
+    to.add(look.emission_texture);
   }
   to.add(std::uint64_t{part.geometries.size()});
   for (const DisplayGeometry& g : part.geometries) {
@@ -243,7 +258,7 @@ std::vector<std::byte> encode(const DisplayPart& part) {
 
 void decode(std::span<const std::byte> bytes, DisplayPart& part) {
   // The least bytes of an element, so that no count allocates more than a multiple of the bytes present.
-  constexpr std::size_t texture_bytes = 23, look_bytes = 9, geometry_bytes = 72, pages_bytes = 41;
+  constexpr std::size_t texture_bytes = 23, look_bytes = 28, geometry_bytes = 72, pages_bytes = 41;
   // A group has no bytes of its own, but each group except the first is a level, which has.
   constexpr std::size_t level_bytes = 16;
   Reader from(bytes);

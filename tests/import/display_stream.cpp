@@ -27,7 +27,10 @@ DisplayPart full_part() {
       {2, 3, DisplayTexels::rgb, DisplayWrap::repeat, DisplayWrap::clamp, 1, std::vector<std::uint8_t>(18, 7)});
   part.textures.push_back({8, 4, DisplayTexels::dxt5, DisplayWrap::mirror, DisplayWrap::repeat, 4,
                            std::vector<std::uint8_t>(DisplayTexture::bytes_of(DisplayTexels::dxt5, 8, 4, 4), 9)});
-  part.looks = {{}, {0, DisplayCover::cut, 0.25f}, {1, DisplayCover::blended, 0.5f}};
+  constexpr std::uint32_t none = DisplayLook::no_texture;
+  part.looks = {{none, DisplayCover::opaque, 0.5f, 0.25f, 1.0f, none, {255, 128, 0}, none},
+                {0, DisplayCover::cut, 0.25f},
+                {none, DisplayCover::blended, 0.5f, 1.0f, 1.0f, 1, {1, 1, 1}, 0}};
   part.groups = 3;
   for (std::uint32_t i = 0; i < 3; ++i) {
     DisplayGeometry geometry;
@@ -60,7 +63,12 @@ bool is_valid(const DisplayPart& part) {
     }
   }
   for (const DisplayLook& look : part.looks) {
-    valid = valid && (look.texture == DisplayLook::no_texture || look.texture < part.textures.size());
+    for (const std::uint32_t image : {look.texture, look.gloss_texture, look.emission_texture}) {
+      valid = valid && (image == DisplayLook::no_texture || image < part.textures.size());
+    }
+    for (const float share : {look.cutoff, look.roughness, look.metalness}) {
+      valid = valid && share >= 0.0f && share <= 1.0f;
+    }
   }
   std::uint64_t triangles = 0;
   for (const DisplayGeometry& g : part.geometries) {
@@ -68,7 +76,7 @@ bool is_valid(const DisplayPart& part) {
     valid = valid && g.colours.size() == g.positions.size();
     valid = valid && (g.normals.empty() || g.normals.size() == g.positions.size());
     if (!valid) return false;
-    const bool textured = part.looks[g.look].texture != DisplayLook::no_texture;
+    const bool textured = part.looks[g.look].has_image();
     valid = valid && g.coordinates.size() == (textured ? g.positions.size() : 0);
     for (const std::uint16_t i : g.indices) valid = valid && i < g.positions.size();
     for (const glm::vec3& p : g.positions) {
@@ -132,7 +140,11 @@ TEST(ImportDisplayStream, RefusesWhatIsNoValue) {
   EXPECT_EQ(with([](DisplayPart& p) { p.textures[0].up = DisplayWrap(3); }), "a value of no meaning");
   EXPECT_EQ(with([](DisplayPart& p) { p.textures[0].texels = DisplayTexels(8); }), "a value of no meaning");
   EXPECT_EQ(with([](DisplayPart& p) { p.looks[1].texture = 2; }), "a look without its image");
+  EXPECT_EQ(with([](DisplayPart& p) { p.looks[2].gloss_texture = 2; }), "a look without its image");
+  EXPECT_EQ(with([](DisplayPart& p) { p.looks[2].emission_texture = 7; }), "a look without its image");
   EXPECT_EQ(with([&](DisplayPart& p) { p.looks[1].cutoff = nan; }), "a value of no meaning");
+  EXPECT_EQ(with([&](DisplayPart& p) { p.looks[1].roughness = nan; }), "a value of no meaning");
+  EXPECT_EQ(with([](DisplayPart& p) { p.looks[0].metalness = 1.5f; }), "a value of no meaning");
   EXPECT_EQ(with([](DisplayPart& p) { p.geometries[0].look = 3; }), "a geometry without a place");
   EXPECT_EQ(with([](DisplayPart& p) { p.geometries[0].group = 3; }), "a geometry without a place");
   EXPECT_EQ(with([](DisplayPart& p) { p.geometries[0].indices[5] = 4; }), "a triangle of vertices that are not there");

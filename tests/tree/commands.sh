@@ -46,7 +46,7 @@ with_stand_ins() {
     s#--wasm-engines( DIR)?|--scratch /big/disk##; s#\bDIR\b#.#g
     s#\btrain gallery\.ply#train room.obj#;
     s#--unit in --from [^ ]+ --to [^ ]+#--from 1,2,1 --to 8,3,1#; s#--radius R\b#--radius 0.3#
-    s#--triangles (2M|100M)#--triangles 50k#; s#--gallery 500000#--gallery 20000#; s#--least 100k#--least 20k#
+    s#--triangles (600k|2M|100M)#--triangles 50k#; s#--gallery 500000#--gallery 20000#; s#--least 100k#--least 20k#
     s#--quality Q\b#--quality light#; s#--size [0-9]+x[0-9]+#--size 160x120#
     s#--queries 10000#--queries 100#; s#(roam bench engines) --picture\$#\1#; s# +# #g; s# \$##" <<< "$1")
   case $command in

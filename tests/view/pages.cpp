@@ -111,6 +111,30 @@ TEST(ViewPages, AreNodesAsThePictureWantsThem) {
   EXPECT_EQ(pages->getCenter(), osg::LOD::vec_type(1, 2, 3));
 }
 
+TEST(ViewPages, MaterialsOfTheirSurfacesAreDrawn) {
+  roam::DisplayPart part = small_part();
+  roam::DisplayLook& look = part.looks[0];
+  look = {};
+  const auto state_of = [&] {
+    const auto node = roam::app::make_node(part, {}, [](const std::string&) { return std::string("page-1"); });
+    const osg::ref_ptr<osg::Node> drawn = node->getChild(0)->asGroup()->getChild(0);
+    return osg::ref_ptr<const osg::StateSet>(drawn->getStateSet());
+  };
+  part.geometries[0].coordinates.clear();
+  EXPECT_FALSE(state_of()) << "nothing to set for a dull surface";
+  look.roughness = 0.5f;
+  ASSERT_TRUE(state_of());
+  EXPECT_TRUE(state_of()->getUniform("roam_gloss"));
+  look.emission = {255, 0, 0};
+  EXPECT_TRUE(state_of()->getUniform("roam_emission"));
+  part.geometries[0].coordinates.assign(3, {0.5f, 0.25f});
+  look.gloss_texture = look.emission_texture = 0;
+  for (const unsigned unit : {roam::graphics::gloss_unit, roam::graphics::emission_unit}) {
+    EXPECT_TRUE(state_of()->getTextureAttribute(unit, osg::StateAttribute::TEXTURE));
+  }
+  EXPECT_FALSE(state_of()->getDefinePair(roam::graphics::textured_define));
+}
+
 TEST(ViewPages, AreReadByMadeUpNamesAndNothingElseIs) {
   const TestFolder folder;
   const std::string image = folder.write("a.png", "");

@@ -130,7 +130,10 @@ void MeshSink::set_look(const Look& wanted) {
   if (parts_ == nullptr) return;
   Look look = wanted;
   // Without an image there is nothing to cut. Looks are sorted, so none may have a NaN.
-  if (look.texture == no_texture && look.transparency != Transparency::blend) look = {};
+  if (look.texture == no_texture && look.transparency != Transparency::blend) {
+    look.transparency = Look{}.transparency;
+    look.cutoff = Look{}.cutoff;
+  }
   if (!(look.cutoff >= 0.0f && look.cutoff <= 1.0f)) look.cutoff = Look{}.cutoff;
   if (look == look_) return;
   if (!triangles_.empty()) send_triangles();

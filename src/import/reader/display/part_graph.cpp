@@ -1,5 +1,6 @@
 #include "import/reader/display/part_graph.h"
 
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
@@ -66,7 +67,7 @@ PartGraph::PartGraph(Textures& textures, const Vec3& origin) : textures_(texture
 
 void PartGraph::add(const Surface& surface, const Look& look, bool normals, std::uint32_t group) {
   const std::uint32_t number = number_of(look);
-  const bool textured = part_.looks[number].texture != DisplayLook::no_texture;
+  const bool textured = part_.looks[number].has_image();
   bytes_ += surface.bytes();
   part_.triangles += surface.triangles.size();
   std::vector<std::uint32_t> order;
@@ -93,15 +94,17 @@ std::size_t PartGraph::add_pages(DisplayPages&& pages, const Box& box) {
   return part_.pages.size() - 1;
 }
 
-const PartGraph::Loaded& PartGraph::load(TextureId texture) {
-  const auto [at, is_new] = loaded_.try_emplace(textures_.first_of(texture));
+PartGraph::Loaded PartGraph::load(TextureId texture, Content content) {
+  if (texture == no_texture) return {};
+  const auto [at, is_new] = loaded_.try_emplace({textures_.first_of(texture), content});
   Loaded& loaded = at->second;
   if (!is_new) return loaded;
+  const bool gloss = content == Content::gloss;
   const osg::ref_ptr<osg::Image> image = textures_.load(texture);
-  if (image == nullptr) return loaded;
+  if (image == nullptr || (gloss && image->isCompressed())) return loaded;
   loaded.number = static_cast<std::uint32_t>(part_.textures.size());
   loaded.translucent = image->isImageTranslucent();
-  part_.textures.push_back(texels_of(*image));
+  part_.textures.push_back(gloss ? gloss_of(*image) : texels_of(*image));
   const Wrapping wrapping = textures_.wrapping(texture);
   part_.textures.back().across = wrapping.across;
   part_.textures.back().up = wrapping.up;
@@ -112,10 +115,20 @@ const PartGraph::Loaded& PartGraph::load(TextureId texture) {
 std::uint32_t PartGraph::number_of(const Look& look) {
   const auto [at, is_new] = looks_.try_emplace(look, static_cast<std::uint32_t>(part_.looks.size()));
   if (!is_new) return at->second;
-  const Loaded texture = look.texture == no_texture ? Loaded{} : load(look.texture);
+  const Loaded texture = load(look.texture, Content::colours);
   const bool textured = texture.number != DisplayLook::no_texture;
   DisplayLook shown;
   shown.texture = texture.number;
+  shown.gloss_texture = load(look.gloss_texture, Content::gloss).number;
+  shown.emission_texture = load(look.emission_texture, Content::colours).number;
+  // Without its image, a factor would make a mirror of a whole wall.
+  if (look.gloss_texture == no_texture || shown.gloss_texture != DisplayLook::no_texture) {
+    shown.roughness = look.roughness;
+    shown.metalness = look.metalness;
+  }
+  if (look.emission_texture == no_texture || shown.emission_texture != DisplayLook::no_texture) {
+    std::copy_n(look.emission.begin(), shown.emission.size(), shown.emission.begin());
+  }
   shown.cutoff = look.cutoff;
   if (look.transparency == Transparency::mask && textured) shown.cover = DisplayCover::cut;
   if (look.transparency == Transparency::blend ||

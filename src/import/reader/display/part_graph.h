@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <utility>
 
 #include "import/display_part.h"
 #include "import/reader/display/surface.h"
@@ -39,13 +40,14 @@ class PartGraph {
     std::uint32_t number = DisplayLook::no_texture;
     bool translucent = false;
   };
-  const Loaded& load(TextureId texture);
+  enum class Content : std::uint8_t { colours, gloss };
+  Loaded load(TextureId texture, Content content);
   std::uint32_t number_of(const Look& look);
 
   Textures& textures_;
   DisplayPart part_;
   std::size_t bytes_ = 0;
-  std::map<TextureId, Loaded> loaded_;
+  std::map<std::pair<TextureId, Content>, Loaded> loaded_;
   std::map<Look, std::uint32_t> looks_;
 };
 

@@ -40,17 +40,17 @@ void PartPool::add(std::span<const Vec3> vertices, std::span<const VertexLook> l
     const std::size_t before = at->second.bytes();
     add_to(at->second, vertices, looks, triangles, look, normals);
     const std::size_t bytes = at->second.bytes();
-    (look.texture == no_texture ? plain_bytes_ : textured_bytes_) += bytes - before;
+    (look.image() == no_texture ? plain_bytes_ : textured_bytes_) += bytes - before;
     if (!page_) send_enough(look, bytes);
   }
 }
 
 void PartPool::send_enough(const Look& look, std::size_t bytes) {
-  const bool plain = look.texture == no_texture;
+  const bool plain = look.image() == no_texture;
   if (plain && plain_bytes_ >= part_bytes) {
-    send_where([](const Look& one) { return one.texture == no_texture; });
+    send_where([](const Look& one) { return one.image() == no_texture; });
   } else if (!plain && bytes >= one_texture_bytes) {
-    send_where([&](const Look& one) { return one.texture == look.texture; });
+    send_where([&](const Look& one) { return one.image() == look.image(); });
   } else if (textured_bytes_ >= all_textures_bytes) {
     send_where([](const Look&) { return true; });
   }
@@ -93,13 +93,13 @@ void PartPool::send_where(const std::function<bool(const Look&)>& wanted) {
       ++at;
       continue;
     }
-    if (own && look.texture != last && own->bytes() >= part_bytes) {
+    if (own && look.image() != last && own->bytes() >= part_bytes) {
       send(*own);
       own.reset();
     }
     if (!page_ && !own) own.emplace(textures_, origin_near(surface.vertices));
     (page_ ? *page_ : *own).add(surface, look, normals, group);
-    last = look.texture;
+    last = look.image();
     (last == no_texture ? plain_bytes_ : textured_bytes_) -= surface.bytes();
     at = gathered_.erase(at);
   }
