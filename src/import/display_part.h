@@ -60,6 +60,12 @@ struct DisplayLook {
   [[nodiscard]] bool has_image() const;
 };
 
+/// Triangles of one object that follow each other in a geometry.
+struct DisplayRun {
+  std::uint32_t object = 0;  ///< index in DisplayPart::objects
+  std::uint32_t triangles = 0;
+};
+
 /// At most 16,384 triangles that lie close together and are drawn together.
 struct DisplayGeometry {
   std::uint32_t group = 0;  ///< the group that contains it
@@ -70,6 +76,7 @@ struct DisplayGeometry {
   std::vector<glm::vec3> normals;                    ///< one for each position; empty if the file has none
   std::vector<glm::vec2> coordinates;                ///< one for each position; empty without a texture
   std::vector<std::uint16_t> indices;                ///< into positions, three for each triangle
+  std::vector<DisplayRun> runs;                      ///< of all triangles, in their order; empty: objects unknown
 };
 
 /// What is shown in a range of distance or size: a group of the same part, or a page still to be read.
@@ -93,6 +100,10 @@ struct DisplayPages {
 /// A part of a scene, ready to be drawn. Groups are the nodes of a tree. Group 0 is always shown; each other group is a
 /// level of one DisplayPages. The contents of a group come after the DisplayPages that has it as a level.
 struct DisplayPart {
+  /// Between the names of an object's ancestors and its own.
+  static constexpr char name_separator = '\x1f';
+  static constexpr std::size_t name_limit = 4096;  ///< bytes of an object's names
+
   /// Coordinates are scene - origin. Equal in all parts of one read_display, and in their pages.
   Vec3 origin{0.0};
   Box bounds;  ///< in the frame of the scene; those of pages are as the files state them
@@ -100,6 +111,7 @@ struct DisplayPart {
   std::uint32_t source = 0;  ///< the index of the path that it is from
   std::vector<DisplayTexture> textures;
   std::vector<DisplayLook> looks;
+  std::vector<std::string> objects;  ///< names, the outermost ancestor's first; empty names are left out
   std::vector<DisplayGeometry> geometries;
   std::uint32_t groups = 1;
   std::vector<DisplayPages> pages;

@@ -146,6 +146,7 @@ DisplayGeometry take_geometry(Reader& from, const DisplayPart& part) {
   from.take_list(g.normals, most);
   from.take_list(g.coordinates, most);
   from.take_list(g.indices, 3 * most);
+  from.take_list(g.runs, most);
   if (g.group >= part.groups || g.look >= part.looks.size()) throw StreamDamaged{"a geometry without a place"};
   check_place(g.cell);
   for (const glm::vec3& p : g.positions) check_place(g.cell + Vec3(p));
@@ -160,6 +161,12 @@ DisplayGeometry take_geometry(Reader& from, const DisplayPart& part) {
   for (const std::uint16_t i : g.indices) {
     if (i >= n) throw StreamDamaged{"a triangle of vertices that are not there"};
   }
+  std::uint64_t in_runs = 0;
+  for (const DisplayRun& run : g.runs) {
+    if (run.object >= part.objects.size()) throw StreamDamaged{"triangles of no object"};
+    in_runs += run.triangles;
+  }
+  if (!g.runs.empty() && 3 * in_runs != g.indices.size()) throw StreamDamaged{"triangles of no object"};
   return g;
 }
 
@@ -228,6 +235,8 @@ std::vector<std::byte> encode(const DisplayPart& part) {
     for (const std::uint8_t c : look.emission) to.add(c);
     to.add(look.emission_texture);
   }
+  to.add(std::uint64_t{part.objects.size()});
+  for (const std::string& name : part.objects) to.add_list(name);
   to.add(std::uint64_t{part.geometries.size()});
   for (const DisplayGeometry& g : part.geometries) {
     to.add(g.group);
@@ -238,6 +247,7 @@ std::vector<std::byte> encode(const DisplayPart& part) {
     to.add_list(g.normals);
     to.add_list(g.coordinates);
     to.add_list(g.indices);
+    to.add_list(g.runs);
   }
   to.add(std::uint64_t{part.pages.size()});
   for (const DisplayPages& pages : part.pages) {
@@ -258,7 +268,7 @@ std::vector<std::byte> encode(const DisplayPart& part) {
 
 void decode(std::span<const std::byte> bytes, DisplayPart& part) {
   // The least bytes of an element, so that no count allocates more than a multiple of the bytes present.
-  constexpr std::size_t texture_bytes = 23, look_bytes = 28, geometry_bytes = 72, pages_bytes = 41;
+  constexpr std::size_t texture_bytes = 23, look_bytes = 28, name_bytes = 8, geometry_bytes = 80, pages_bytes = 41;
   // A group has no bytes of its own, but each group except the first is a level, which has.
   constexpr std::size_t level_bytes = 16;
   Reader from(bytes);
@@ -266,6 +276,9 @@ void decode(std::span<const std::byte> bytes, DisplayPart& part) {
   if (part.groups == 0 || part.groups > 1 + bytes.size() / level_bytes) throw StreamDamaged{"groups that are no tree"};
   for (std::uint64_t n = from.take_count(texture_bytes); n > 0; --n) part.textures.push_back(take_texture(from));
   for (std::uint64_t n = from.take_count(look_bytes); n > 0; --n) part.looks.push_back(take_look(from, part));
+  for (std::uint64_t n = from.take_count(name_bytes); n > 0; --n) {
+    from.take_list(part.objects.emplace_back(), DisplayPart::name_limit);
+  }
   std::uint64_t triangles = 0;
   for (std::uint64_t n = from.take_count(geometry_bytes); n > 0; --n) {
     part.geometries.push_back(take_geometry(from, part));

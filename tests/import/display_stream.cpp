@@ -42,8 +42,10 @@ DisplayPart full_part() {
     if (i == 1) geometry.normals.assign(4, {0, 0, 1});
     if (i > 0) geometry.coordinates.assign(4, {0.5f, 0.25f});
     geometry.indices = {0, 1, 2, 0, 2, 3};
+    if (i == 1) geometry.runs = {{1, 1}, {0, 1}};
     part.geometries.push_back(geometry);
   }
+  part.objects = {"wall", "door"};
   part.triangles = 6;
   part.pages.push_back({0, {1, 2, 3}, 5.0f, true, {{0, 100, 1, {}}, {100, 1e30f, 0, "a page"}}});
   part.pages.push_back({1, {1, 2, 3}, 2.0f, false, {{0, 50, 2, {}}, {0, 10, 0, "one"}, {5, 20, 0, "two"}}});
@@ -83,6 +85,12 @@ bool is_valid(const DisplayPart& part) {
       for (int k = 0; k < 3; ++k) valid = valid && std::abs(g.cell[k] + double(p[k])) <= 4e9;
     }
     for (const glm::vec3& n : g.normals) valid = valid && std::isfinite(n.x) && std::isfinite(n.y);
+    std::size_t in_runs = 0;
+    for (const DisplayRun& run : g.runs) {
+      valid = valid && run.object < part.objects.size();
+      in_runs += run.triangles;
+    }
+    valid = valid && (g.runs.empty() || in_runs == g.indices.size() / 3);
     triangles += g.indices.size() / 3;
   }
   std::vector<int> shown(part.groups, 0);
@@ -120,6 +128,8 @@ TEST(ImportDisplayStream, BringsEveryValue) {
   EXPECT_TRUE(is_valid(part));
   EXPECT_EQ(encode(part), encode(sent));
   EXPECT_EQ(part.pages[1].levels[2].page, "two");
+  EXPECT_EQ(part.objects[1], "door");
+  EXPECT_EQ(part.geometries[1].runs[0].object, 1u);
   EXPECT_EQ(part.textures[1].bytes.size(), 16u * (2 + 1 + 1 + 1));
   EXPECT_EQ(part.geometries[1].normals[3], glm::vec3(0, 0, 1));
 }
@@ -149,6 +159,11 @@ TEST(ImportDisplayStream, RefusesWhatIsNoValue) {
   EXPECT_EQ(with([](DisplayPart& p) { p.geometries[0].group = 3; }), "a geometry without a place");
   EXPECT_EQ(with([](DisplayPart& p) { p.geometries[0].indices[5] = 4; }), "a triangle of vertices that are not there");
   EXPECT_EQ(with([](DisplayPart& p) { p.geometries[0].indices.pop_back(); }), "a geometry that is not whole");
+  EXPECT_EQ(with([](DisplayPart& p) { p.geometries[1].runs[0].object = 2; }), "triangles of no object");
+  EXPECT_EQ(with([](DisplayPart& p) { p.geometries[1].runs[0].triangles = 2; }), "triangles of no object");
+  EXPECT_EQ(with([](DisplayPart& p) { p.geometries[1].runs.pop_back(); }), "triangles of no object");
+  EXPECT_EQ(with([](DisplayPart& p) { p.objects[0].assign(DisplayPart::name_limit + 1, 'x'); }),
+            "a list that is too long");
   EXPECT_EQ(with([](DisplayPart& p) { p.geometries[0].colours.pop_back(); }), "a geometry that is not whole");
   EXPECT_EQ(with([](DisplayPart& p) { p.geometries[1].normals.pop_back(); }), "a geometry that is not whole");
   EXPECT_EQ(with([](DisplayPart& p) { p.geometries[1].coordinates.clear(); }), "a geometry that is not whole");

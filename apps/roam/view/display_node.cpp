@@ -4,6 +4,7 @@
 #include <array>
 #include <cstring>
 #include <map>
+#include <memory>
 #include <osg/Array>
 #include <osg/Image>
 #include <osg/MatrixTransform>
@@ -14,6 +15,7 @@
 #include <vector>
 
 #include "graphics/shading.h"
+#include "view/shown_objects.h"
 
 namespace roam::app {
 namespace {
@@ -100,7 +102,9 @@ osg::ref_ptr<osg::StateSet> state_of(const DisplayLook& look,
 }
 
 osg::ref_ptr<osg::PagedLOD> pages_of(const DisplayPages& from, const std::vector<osg::ref_ptr<osg::Group>>& groups,
-                                     const NamePage& name_page) {
+                                     const NamePage& name_page, SceneObjects& objects) {
+  const std::vector<SceneObjects::Number> numbers = objects.add(part.objects);
+  const std::shared_ptr<const SceneObjects::Flags> flags = objects.flags();
   osg::ref_ptr<osg::PagedLOD> lod = new osg::PagedLOD;
   lod->setCenterMode(osg::LOD::USER_DEFINED_CENTER);
   lod->setCenter(osg::Vec3d(from.center.x, from.center.y, from.center.z));
@@ -161,6 +165,9 @@ osg::ref_ptr<osg::Group> make_node(const DisplayPart& part, const TextureQuality
     }
     const osg::ref_ptr<osg::Geometry> geometry = make_geometry(from);
     geometry->setStateSet(states[from.look]);
+    std::vector<DisplayRun> runs = from.runs;
+    for (DisplayRun& run : runs) run.object = numbers[run.object];
+    keep_objects(*geometry, std::move(runs), *flags);
     cell->addChild(geometry);
   }
   for (const DisplayPages& pages : part.pages) groups[pages.group]->addChild(pages_of(pages, groups, name_page));

@@ -68,7 +68,9 @@ void Records::ask_name(Prompt& prompt) {
     news_.tell("there is no bookmark to name: keep one first");
     return;
   }
-  prompt.ask("Name of the bookmark", present->name, [this](const std::string& text) {
+  // The number that stands for a name is none to begin with.
+  const bool is_number = present->name.find_first_not_of("0123456789") == std::string::npos;
+  prompt.ask("Name of the bookmark", is_number ? "" : present->name, [this](const std::string& text) {
     try {
       name_bookmark(text);
     } catch (const Error& error) {

@@ -9,21 +9,9 @@
 #include "roam/world.h"
 #include "scenes/frame.h"
 #include "view/body.h"
+#include "view/patterns.h"
 
 namespace roam::app {
-namespace {
-
-/// The pattern that matches this name alone.
-std::string pattern_of(const std::string& name) {
-  std::string pattern;
-  for (const char c : name) {
-    if (std::string("*?[]\\").find(c) != std::string::npos) pattern += '\\';
-    pattern += c;
-  }
-  return pattern;
-}
-
-}  // namespace
 
 void Rereading::add_to(Commands& commands) {
   commands.add("turn", [this] { turn(); });

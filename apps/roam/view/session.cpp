@@ -26,9 +26,10 @@ ViewPlan with_bookmark(ViewPlan plan, const std::string& bookmark, Records& reco
   return plan;
 }
 
-std::unique_ptr<DisplayLoader> load_picture(const SceneAndStore& what, CollisionLoader& collision, const Stage& stage) {
+std::unique_ptr<DisplayLoader> load_picture(const SceneAndStore& what, CollisionLoader& collision, const Stage& stage,
+                                            std::shared_ptr<SceneObjects> objects) {
   return what.store_only ? std::make_unique<DisplayLoader>(what.store, collision.place())
-                         : std::make_unique<DisplayLoader>(what.scene, stage.texture_quality());
+                         : std::make_unique<DisplayLoader>(what.scene, stage.texture_quality(), std::move(objects));
 }
 
 }  // namespace
@@ -46,11 +47,14 @@ Session::Session(const ViewOptions& options, const ViewPlan& plan, const ViewSet
       stage_(options_, plan_),
       cameras_(new Cameras(*roamer_)),
       arrival_(options_, plan_, what_, *roamer_, news_),
-      scene_(stage_.viewer(), *stage_.frame().space(), load_picture(what_, arrival_.loader(), stage_),
-             stage_.headless() ? SceneGraph::Arrival::at_once : SceneGraph::Arrival::smooth),
+      objects_(std::make_shared<SceneObjects>(options.hide)),
+      scene_(stage_.viewer(), *stage_.frame().space(), load_picture(what_, arrival_.loader(), stage_, objects_),
+             objects_, stage_.headless() ? SceneGraph::Arrival::at_once : SceneGraph::Arrival::smooth),
       display_(stage_, scene_, *roamer_, news_, plan_.fov),
       prompt_(new Prompt(stage_)),
-      tools_(new Tools(stage_, scene_, *roamer_, what_, options.program, plan_.section)),
+      layers_(new Layers(stage_, scene_, arrival_, *roamer_, *prompt_, news_, plan_.path.empty() && !options.verify)),
+      tools_(new Tools(stage_, scene_, *roamer_, *layers_, what_, options.program, plan_.section)),
+      controllers_(stage_, *roamer_, plan_.sensitivity),
       building_(what_, options.program, *roamer_, news_),
       rereading_(what_, options_, arrival_, *roamer_, display_, news_) {
   for (const std::string& note : {plan_.note, link_beside(what_)}) {
@@ -58,6 +62,7 @@ Session::Session(const ViewOptions& options, const ViewPlan& plan, const ViewSet
   }
   stage_.add_to(commands_);
   display_.add_to(commands_);
+  layers_->add_to(commands_);
   commands_.add("store", [this] { building_.toggle(arrival_.pager(), place(), arrival_.triangles()); });
   commands_.add("name_bookmark", [this] { records_.ask_name(*prompt_); });
   rereading_.add_to(commands_);
@@ -66,6 +71,7 @@ Session::Session(const ViewOptions& options, const ViewPlan& plan, const ViewSet
   stage_.viewer().addEventHandler(prompt_);
   stage_.viewer().addEventHandler(new SessionHandler(*this));
   stage_.viewer().addEventHandler(new Menu(stage_, *roamer_));
+  stage_.viewer().addEventHandler(layers_);
   stage_.viewer().addEventHandler(tools_);
   // SessionHandler handles Escape; the viewer would end before any other use of the key.
   stage_.viewer().setKeyEventSetsDone(0);
@@ -92,6 +98,7 @@ bool Session::frame() {
   news_.set_time(stage_.now());
 
   arrival_.fly_without_ground();
+  if (controllers_.update(roamer_leads())) show_keys();
   stage_.see_events();
   // Headless frames run faster than real time: wait for the tiles that would have loaded meanwhile.
   if (stage_.headless() && roaming()) arrival_.wait_for_tiles(passed);
@@ -203,7 +210,7 @@ Vec3 Session::place() const {
 
 void Session::show_keys() {
   const std::string key = key_of(roamer_->controls(), "help");
-  stage_.hud().set_help(key_lines(roamer_->controls()));
+  stage_.hud().set_help(key_lines(roamer_->controls(), controllers_.has_gamepad()));
   if (!stage_.headless()) stage_.hud().set_button(key.empty() ? "Menu" : "Menu: " + key);
 }
 
@@ -221,12 +228,16 @@ bool Session::is_at_its_end() const {
 void Session::show(bool at_once) {
   graphics::Marks marks;
   tools_->add_to(marks);
+  layers_->update();
   tools_->update(roaming(), records_.places());
   display_.update(roaming(), roaming() && !arrival_.is_ghost_only() ? roamer_->leastEyeDistance() : plan_.walker.radius,
                   std::move(marks));
   if (!at_once && !display_.is_due()) return;
   arrival_.note_failures(stage_.now());
   Status status = display_.status(roaming());
+  if (const Space* const visible = layers_->visible(); visible != nullptr && roaming()) {
+    status.around = surroundings(*roamer_, *visible);
+  }
   if (roaming() && !roamer_leads()) status.camera = cameras_->present();
   // It is said of the file's own frame.
   if (scene_.report() && frame_of(what_.scene) == SceneFrame{}) {
@@ -235,6 +246,7 @@ void Session::show(bool at_once) {
   arrival_.fill(status);
   building_.fill(status);
   records_.fill(status);
+  layers_->fill(status);
   tools_->fill(status);
   if (learning_) learning_->fill(status);
   display_.show(std::move(status));
@@ -254,6 +266,7 @@ ViewReport Session::finish() {
   building_.fill(report);
   arrival_.fill(report);
   display_.fill(report);
+  layers_->fill(report);
   tools_->fill(report);
   records_.finish();
   records_.fill(report);

@@ -2,6 +2,7 @@
 /// \file
 /// One session of `roam view`: from the empty window to the last frame.
 
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -9,7 +10,9 @@
 #include "view/arrival.h"
 #include "view/cameras.h"
 #include "view/commands.h"
+#include "view/controllers.h"
 #include "view/display.h"
+#include "view/layers.h"
 #include "view/learning.h"
 #include "view/news.h"
 #include "view/options.h"
@@ -33,6 +36,8 @@ namespace roam::app {
 ///     Learning       sizes of the body
 ///     Records        the recorded path, bookmarks
 ///     Display        head-up display, marks, overview
+///     Layers         objects on and off by name
+///     Controllers    gamepads
 ///     Tools          measuring by clicks, the plan
 ///     Rereading      the end of the session for another one
 ///     Stage          window, time, pictures and films
@@ -67,6 +72,7 @@ class Session {
   [[nodiscard]] osgRoam::Manipulator& roamer() { return *roamer_; }
   [[nodiscard]] Stage& stage() { return stage_; }
   [[nodiscard]] const Tools& tools() const { return *tools_; }
+  [[nodiscard]] Layers& layers() { return *layers_; }
   [[nodiscard]] const WalkLog& log() const { return log_; }
   [[nodiscard]] const Status& status() const { return display_.shown(); }
   /// Whether the body is in the scene, led by the person or the path.
@@ -98,10 +104,13 @@ class Session {
   Stage stage_;
   osg::ref_ptr<Cameras> cameras_;
   Arrival arrival_;
+  const std::shared_ptr<SceneObjects> objects_;
   SceneGraph scene_;
   Display display_;
   const osg::ref_ptr<Prompt> prompt_;
+  const osg::ref_ptr<Layers> layers_;
   const osg::ref_ptr<Tools> tools_;
+  Controllers controllers_;
   StoreBuilding building_;
   Rereading rereading_;
   std::optional<Learning> learning_;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <iterator>
 #include <limits>
 #include <span>
 #include <utility>
@@ -65,7 +66,8 @@ void fill(DisplayGeometry& geometry, const Surface& surface, std::span<const std
 
 PartGraph::PartGraph(Textures& textures, const Vec3& origin) : textures_(textures) { part_.origin = origin; }
 
-void PartGraph::add(const Surface& surface, const Look& look, bool normals, std::uint32_t group) {
+void PartGraph::add(const Surface& surface, const Look& look, bool normals, std::uint32_t group,
+                    std::span<const std::string> objects) {
   const std::uint32_t number = number_of(look);
   const bool textured = part_.looks[number].has_image();
   bytes_ += surface.bytes();
@@ -83,8 +85,26 @@ void PartGraph::add(const Surface& surface, const Look& look, bool normals, std:
     geometry.look = number;
     geometry.cell = cell_around(box.center() - part_.origin);
     fill(geometry, surface, chunk, part_.origin + geometry.cell, normals, textured, index_of);
+    geometry.runs = runs_of(surface, chunk, objects);
     part_.geometries.push_back(std::move(geometry));
   }
+}
+
+std::vector<DisplayRun> PartGraph::runs_of(const Surface& surface, std::span<const std::uint32_t> chunk,
+                                           std::span<const std::string> objects) {
+  std::vector<DisplayRun> runs;
+  auto next = surface.runs.begin();
+  for (const std::uint32_t triangle : chunk) {
+    if (runs.empty() || (next != surface.runs.end() && triangle >= next->first)) {
+      while (next != surface.runs.end() && triangle >= next->first) ++next;
+      const std::string& name = objects[std::prev(next)->object];
+      const auto [at, is_new] = objects_.try_emplace(name, static_cast<std::uint32_t>(part_.objects.size()));
+      if (is_new) part_.objects.push_back(name);
+      if (runs.empty() || runs.back().object != at->second) runs.push_back({at->second, 0});
+    }
+    ++runs.back().triangles;
+  }
+  return runs;
 }
 
 std::size_t PartGraph::add_pages(DisplayPages&& pages, const Box& box) {
