@@ -119,7 +119,8 @@ TEST(ViewPages, MaterialsOfTheirSurfacesAreDrawn) {
   look = {};
   roam::app::SceneObjects objects({});
   const auto state_of = [&] {
-    const auto node = roam::app::make_node(part, {}, [](const std::string&) { return std::string("page-1"); }, objects);
+    const auto node = roam::app::make_node(
+        part, {}, [](const std::string&) { return std::string("page-1"); }, objects);
     const osg::ref_ptr<osg::Node> drawn = node->getChild(0)->asGroup()->getChild(0);
     return osg::ref_ptr<const osg::StateSet>(drawn->getStateSet());
   };

@@ -113,8 +113,8 @@ void PartPool::send_where(const std::function<bool(const Look&)>& wanted) {
       own.reset();
     }
     if (!page_ && !own) own.emplace(textures_, origin_near(surface.vertices));
-      (page_ ? *page_ : *own).add(surface, look, normals, group, objects_);
-      last = look.image();
+    (page_ ? *page_ : *own).add(surface, look, normals, group, objects_);
+    last = look.image();
     (last == no_texture ? plain_bytes_ : textured_bytes_) -= surface.bytes();
     at = gathered_.erase(at);
   }
