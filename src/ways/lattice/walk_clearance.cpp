@@ -114,7 +114,12 @@ std::optional<Stand> capsule_at(const Survey& survey, const Measure& measure, co
     const Impact met = survey.world().sweep(body, centre, Vec3(0.0, 0.0, -down));
     if (!met.hit || !is_too_high(survey, measure, place.z, body.radius, met))
       return Stand{radius, knee(measure) - met.time * down};
-    radius = std::min(capsule_limit(beside(met.point), met.point.z - place.z, top - met.point.z), radius - least_cut);
+    // Where a wall leans, the first impact is far from the deepest contact.
+    const Clearance deepest = survey.world().clearance(body, centre, Vec3(0.0, 0.0, -down), 0.0);
+    const bool is_high = deepest.found && deepest.point.z > highest_step(survey, measure, place.z);
+    const Vec3& point = is_high ? deepest.point : met.point;
+    radius = std::min(capsule_limit(beside(point), point.z - place.z, top - point.z),
+                      radius - std::max(least_cut, is_high ? -deepest.distance : 0.0));
   }
   return std::nullopt;
 }
