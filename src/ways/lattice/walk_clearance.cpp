@@ -106,7 +106,8 @@ std::optional<Stand> capsule_at(const Survey& survey, const Measure& measure, co
     const Body body = body_of(measure, std::max(radius - slack, 0.0));
     const Clearance c = survey.world().clearance(body, centre, 0.0);
     if (c.found) {
-      const double limit = capsule_limit(level_distance(c.point, centre), c.point.z - (place.z + knee(measure)), top - c.point.z);
+      const double limit =
+          capsule_limit(level_distance(c.point, centre), c.point.z - (place.z + knee(measure)), top - c.point.z);
       radius = std::min(limit, radius - std::max(least_cut, -c.distance));
       continue;
     }
@@ -114,7 +115,12 @@ std::optional<Stand> capsule_at(const Survey& survey, const Measure& measure, co
     const Impact met = survey.world().sweep(body, centre, Vec3(0.0, 0.0, -down));
     if (!met.hit || !is_too_high(survey, measure, place.z, body.radius, met))
       return Stand{radius, knee(measure) - met.time * down};
-    radius = std::min(capsule_limit(level_distance(met.point, centre), met.point.z - place.z, top - met.point.z), radius - least_cut);
+    // Where a wall leans, the first impact is far from the deepest contact.
+    const Clearance deepest = survey.world().clearance(body, centre, Vec3(0.0, 0.0, -down), 0.0);
+    const bool is_high = deepest.found && deepest.point.z > highest_step(survey, measure, place.z);
+    const Vec3& point = is_high ? deepest.point : met.point;
+    radius = std::min(capsule_limit(level_distance(point, centre), point.z - place.z, top - point.z),
+                      radius - std::max(least_cut, is_high ? -deepest.distance : 0.0));
   }
   return std::nullopt;
 }
