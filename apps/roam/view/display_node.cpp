@@ -102,9 +102,7 @@ osg::ref_ptr<osg::StateSet> state_of(const DisplayLook& look,
 }
 
 osg::ref_ptr<osg::PagedLOD> pages_of(const DisplayPages& from, const std::vector<osg::ref_ptr<osg::Group>>& groups,
-                                     const NamePage& name_page, SceneObjects& objects) {
-  const std::vector<SceneObjects::Number> numbers = objects.add(part.objects);
-  const std::shared_ptr<const SceneObjects::Flags> flags = objects.flags();
+                                     const NamePage& name_page) {
   osg::ref_ptr<osg::PagedLOD> lod = new osg::PagedLOD;
   lod->setCenterMode(osg::LOD::USER_DEFINED_CENTER);
   lod->setCenter(osg::Vec3d(from.center.x, from.center.y, from.center.z));
@@ -145,7 +143,10 @@ osg::ref_ptr<osg::Geometry> make_geometry(const DisplayGeometry& from) {
   return geometry;
 }
 
-osg::ref_ptr<osg::Group> make_node(const DisplayPart& part, const TextureQuality& quality, const NamePage& name_page) {
+osg::ref_ptr<osg::Group> make_node(const DisplayPart& part, const TextureQuality& quality, const NamePage& name_page,
+                                   SceneObjects& objects) {
+  const std::vector<SceneObjects::Number> numbers = objects.add(part.objects);
+  const std::shared_ptr<const SceneObjects::Flags> flags = objects.flags();
   std::vector<osg::ref_ptr<osg::Texture2D>> textures;
   for (const DisplayTexture& texture : part.textures) textures.push_back(texture_of(texture, quality));
   std::vector<osg::ref_ptr<osg::StateSet>> states;
