@@ -8,7 +8,7 @@
 #include "math/level_distance.h"
 #include "math/nested_ball.h"
 #include "math/slope.h"
-#include "roam/support.h"
+#include "motion/carrying.h"
 #include "ways/lattice/walk_place.h"
 
 namespace roam::ways {
