@@ -146,6 +146,21 @@ TEST(PassageSteps, BetweenBenchesTooHighToStepOnAreAsWideAsAWalkerIsThere) {
   }
 }
 
+TEST(PassageSteps, BetweenWallsThatLeanAreAsWideAsAtTheFeet) {
+  constexpr double aside = 0.5, lean = 0.01;
+  Mesh m = room();
+  for (const double side : {-1.0, 1.0}) {
+    const double low = side * aside, high = side * (aside + 3.0 * lean);
+    add_quad(m, {3.0, low, 0.0}, {7.0, low, 0.0}, {7.0, high, 3.0}, {3.0, high, 3.0});
+    for (const double x : {3.0, 7.0})
+      add_quad(m, {x, low, 0.0}, {x, side * 2.0, 0.0}, {x, side * 2.0, 3.0}, {x, high, 3.0});
+  }
+  const Passage p = widest(m, one_end, other_end);
+  ASSERT_TRUE(p.found && p.limited);
+  EXPECT_NEAR(p.radius, aside, 0.02);
+  EXPECT_EQ(walked(m, p.way), Outcome::reached);
+}
+
 TEST(PassageSteps, BetweenKerbsThatOneStepsOnAreNotNarrow) {
   const Passage p = widest(benches(0.8, 0.2), one_end, other_end);
   ASSERT_TRUE(p.found);
