@@ -74,7 +74,7 @@ const vec3 sunlight = vec3(0.36, 0.34, 0.31);
 const vec3 lamp = vec3(0.37, 0.325, 0.265);
 const float lamp_reach = 14.0;
 
-const vec3 haze = vec3(0.70, 0.75, 0.80);
+const vec3 haze = vec3(0.66, 0.73, 0.79);
 const float haze_reach = 10000.0;
 const float most_haze = 0.6;
 const float knee = 0.6;  // darker tones are kept
@@ -258,7 +258,7 @@ const char* const sky_fragment_glsl = R"(#version 120
 varying vec3 roam_direction;
 uniform mat4 osg_ViewMatrix;
 const vec3 zenith = vec3(0.25, 0.40, 0.62);
-const vec3 horizon = vec3(0.70, 0.75, 0.80);
+const vec3 horizon = vec3(0.66, 0.73, 0.79);
 const vec3 edge = vec3(0.63, 0.67, 0.71);
 const vec3 nadir = vec3(0.40, 0.42, 0.45);
 void main() {
