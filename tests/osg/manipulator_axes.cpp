@@ -7,7 +7,7 @@
 
 namespace {
 
-using namespace rig;
+using rig::Standing;
 using roam::Vec3;
 using Axes = osgRoam::Manipulator::Axes;
 

@@ -39,13 +39,13 @@ SceneObjects::Number node_of(const SceneObjects& objects, const std::string& nam
   return 0;
 }
 
-const std::vector<std::string> house{path({"house", "floor 1", "Wall"}), path({"house", "floor 1", "Door_1"}),
-                                     path({"house", "floor 2", "Wall"}), path({"house", "Roof"})};
+const std::vector<std::string> house_names{path({"house", "floor 1", "Wall"}), path({"house", "floor 1", "Door_1"}),
+                                           path({"house", "floor 2", "Wall"}), path({"house", "Roof"})};
 
 TEST(SceneObjects, AreATreeOfNames) {
   SceneObjects objects;
-  const auto numbers = objects.add(house);
-  EXPECT_EQ(objects.add(house), numbers) << "the same names are the same objects";
+  const auto numbers = objects.add(house_names);
+  EXPECT_EQ(objects.add(house_names), numbers) << "the same names are the same objects";
   EXPECT_EQ(shown(objects), "floor 1 (2); floor 2 (1); Roof") << "from the first branching on";
   EXPECT_EQ(shown(objects, {node_of(objects, "floor 1")}), "floor 1 (2);   Wall;   Door_1; floor 2 (1); Roof");
   EXPECT_EQ(shown(objects, {}, "wALL"), "Wall; Wall");
@@ -54,7 +54,7 @@ TEST(SceneObjects, AreATreeOfNames) {
 
 TEST(SceneObjects, AreHiddenWithTheirGroups) {
   SceneObjects objects;
-  const auto numbers = objects.add(house);
+  const auto numbers = objects.add(house_names);
   EXPECT_FALSE(objects.flags()->any);
   objects.set_hidden(node_of(objects, "floor 1"), true);
   EXPECT_EQ(shown(objects), "floor 1 (2) x; floor 2 (1); Roof");
@@ -71,7 +71,7 @@ TEST(SceneObjects, AreHiddenWithTheirGroups) {
 
 TEST(SceneObjects, ThatArriveLaterFollowTheirGroup) {
   SceneObjects objects;
-  (void)objects.add(house);
+  (void)objects.add(house_names);
   objects.set_hidden(node_of(objects, "floor 1"), true);
   const auto more = objects.add({path({"house", "floor 1", "Lamp"}), path({"house", "floor 2", "Lamp"})});
   EXPECT_TRUE(objects.flags()->hides(more[0]));
@@ -80,7 +80,7 @@ TEST(SceneObjects, ThatArriveLaterFollowTheirGroup) {
 
 TEST(SceneObjects, AreHiddenByPatternsOfTheirNamesOrTheirAncestors) {
   SceneObjects objects({"Door*", "floor 2", "Cellar"});
-  const auto numbers = objects.add(house);
+  const auto numbers = objects.add(house_names);
   EXPECT_FALSE(objects.flags()->hides(numbers[0]));
   EXPECT_TRUE(objects.flags()->hides(numbers[1]));
   EXPECT_TRUE(objects.flags()->hides(numbers[2]));
@@ -89,7 +89,7 @@ TEST(SceneObjects, AreHiddenByPatternsOfTheirNamesOrTheirAncestors) {
 
 TEST(SceneObjects, OfHiddenNamesHaveNoVisibleNamesake) {
   SceneObjects objects;
-  const auto numbers = objects.add(house);
+  const auto numbers = objects.add(house_names);
   objects.set_hidden(node_of(objects, "floor 1"), true);
   EXPECT_EQ(objects.hidden_names().names, std::set<std::string>{"Door_1"}) << "a wall of floor 2 is to be seen";
   EXPECT_EQ(objects.hidden_names().left_over, 1u);
