@@ -38,6 +38,7 @@
  *
  * Threads. Calls that take a handle as pointer to const may run at the same time in any threads. Calls that take it
  * otherwise need it alone. The library keeps no global state but the text of roam_error(), which each thread has.
+ * It has threads of its own, so dlclose() does not unload it.
  *
  * Callbacks. A roam_progress is called by one thread at a time, not always the caller's, several times a second.
  * It returns 0 to go on, or another number to make the function return ROAM_CANCELLED soon. It must not throw.

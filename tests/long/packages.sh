@@ -47,9 +47,10 @@ files() {
 step "debootstrap $suite" debootstrap --variant=minbase "$suite" "$root"
 mount -t proc proc "$root/proc"
 mount -t devpts devpts "$root/dev/pts"
-# Packages come from where this system's come from.
-rm -f "$root/etc/apt/sources.list"
-cp -r /etc/apt/sources.list* "$root/etc/apt/"
+# Packages come from where this system's own come from, and from no other archive: its key would be missing.
+apt-get indextargets --format 'deb $(REPO_URI) $(RELEASE) $(COMPONENT)' 'Created-By: Packages' \
+  "Origin: $(. /etc/os-release && echo "${ID^}")" | sort -u > "$root/etc/apt/sources.list"
+[[ -s $root/etc/apt/sources.list ]] || fail 'apt knows no archive of this system: apt-get update'
 cp /etc/apt/apt.conf.d/*proxy* "$root/etc/apt/apt.conf.d/" 2> /dev/null || true  # there may be none
 cp /etc/resolv.conf "$root/etc/"
 # As on a desktop: the manual, which minbase leaves out, and what keeps the menus.

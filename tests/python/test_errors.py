@@ -174,6 +174,20 @@ def test_an_exception_in_progress_ends_the_call(clutter, clutter_world):
     assert len(seen) == 2 and all(0 <= done <= 1 for done in seen)
 
 
+PROGRAM_THAT_UNLOADS = """
+import _ctypes, numpy as np, roam
+from roam._library import library
+world = roam.World.from_arrays(np.random.default_rng(1).random((30000, 3)), np.arange(30000).reshape(-1, 3))
+_ctypes.dlclose(library._handle)
+print("libroam.so.0" in open("/proc/self/maps").read())
+"""
+
+
+def test_the_library_stays_loaded_while_it_has_threads():
+    said = subprocess.run([sys.executable, "-c", PROGRAM_THAT_UNLOADS], capture_output=True, text=True)
+    assert (said.returncode, said.stdout, said.stderr) == (0, "True\n", "")
+
+
 PROGRAM_THAT_ENDS = """
 import threading, time, numpy as np, roam
 corners = np.random.default_rng(1).random((3000, 3)) * 30

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # What ctest runs against a fresh prefix into which roam was installed:
 #   install.sh c       SOURCE PREFIX WORK CXX   builds examples/walk_in_c with CMake and with pkg-config and runs it
+#   install.sh csharp  SOURCE PREFIX WORK CXX   compiles examples/walk_in_csharp with mono's compiler and runs it
 #   install.sh wheel   SOURCE PREFIX WORK CXX   makes a wheel of the Python module and installs it in a venv
 #   install.sh python  SOURCE PREFIX WORK CXX   imports the installed Python module and reads a file with it
 #   install.sh example SOURCE PREFIX WORK CXX   builds examples/sweep_a_sphere outside the tree and runs it
@@ -64,6 +65,16 @@ case $what in
     flags=$(pkg-config --cflags --libs roam)
     cc -std=c99 -Wall -Wextra -Wpedantic -Werror "$work/example/walk_in_c.c" $flags -o "$work/walk_in_c"
     expect 'stopped at x = 4.70 m' env LD_LIBRARY_PATH="$PKG_CONFIG_PATH/.." "$work/walk_in_c"
+    ;;
+  csharp)
+    for tool in mcs mono; do
+      command -v "$tool" > /dev/null || { echo "there is no $tool: not run"; exit 77; }
+    done
+    mcs -warnaserror "$source/examples/walk_in_csharp/walk.cs" -out:"$work/walk.exe"
+    export LD_LIBRARY_PATH
+    LD_LIBRARY_PATH=$(dirname "$(find "$prefix" -name libroam.so.0)")
+    expect 'the wall is 5.00 m away' mono "$work/walk.exe"
+    expect 'stopped at x = 4.70 m' mono "$work/walk.exe"
     ;;
   wheel)
     /usr/bin/python3 -c 'import build, setuptools, venv, ensurepip' 2> /dev/null ||
