@@ -13,6 +13,9 @@
 #include "roam/import.h"
 
 namespace roam {
+namespace reader {
+class SceneBudget;
+}
 
 /// A part of a scene that can be read alone: a file, one tile (Data/Tile_x/Tile_x.osgb and its pages) of a folder of
 /// photogrammetry, or the content of one tile of 3D Tiles. A tileset's first part has no triangles, only what its
@@ -49,7 +52,8 @@ using LookUpSink = std::function<void(const FileLookUp&)>;
 /// Reads one part, with a reader of its own. A tile that is missing or has no triangle gives no piece and no error; the
 /// report counts the missing page. For a tile, unmatched patterns of ImportOptions::ignore are not reported.
 /// `look_ups` receives each path that the reader looked up, as the reader states it; exceptions pass through.
+/// `scene`: a budget of all parts, which may be read at once; without it the part has one of its own.
 ImportReport stream_part(const ScenePart& part, const ImportOptions& options, const PieceSink& sink,
-                         const LookUpSink& look_ups = {});
+                         const LookUpSink& look_ups = {}, reader::SceneBudget* scene = nullptr);
 
 }  // namespace roam

@@ -5,10 +5,10 @@
 
 #include "import/parts.h"
 #include "import/piece_receiver.h"
+#include "import/processor_budget.h"
 #include "import/read_all.h"
 #include "import/report_notes.h"
 #include "import/scene_scope.h"
-#include "import/stream_part.h"
 #include "math/floating_point.h"
 
 namespace roam {
@@ -56,17 +56,12 @@ ImportReport stream_scene(std::span<const std::filesystem::path> paths, const Im
 }
 
 ImportReport stream_part(const ScenePart& part, const ImportOptions& options, const PieceSink& sink,
-                         const LookUpSink& look_ups) {
-  reader::SceneBudget alone;
-  return reader::stream_part_within(alone, part, options, sink, look_ups);
-}
-
-ImportReport reader::stream_part_within(SceneBudget& scene, const ScenePart& part, const ImportOptions& options,
-                                        const PieceSink& sink, const LookUpSink& look_ups) {
+                         const LookUpSink& look_ups, reader::SceneBudget* scene) {
   const DefaultFloatingPoint guard;
-  const Source source{part.path, part.tile, part.frame, part.bytes};
+  reader::SceneBudget alone;
+  const reader::Source source{part.path, part.tile, part.frame, part.bytes};
   if (!part.tile.empty() && part.files.empty()) return report_missing(source, options);
-  return stream(std::span(&source, 1), options, sink, look_ups, &scene);
+  return stream(std::span(&source, 1), options, sink, look_ups, scene != nullptr ? scene : &alone);
 }
 
 }  // namespace roam

@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "gltf_made.h"
+#include "import/parts.h"
 #include "import/processor_budget.h"
 #include "import/reader/piece_cutter.h"
-#include "import/stream_part.h"
 #include "import_files.h"
 #include "roam/error.h"
 #include "roam/import.h"
@@ -136,7 +136,9 @@ TEST(ImportTilesetsHostile, ReadAllPartsWithinOneBudget) {
   const std::vector<ScenePart> parts = scene_parts({&file, 1});
   reader::SceneBudget budget;
   const auto read = [&] {
-    return reader::stream_part_within(budget, parts.at(0), {}, [](const Mesh&, bool) {}, {}).triangles;
+    return stream_part(
+               parts.at(0), {}, [](const Mesh&, bool) {}, {}, &budget)
+        .triangles;
   };
   EXPECT_EQ(read(), 2u);
   const double allowed = budget.allowed();

@@ -233,9 +233,9 @@ PartRecord read_part(Work& work, const ScenePart& part, const std::string& id, i
     }
     return true;
   };
-  const ImportReport report = reader::stream_part_within(
-      budget, part, options, [&](const Mesh& piece, bool continues) { intake.add(piece, continues); },
-      [&](const FileLookUp& file) { look_ups.add(file); });
+  const ImportReport report = stream_part(
+      part, options, [&](const Mesh& piece, bool continues) { intake.add(piece, continues); },
+      [&](const FileLookUp& file) { look_ups.add(file); }, &budget);
   const PartFile file = intake.finish();
   record.runs = intake.runs();
   record.has_runs = true;

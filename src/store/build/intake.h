@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "import/parts.h"
-#include "import/stream_part.h"
+#include "import/processor_budget.h"
 #include "store/build/references.h"
 #include "store/build/work.h"
 #include "store/json_reader.h"
