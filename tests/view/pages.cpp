@@ -117,7 +117,7 @@ TEST(ViewPages, MaterialsOfTheirSurfacesAreDrawn) {
   roam::DisplayPart part = small_part();
   roam::DisplayLook& look = part.looks[0];
   look = {};
-  roam::app::SceneObjects objects({});
+  roam::app::SceneObjects objects(std::vector<std::string>{});
   const auto state_of = [&] {
     const auto node = roam::app::make_node(
         part, {}, [](const std::string&) { return std::string("page-1"); }, objects);
