@@ -17,6 +17,7 @@
 #include "store/build/plan.h"
 #include "store/build/root.h"
 #include "store/build/shard.h"
+#include "store/build/tasks.h"
 #include "store/files.h"
 
 namespace roam {
@@ -64,6 +65,10 @@ void describe(const Plan& plan, StoreBuildReport& report) {
   report.triangles = 0;
   for (const PlannedShard& shard : plan.shards) report.triangles += shard.stretch.triangles;
   report.shards = plan.shards.size();
+  report.shards_to_build = plan.to_build().size();
+  report.tasks = plan.tasks;
+  report.longest_task = longest_task(plan);
+  for (const std::size_t i : plan.to_build()) report.triangles_to_build += plan.shards[i].stretch.triangles;
   report.parts = plan.parts.size();
   Notes notes;
   for (const PartRecord& part : plan.parts) notes.add(part.info.name, part.notes);
@@ -122,6 +127,7 @@ std::optional<Plan> plan_locked(Work& work, const std::set<std::string>& damaged
     demand_authentic(work);
     make_folders(work.store);
     plan = make_plan(work, damaged, report);
+    if (plan) assign_tasks(*plan, work.options.tasks);
     if (plan) write_plan(work, *plan);
   }
   report.plan_seconds -= report.read_seconds - read_before;
@@ -227,21 +233,24 @@ std::uint64_t plan_store(const StoreBuildOptions& options, StoreBuildReport& rep
   check_output(options);
   OutputFolder output(work.store, options.through_link, options.progress);
   const auto plan = plan_output(work, output, report);
-  return plan ? plan->to_build().size() : 0;
+  return plan ? plan->tasks : 0;
 }
 
-void build_shard(const StoreBuildOptions& options, std::uint64_t i, StoreBuildReport& report) {
+void build_task(const StoreBuildOptions& options, std::uint64_t i, StoreBuildReport& report) {
   const DefaultFloatingPoint guard;
   Work work(options);
   work.store = Folder::held(options.output, options.through_link);
   const Plan plan = read_plan(work);
   describe(plan, report);
-  const std::vector<std::size_t> numbers = plan.to_build();
-  if (i >= numbers.size()) {
-    throw Error::at(work.store.string(), fmt::format("there is no shard {} in the plan of {}: they go from 0 to {}", i,
-                                                     work.store.string(), numbers.empty() ? 0 : numbers.size() - 1));
+  if (plan.tasks == 0) {
+    throw NoSuchTask(work.store.string(), "the plan has no shards to build; merge");
   }
-  build_shards(work, plan, {numbers[static_cast<std::size_t>(i)]}, report);
+  if (i >= plan.tasks) {
+    throw NoSuchTask(work.store.string(),
+                     fmt::format("there is no task {} in the plan: they go from 0 to {}", i, plan.tasks - 1));
+  }
+  report.task_shards = plan.to_build(i).size();
+  build_shards(work, plan, plan.to_build(i), report);
 }
 
 void merge_store(const StoreBuildOptions& options, StoreBuildReport& report) {

@@ -24,7 +24,7 @@ void check_output(const StoreBuildOptions& options);
 /// roam::Error naming the holder, and roam::Cancelled.
 [[nodiscard]] std::unique_ptr<BuildLock> locked(const Folder& store, const BuildProgress& progress);
 
-/// Whether the folder holds finished results of read_part, build_shard or merge.
+/// Whether the folder holds finished results of read_part, build_task or merge.
 [[nodiscard]] bool holds_results(const Folder& store);
 
 /// The folder of a store, locked; made if it does not exist. The destructor removes what builds put there, except after
