@@ -203,7 +203,7 @@ void receive(const Reading& reading, ReaderProcess& process, StreamReceiver& rec
       // Unread bytes in the pipe may report more opened files.
       const double grace = arrival == ReaderProcess::Arrival::bytes ? unheard_seconds : 0.0;
       const double used = budget.used() + named + receiver.own_seconds();
-      share(used, shared_step);
+      if (arrival != ReaderProcess::Arrival::bytes) share(used, shared_step);
       if (used > ProcessorBudget::least_seconds) {
         if (const double allowed = budget.allowed(); used > allowed + grace) {
           throw fail(fmt::format(
