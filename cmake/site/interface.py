@@ -83,7 +83,7 @@ def comment_text(lines):
 
 
 def chunks(lines):
-    """The declarations at the left margin, with the comment above: (comment lines, code lines). Blank lines part them."""
+    """The declarations at the left margin, each with the comment above: (comment lines, code lines)."""
     comment, code, depth = [], [], 0
     for line in [*lines, ""]:
         if depth == 0 and not line.strip():
@@ -130,7 +130,8 @@ def declarations(lines, language):
         if not names:
             continue
         heading = ", ".join(names[:3]) + (", ..." if len(names) > 3 else "")
-        text += [f"#### {heading} {{#{language}-{slug(heading)}}}", "", comment_text(comment), "", f"```{language}", *code, "```", ""]
+        text += [f"#### {heading} {{#{language}-{slug(heading)}}}", "", comment_text(comment), "",
+                 f"```{language}", *code, "```", ""]
         seen[heading] = "\n".join([*code, " ".join(names)])
     return text, seen
 
@@ -180,8 +181,9 @@ def python_classes(source):
                     last = item.body[0].end_lineno if string else item.body[0].lineno - 1
                     shown += ["", *(line[4:] for line in lines[first:last])]
             bases = f"({', '.join(ast.unparse(base) for base in node.bases)})" if node.bases else ""
-            text = [f"### {node.name}{bases} {{#python-{slug(node.name)}}}", "", prose((ast.get_docstring(node) or "").splitlines()), "", "```python",
-                    *"\n".join(shown).strip("\n").splitlines(), "```", ""]
+            text = [f"### {node.name}{bases} {{#python-{slug(node.name)}}}", "",
+                    prose((ast.get_docstring(node) or "").splitlines()), "",
+                    "```python", "\n".join(shown).strip("\n"), "```", ""]
             result[node.name] = text, members
     return result
 

@@ -2,10 +2,12 @@
 
 import atexit
 import ctypes
+import os
 import pathlib
+import queue
 import sysconfig
 import threading
-from typing import Any, Callable, Dict, Optional
+from typing import Any, Callable, Dict, List, Optional
 
 from ._structs import PROGRESS
 
@@ -112,9 +114,42 @@ class _Running:
 _running = _Running()
 
 
+class _Helper:
+    """A thread that does work, and then waits for more: oneTBB 2021.8 leaks 9 KB for each thread that ends."""
+
+    idle: "List[_Helper]" = []
+
+    def __init__(self) -> None:
+        self._work: "queue.SimpleQueue[Callable[[], None]]" = queue.SimpleQueue()
+        threading.Thread(target=self._serve, name="roam", daemon=True).start()
+
+    def _serve(self) -> None:
+        while True:
+            self._work.get()()
+
+    @classmethod
+    def begin(cls, work: Callable[[], None], end: Callable[[], None]) -> None:
+        """Does `work`, which must not raise, in a thread that is idle, or a new one; then calls `end`."""
+        try:
+            helper = cls.idle.pop()
+        except IndexError:
+            helper = cls()
+
+        def all_of_it() -> None:
+            work()
+            cls.idle.append(helper)
+            end()
+
+        helper._work.put(all_of_it)
+
+
+# After a fork the child has no other threads.
+os.register_at_fork(after_in_child=_Helper.idle.clear)
+
+
 def run(progress: Optional[Callable[[float], object]], work: Callable[[Any], None],
         lock: Optional[threading.Lock] = None) -> None:
-    """Runs `work` in a thread of its own, with `lock` if given, and passes it a PROGRESS.
+    """Runs `work` in another thread, with `lock` if given, and passes it a PROGRESS.
 
     Meanwhile this thread takes signals and calls `progress` with the fraction done. An exception of either ends the
     work and is raised.
@@ -128,8 +163,11 @@ def run(progress: Optional[Callable[[float], object]], work: Callable[[Any], Non
         return int(cancelled.is_set())
 
     failure = []
+    ticket = [True]  # who takes it decides whether the work begins
 
     def body() -> None:
+        if not _taken(ticket):
+            return
         try:
             if lock is not None:
                 while not lock.acquire(timeout=_BETWEEN_SIGNALS):
@@ -142,27 +180,29 @@ def run(progress: Optional[Callable[[float], object]], work: Callable[[Any], Non
                     lock.release()
         except BaseException as error:
             failure.append(error)
-        finally:
-            ended.set()
 
-    thread = threading.Thread(target=body, name="roam", daemon=True)
     try:
         _running.add(ended, cancelled)
-        thread.start()
+        _Helper.begin(body, ended.set)
         while not ended.wait(_BETWEEN_SIGNALS):
             if progress is not None:
                 progress(state["done"])
     except BaseException:
         cancelled.set()
-        if thread.ident is None:
-            ended.set()
-        _join(ended)
+        if not _taken(ticket):
+            _join(ended)
         _running.remove(ended)
         raise
     _running.remove(ended)
-    thread.join()
     if failure:
         raise SystemExit if _running.ends_here() else failure[0]
+
+
+def _taken(ticket: List[bool]) -> bool:
+    try:
+        return ticket.pop()
+    except IndexError:
+        return False
 
 
 def _join(ended: threading.Event) -> None:

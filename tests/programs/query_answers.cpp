@@ -1,10 +1,14 @@
 // query_answers IN OUT: queries of C++ for tests of other languages.
+// query_answers IN: the seconds of a batch of sweeps, on all cores, for each line that it reads.
 //
 // IN: three uint64 (vertices, triangles, queries), then packed arrays: vertices (3 doubles), triangles (3 uint32),
 // radii, half heights, positions and motions. OUT: a Row a query.
+#include <chrono>
 #include <cstdint>
 #include <cstring>
 #include <fstream>
+#include <iostream>
+#include <string>
 #include <vector>
 
 #include "roam/world.h"
@@ -32,7 +36,7 @@ std::vector<T> read(std::istream& in, std::uint64_t count) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc != 3) return 2;
+  if (argc != 2 && argc != 3) return 2;
   std::ifstream in(argv[1], std::ios::binary);
   const auto counts = read<std::uint64_t>(in, 3);
   roam::Mesh mesh;
@@ -44,6 +48,18 @@ int main(int argc, char** argv) {
   const auto motions = read<roam::Vec3>(in, counts[2]);
   if (!in) return 1;
   const roam::World world = roam::World::build({&mesh, 1});
+
+  if (argc == 2) {
+    std::vector<roam::Query> queries(counts[2]);
+    for (std::size_t i = 0; i < counts[2]; ++i) queries[i] = {{radii[i], half_heights[i]}, positions[i], motions[i]};
+    std::vector<roam::Impact> impacts(counts[2]);
+    for (std::string line; std::getline(std::cin, line);) {
+      const auto begin = std::chrono::steady_clock::now();
+      world.sweep(queries, impacts);
+      std::cout << std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count() << std::endl;
+    }
+    return 0;
+  }
 
   std::ofstream out(argv[2], std::ios::binary);
   constexpr double reach = 1.5;

@@ -52,6 +52,14 @@ class Clutter:
         self.motion = rng.uniform(-5, 5, (queries, 3))
 
 
+    def save(self, path):
+        """Writes what query_answers reads."""
+        with open(path, "wb") as file:
+            np.array([len(self.vertices), len(self.triangles), len(self.from_)], np.uint64).tofile(file)
+            for array in (self.vertices, self.triangles, self.radius, self.half_height, self.from_, self.motion):
+                array.tofile(file)
+
+
 @pytest.fixture(scope="session")
 def clutter():
     return Clutter()

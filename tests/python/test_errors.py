@@ -157,8 +157,8 @@ def interrupted(call):
 
 def test_ctrl_c_ends_a_batch(clutter_world):
     from_ = np.broadcast_to(np.zeros(3), (2**25, 3))
-    # 0.1 s on an idle machine; the tests run beside others.
-    assert interrupted(lambda: clutter_world.fits(0.3, from_, 0.2)) < 5.0
+    # 0.1 s on an idle machine. The tests run beside others, which may delay one of these.
+    assert min(interrupted(lambda: clutter_world.fits(0.3, from_, 0.2)) for _ in range(3)) < 1.0
 
 
 def test_an_exception_in_progress_ends_the_call(clutter, clutter_world):

@@ -10,15 +10,13 @@ import numpy as np
 import pytest
 
 import roam
+from conftest import Clutter
 
 
-def test_results_are_those_of_cpp_to_the_bit(clutter, clutter_world, tmp_path):
+def test_a_million_results_are_those_of_cpp_to_the_bit(clutter_world, tmp_path):
+    clutter = Clutter(queries=1_000_000)  # in the same triangles
     n = len(clutter.from_)
-    with open(tmp_path / "in", "wb") as file:
-        np.array([len(clutter.vertices), len(clutter.triangles), n], np.uint64).tofile(file)
-        for array in (clutter.vertices, clutter.triangles, clutter.radius, clutter.half_height, clutter.from_,
-                      clutter.motion):
-            array.tofile(file)
+    clutter.save(tmp_path / "in")
     subprocess.run([os.environ["ROAM_QUERY_ANSWERS"], tmp_path / "in", tmp_path / "out"], check=True)
     expected = np.fromfile(tmp_path / "out", np.dtype([
         ("hit", "?"), ("unknown", "?"), ("fits", "?"), ("found", "?"), ("object", "i4"), ("time", "f8"), ("gap", "f8"),
@@ -124,6 +122,62 @@ def test_many_threads_give_the_same_bits(clutter, clutter_world):
     for thread in threads:
         thread.join()
     assert not wrong
+
+
+def test_arrays_that_change_in_another_thread(clutter, clutter_world):
+    from_, motion, ended = clutter.from_.copy(), clutter.motion.copy(), threading.Event()
+
+    def change():
+        rng = np.random.default_rng(3)
+        while not ended.is_set():
+            some = rng.integers(0, len(from_), 100)
+            from_[some] = rng.choice([np.nan, np.inf, -1e300, 1e9, 0.0, 2.0], (100, 1))
+            motion[some] = rng.choice([np.nan, 1e300, 1e6, 0.0, 1.0], (100, 1))
+
+    thread = threading.Thread(target=change)
+    thread.start()
+    refused = 0
+    for _ in range(20):
+        try:
+            swept = clutter_world.sweep(clutter.radius, from_, motion)
+            assert swept.time.shape == (len(from_),)
+        except ValueError as error:
+            assert "query" in str(error)
+            refused += 1
+    ended.set()
+    thread.join()
+    assert refused > 0
+    # What was computed beside the changes has left no trace.
+    expected = clutter_world.sweep(clutter.radius, clutter.from_, clutter.motion).time
+    assert clutter_world.sweep(clutter.radius, clutter.from_, clutter.motion).time.tobytes() == expected.tobytes()
+
+
+def resident():
+    """Bytes of memory of this process."""
+    with open("/proc/self/statm", encoding="ascii") as file:
+        return int(file.read().split()[1]) * os.sysconf("SC_PAGE_SIZE")
+
+
+def test_ten_thousand_calls_leave_no_memory(room):
+    from_, motion = np.zeros((20, 3)), np.ones((20, 3))
+    walker = roam.Walker(room, [1, 0, 1])
+
+    def work(times):
+        for i in range(times):
+            room.sweep(0.1, from_, motion)
+            room.contacts(0.1, from_, 5.0, most=8)
+            walker.step([0.1, 0, 0], 1e-3)
+            if i % 10 == 0:
+                with pytest.raises(ValueError):
+                    room.sweep(0.1, from_ * np.nan, motion)
+                roam.Walker(room.without([1]), [1, 0, 1])
+                room.fits(0.1, np.zeros((300, 3)))  # in a thread of its own
+        gc.collect()
+
+    work(1000)
+    before = resident()
+    work(10_000)
+    assert resident() - before < 10_000 * 100  # bytes a call
 
 
 def test_references_are_given_back(room):
