@@ -115,8 +115,8 @@ Mover paper_method(const PaperScene& scene, Graph graph) {
         box->setGatherCandidates(true);
         scenery->visit(*box);
         std::optional<Touch> first;
-        for (const auto& candidate : box->getCandidates()) {
-          const auto collision = paper::collide(radius, from, motion, candidate.triangle);
+        for (const Triangle& candidate : box->getCandidates()) {
+          const auto collision = paper::collide(radius, from, motion, candidate);
           if (!collision || (first && collision->time >= first->time)) continue;
           const Vec3 out = from + collision->time * motion - collision->point;
           const double length = glm::length(out);

@@ -7,9 +7,10 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "build/array_index.h"
+#include "build/steps.h"
 #include "cli/exit_status.h"
 #include "cli/interrupt.h"
-#include "cli/progress.h"
 #include "cli/report.h"
 #include "cli/tell.h"
 #include "cli/values.h"
@@ -31,61 +32,14 @@ struct BuildVerb {
   bool plan = false, merge = false, adopt = false, json = false, json_lines = false;
   std::vector<double> near;  ///< x, y, z; empty: no preference
   bool beside = false;       ///< the output has its default path
+  std::uint64_t tasks = 0;   ///< of the plan; 0: not given
   std::optional<std::uint64_t> shard;
-  std::string reading;  ///< the first given option of reading_options; may be empty
+  std::optional<ArrayIndex> array;  ///< with --shard auto
+  std::string reading;              ///< the first given option of reading_options; may be empty
 };
 
 /// Options that a plan fixes for its shards and its merge.
 constexpr const char* reading_options[] = {"--up", "--unit", "--ignore", "--lossless"};
-
-const char* name_of(StoreBuildProgress::Step step) {
-  constexpr const char* names[] = {"read", "plan", "shards", "merge"};
-  return names[static_cast<std::size_t>(step)];
-}
-
-/// Progress of a build: for people a line per step, for programs a JSON object per line, several times a second.
-class Steps {
- public:
-  Steps(std::string output, bool json_lines) : output_(std::move(output)), json_lines_(json_lines) {}
-
-  bool show(const StoreBuildProgress& p) {
-    using Step = StoreBuildProgress::Step;
-    if (json_lines_) {
-      print_line({{"step", name_of(p.step)},
-                  {"bytes_done", p.bytes_done},
-                  {"bytes_total", p.bytes_total},
-                  {"triangles_done", p.triangles_done},
-                  {"triangles_total", p.triangles_total}});
-      return !interrupted();
-    }
-    if (!line_ || p.step != step_) {
-      line_.reset();
-      step_ = p.step;
-      switch (step_) {
-        case Step::read:
-          line_.emplace("reading the scene", "B");
-          break;
-        case Step::plan:
-          line_.emplace("planning " + output_, "triangles");
-          break;
-        case Step::shards:
-          line_.emplace("building " + output_, "triangles");
-          break;
-        case Step::merge:
-          line_.emplace("checking " + output_, "triangles");
-          break;
-      }
-    }
-    return step_ == Step::read ? line_->goes_on(p.bytes_done, p.bytes_total)
-                               : line_->goes_on(p.triangles_done, p.triangles_total);
-  }
-
- private:
-  std::string output_;
-  bool json_lines_;
-  StoreBuildProgress::Step step_ = StoreBuildProgress::Step::read;
-  std::optional<Progress> line_;
-};
 
 StoreBuildOptions build_options(const BuildVerb& verb, Steps& steps) {
   StoreBuildOptions options;
@@ -95,6 +49,7 @@ StoreBuildOptions build_options(const BuildVerb& verb, Steps& steps) {
   options.memory = verb.scene.memory.value_or(options.memory);
   options.threads = verb.scene.threads;
   options.lossless = verb.scene.lossless;
+  options.tasks = verb.tasks;
   options.adopt = verb.adopt;
   options.through_link = !verb.beside;
   if (!verb.near.empty()) options.nearest_first = Vec3(verb.near[0], verb.near[1], verb.near[2]);
@@ -127,6 +82,8 @@ Json json_report(const BuildVerb& verb, const StoreBuildReport& report, double s
                {"parts_read", report.parts_read},
                {"shards", report.shards},
                {"shards_built", report.shards_built},
+               {"shards_to_build", report.shards_to_build},
+               {"tasks", report.tasks},
                {"read_s", report.read_seconds},
                {"plan_s", report.plan_seconds},
                {"shard_s", report.shard_seconds},
@@ -148,17 +105,28 @@ void print_report(const BuildVerb& verb, const Json& report) {
   }
 }
 
+/// The longest task of a plan, divided by the mean.
+double balance(const StoreBuildReport& report) {
+  return static_cast<double>(report.longest_task) * static_cast<double>(report.tasks) /
+         static_cast<double>(report.triangles_to_build);
+}
+
 /// Prints the steps after a plan.
-void tell_shards(const BuildVerb& verb, std::uint64_t count) {
+void tell_tasks(const BuildVerb& verb, const StoreBuildReport& report) {
   const std::string store = printable_part(verb.output.string());
-  if (count == 0) {
+  if (report.tasks == 0) {
     print(fmt::format("no shards to build: go on with --merge ({})\n", store));
-  } else if (count == 1) {
-    print(fmt::format("1 shard to build: --shard 0, on any machine that sees {}; then --merge\n", store));
-  } else {
-    print(fmt::format("{} shards to build: --shard 0 to --shard {}, on any machines that see {}; then --merge\n", count,
-                      count - 1, store));
+    return;
   }
+  if (report.tasks == 1) {
+    print(fmt::format("1 task: --shard 0, on any machine that sees {}; then --merge\n", store));
+  } else {
+    print(fmt::format("{} tasks: --shard 0 to --shard {}, on any machines that see {}; then --merge\n", report.tasks,
+                      report.tasks - 1, store));
+  }
+  print(fmt::format("Shards to build: {}. The longest task is {:.2f} times the mean.\n", report.shards_to_build,
+                    balance(report)));
+  if (report.tasks < verb.tasks) tell(fmt::format("note: there are not enough shards for {} tasks", verb.tasks));
 }
 
 /// Prints the summary of a complete store.
@@ -184,6 +152,31 @@ void tell_store(const BuildVerb& verb, const StoreBuildReport& report, double se
   }
 }
 
+void tell_task(const BuildVerb& verb, const StoreBuildReport& report, double seconds) {
+  if (verb.json) {
+    Json json = json_report(verb, report, seconds);
+    json["task"] = *verb.shard;
+    json["task_shards"] = report.task_shards;
+    if (verb.array) json["array"] = {{"engine", verb.array->engine}, {"variable", verb.array->variable}};
+    print_report(verb, json);
+    return;
+  }
+  print(fmt::format("task {} of {}{}: shards built: {}, there already: {}, in {}\n", *verb.shard, report.tasks,
+                    verb.array ? fmt::format(" ({}, {})", verb.array->engine, verb.array->variable) : "",
+                    report.shards_built, report.task_shards - report.shards_built, short_time(seconds)));
+}
+
+/// For a job that finds its work done: an array may have more jobs than the plan has tasks, and an engine may repeat a
+/// job after the merge.
+ExitStatus nothing_to_do(const BuildVerb& verb, const std::string& why) {
+  if (verb.json) {
+    print_report(verb, {{"store", verb.output.string()}, {"nothing_to_do", why}});
+  } else {
+    print(fmt::format("nothing to do: {}\n", printable_part(why)));
+  }
+  return done;
+}
+
 ExitStatus run_steps(const BuildVerb& verb) {
   const auto start = std::chrono::steady_clock::now();
   const auto seconds = [&] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); };
@@ -193,26 +186,21 @@ ExitStatus run_steps(const BuildVerb& verb) {
     StoreBuildOptions options = build_options(verb, steps);
     options.key = build_key(verb);
     if (verb.plan) {
-      const std::uint64_t count = plan_store(options, report);
+      plan_store(options, report);
       if (!report.unchanged) {
         tell_notes(verb, report);
         if (verb.json) {
           Json json = json_report(verb, report, seconds());
-          json["shards_to_build"] = count;
+          if (report.tasks > 0) json["balance"] = balance(report);
           print_report(verb, json);
         } else {
-          tell_shards(verb, count);
+          tell_tasks(verb, report);
         }
         return done;
       }
     } else if (verb.shard) {
-      build_shard(options, *verb.shard, report);
-      if (verb.json) {
-        print_report(verb, json_report(verb, report, seconds()));
-      } else {
-        print(fmt::format("shard {} of {} is {}\n", *verb.shard, printable_part(verb.output.string()),
-                          report.shards_built > 0 ? "built" : "there already"));
-      }
+      build_task(options, *verb.shard, report);
+      tell_task(verb, report, seconds());
       return done;
     } else if (verb.merge) {
       merge_store(options, report);
@@ -257,11 +245,48 @@ ExitStatus build(BuildVerb verb) {
   }
   try {
     return run_steps(verb);
+  } catch (const NoSuchTask& none) {
+    if (!verb.array) throw;
+    return nothing_to_do(verb, fmt::format("{} ({})", none.what(), verb.array->variable));
+  } catch (const NothingPlanned&) {
+    if (!Store::is_store(verb.output)) throw;
+    return nothing_to_do(verb, fmt::format("{} is complete, and no build of it is planned", verb.output.string()));
   } catch (const std::exception&) {
     // Ctrl-C also ends the reader process, which is then no error of the scene.
     if (!interrupted()) throw;
     throw Stopped(fmt::format("stopped; what was done is kept in {}: the same command again goes on from there",
                               verb.output.string()));
+  }
+}
+
+/// The values of --plan and --shard, as given.
+struct Given {
+  std::string plan, shard;
+};
+
+constexpr std::uint64_t most_tasks = 1'000'000;
+
+CLI::Validator task_number() {
+  const CLI::Validator number = from_to<std::uint64_t>(0, most_tasks);
+  return {[number](std::string& text) { return text == "auto" ? std::string() : number(text); }, ""};
+}
+
+void take(const Given& given, BuildVerb& verb) {
+  const bool is_number = given.plan.find_first_not_of("0123456789") == std::string::npos;
+  if (!given.plan.empty() && !is_number) {
+    verb.scene.scenes.insert(verb.scene.scenes.begin(), given.plan);  // --plan without N, before SCENE
+  } else if (!given.plan.empty()) {
+    std::string text = given.plan;
+    if (const std::string wrong = from_to<std::uint64_t>(1, most_tasks)(text); !wrong.empty()) {
+      throw UsageError("--plan", wrong);
+    }
+    verb.tasks = std::stoull(given.plan);
+  }
+  if (given.shard == "auto") {
+    verb.array = array_index();
+    verb.shard = verb.array->task;
+  } else if (!given.shard.empty()) {
+    verb.shard = std::stoull(given.shard);
   }
 }
 
@@ -273,13 +298,14 @@ result is the same to the last byte. After a change of the scene only the change
 An existing store is updated if you built it; a key in $XDG_DATA_HOME/roam or ~/.local/share/roam proves that. Any
 other store may lack a wall, and is refused unless --adopt says that you trust it.
 
-Many machines that share a folder can build one store: first --plan, then each --shard (part of the work) in any order,
-then --merge.
+Many machines that share a folder can build one store: first --plan, which divides the work into N tasks, then each task
+by --shard, in any order, then --merge. In an array of jobs of Slurm, Grid Engine, PBS, LSF, AWS Batch, Kubernetes or
+GNU parallel, `--shard auto` takes the number of the job. `roam cluster` writes such jobs.
 
 Examples:
   roam build mine.dae
   roam build Data/ -o dam.roam --memory 2G
-  roam build Data/ -o dam.roam --plan
+  roam build Data/ -o dam.roam --plan 64
   roam build -o dam.roam --shard 17
   roam build -o dam.roam --merge
 )";
@@ -307,14 +333,24 @@ void add_build(CLI::App& program, Run& run) {
   verb->add_flag("--json-lines", options->json_lines,
                  "Print the progress as JSON objects, one a line, and at the end the object of --json");
   verb->option_defaults()->group("Many machines");
-  CLI::Option* plan = verb->add_flag("--plan", options->plan, "Only read changed parts, and plan the shards");
-  CLI::Option* shard = verb->add_option("--shard", options->shard, "Only build this shard of the plan, counted from 0")
-                           ->check(from_to<std::uint64_t>(0, 1'000'000'000))
-                           ->type_name("I");
+  const auto given = std::make_shared<Given>();
+  CLI::Option* plan =
+      verb->add_option("--plan", given->plan,
+                       "Only read changed parts, and plan N tasks (default: as many as are equally long, at most 1000)")
+          ->expected(0, 1)
+          ->type_name("N");
+  CLI::Option* shard =
+      verb->add_option("--shard", given->shard,
+                       "Only build the shards of this task of the plan, counted from 0; `auto`: the number of this job "
+                       "in an array of a batch engine")
+          ->check(task_number())
+          ->type_name("I");
   CLI::Option* merge = verb->add_flag("--merge", options->merge, "Only check all shards and publish the store");
   plan->excludes(shard)->excludes(merge);
   shard->excludes(merge);
-  verb->callback([options, verb, &run] {
+  verb->callback([options, given, verb, &run] {
+    options->plan = verb->get_option("--plan")->count() > 0;
+    take(*given, *options);
     for (const char* name : reading_options) {
       if (options->reading.empty() && verb->get_option(name)->count() > 0) options->reading = name;
     }

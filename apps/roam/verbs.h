@@ -12,9 +12,11 @@ void add_sweep(CLI::App& program, Run& run);
 void add_info(CLI::App& program, Run& run);
 void add_make(CLI::App& program, Run& run);
 void add_build(CLI::App& program, Run& run);
+void add_cluster(CLI::App& program, Run& run);
 void add_bench(CLI::App& program, Run& run);
 void add_train(CLI::App& program, Run& run);
 void add_verify(CLI::App& program, Run& run);
+void add_check(CLI::App& program, Run& run);
 void add_probe(CLI::App& program, Run& run);
 void add_view(CLI::App& program, Run& run);
 /// Hidden: the build writes man pages with it.

@@ -156,6 +156,9 @@ or the one that `roam train` saved. A path that was recorded here names its body
 A collision store (`roam build`) beside the scene is used if you built it: then the walls are loaded at once, in little
 memory, for scenes of any size.
 
+A gamepad or a SpaceMouse moves you, too, if roam was built with SDL2 or libspnav: the left stick walks, the right one
+looks, Start shows the menu.
+
 Keys, mouse and body can be changed in roam/settings.json in $XDG_CONFIG_HOME or ~/.config. Bookmarks are kept beside
 it. With --path, --screenshot or --time the program ends by itself, and works with --headless. Exit status 3 if the
 body does not reach the end of its path.

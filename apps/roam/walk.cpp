@@ -13,6 +13,7 @@
 
 #include "cli/histogram.h"
 #include "cli/interrupt.h"
+#include "cli/output_file.h"
 #include "cli/progress.h"
 #include "cli/standard_streams.h"
 #include "cli/tell.h"
@@ -31,6 +32,7 @@
 #include "verbs.h"
 #include "verify/verify_stored.h"
 #include "walk/against.h"
+#include "walk/certificate.h"
 #include "walk/options.h"
 #include "walk/report.h"
 
@@ -98,7 +100,7 @@ class Recorder {
   /// `begun`: time at the start of the step, in s.
   void take(const StepReport& report, double begun) {
     if (trace_) trace_->add(tally_.steps, begun, report);
-    if (options_.checks()) verification::append_pieces(pieces_, tally_.steps, report);
+    if (options_.keeps_moves()) verification::append_pieces(pieces_, tally_.steps, report);
     if (!options_.picture.empty()) append(record_, report, tally_.steps == 0);
   }
 
@@ -177,13 +179,14 @@ std::string title(const WalkOptions& options) {
                         : text + " along " + options.path.filename().string();
 }
 
+/// The scene of --against is added to `sum`.
 verification::Verification verified(const WalkOptions& options, const OpenScene& scene,
-                                    const verification::PieceLog& pieces) {
+                                    const verification::PieceLog& pieces, checking::SceneSum& sum) {
   if (!options.against.scenes.empty()) {
     Progress progress("verifying against " + options.against.names(), "B");
-    return verify_against(options.against, scene, pieces, [&](std::uint64_t done, std::uint64_t total) {
-      return progress.goes_on(done, total) || has_time();
-    });
+    return verify_against(
+        options.against, scene, pieces,
+        [&](std::uint64_t done, std::uint64_t total) { return progress.goes_on(done, total) || has_time(); }, sum);
   }
   Progress progress("verifying", "pieces");
   const auto goes_on = [&](std::uint64_t done) { return progress.goes_on(done, pieces.size()) || has_time(); };
@@ -224,10 +227,10 @@ draw::Sheet sheet(const WalkOptions& options, const OpenScene& scene, const Walk
 
 /// Verifies all moves; after Ctrl-C, if there is time.
 void check_moves(const WalkOptions& options, const OpenScene& scene, const verification::PieceLog& pieces,
-                 WalkReport& report) {
+                 WalkReport& report, checking::SceneSum& sum) {
   const auto begin = std::chrono::steady_clock::now();
   try {
-    report.verified = verified(options, scene, pieces);
+    report.verified = verified(options, scene, pieces, sum);
   } catch (const Cancelled&) {
     if (!report.interrupted) throw;
     tell(fmt::format("note: the {} moves were not all verified: Ctrl-C came before", pieces.size()));
@@ -253,8 +256,9 @@ ExitStatus walk(WalkOptions options) {
   check_outputs(options);
   if (options.route.dt < Route::shortest_step) throw UsageError("--dt", "a step takes 1e-6 s at least");
   const Mode mode = options.walker_mode();
-  if (options.checks() && mode == Mode::ghost) {
-    throw UsageError("--verify with --mode ghost", "a ghost passes through walls, so there is nothing to verify");
+  if (options.keeps_moves() && mode == Mode::ghost) {
+    throw UsageError(options.checks() ? "--verify with --mode ghost" : "--certify with --mode ghost",
+                     "a ghost passes through walls, so there is nothing to verify");
   }
   if (options.wander && mode == Mode::ghost) {
     throw UsageError("--wander with --mode ghost", "a ghost meets nothing that could turn it; give it a --path");
@@ -273,7 +277,7 @@ ExitStatus walk(WalkOptions options) {
   }
   std::optional<draw::PictureFile> drawing;
   if (!options.picture.empty()) drawing.emplace(options.picture, draw::PictureFile::Views::in_metres);
-  const bool needs_triangles = options.verify || drawing;
+  const bool needs_triangles = options.verify || drawing || !options.certify.empty();
   OpenScene scene(options.scene, needs_triangles ? Source::keep : Source::release);
   if (stored) {
     frame = frame_of(*scene.store());
@@ -332,7 +336,10 @@ ExitStatus walk(WalkOptions options) {
   std::optional<draw::Measured> seen;
   if (drawing) seen = measured(scene, report, recorder.record());
   scene.leave();
-  if (options.checks()) check_moves(options, scene, recorder.pieces(), report);
+  checking::SceneSum sum;
+  if (options.checks()) check_moves(options, scene, recorder.pieces(), report, sum);
+  Unwritten certificate;
+  certificate.attempt([&] { certify(options.certify, scene, recorder.pieces(), report.verified ? &sum : nullptr); });
   const auto draw_way = [&] { drawing->write(sheet(options, scene, report, recorder.record(), *seen)); };
   // After Ctrl-C the picture may take more time than there is.
   if (drawing && !report.interrupted) draw_way();
@@ -340,6 +347,7 @@ ExitStatus walk(WalkOptions options) {
       text_report(report) + kept_frame_line(options.scene) + (options.stats ? stats_report(report) : "");
   print_report(options.json, json_report(report), text, options.trace);
   if (drawing && report.interrupted) draw_way();
+  certificate.raise();
   if (report.interrupted) return failed;
   if (report.verified) {
     verification::demand_all_read(*report.verified, options.scene.names(), "check it by --against SCENE");
@@ -367,6 +375,7 @@ Examples:
   roam walk house.glb --path in.path --radius 0.25 --height 1.8 --json --trace in.csv
   roam walk house.glb --path in.path --picture in.svg
   roam walk Terrain/ --wander 60 --verify
+  roam walk mine.dae --path tour.path --certify tour.certificate
 )";
 
 }  // namespace

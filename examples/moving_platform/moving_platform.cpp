@@ -58,7 +58,7 @@ int main() {
               person.report().ground_velocity.x);
   run(2.0, {.turning = 0.8}, {});
   run(2.0, {}, {.velocity = {1.4, 0.0, 0.0}});  // walk off the platform, onto the far bank
-  const bool across = person.grounded() && person.position().x > 20.0;
+  const bool across = person.stance().footing == roam::Footing::ground && person.position().x > 20.0;
   std::printf("across: %s, z = %.2f\n", across ? "yes" : "no", person.feet().z);
   return across ? 0 : 1;
 }

@@ -76,24 +76,11 @@ class BoxIntersector : public osgUtil::Intersector {
   /// The earliest; default-constructed if there is none.
   Intersection getFirstIntersection();
 
-  /// A triangle whose box overlaps the box of the swept body.
-  struct Candidate {
-    roam::Triangle triangle;          ///< in the intersector's frame
-    unsigned int drawable = 0;        ///< index into getCandidateDrawables()
-    unsigned int primitiveIndex = 0;  ///< see Intersection
-    unsigned int half = 0;            ///< of a quad: 0 or 1
-  };
-  struct CandidateDrawable {
-    osg::NodePath nodePath;
-    osg::ref_ptr<osg::Drawable> drawable;
-  };
-  /// Collects candidates instead of intersections, for a narrow phase of your own.
+  /// Collects candidates instead of intersections, for a narrow phase of your own: the triangles whose box overlaps the
+  /// box of the swept body, in the intersector's frame.
   void setGatherCandidates(bool gather) { _gather = gather; }
   bool getGatherCandidates() const { return _gather; }
-  const std::vector<Candidate>& getCandidates() const { return _parent ? _parent->getCandidates() : _candidates; }
-  const std::vector<CandidateDrawable>& getCandidateDrawables() const {
-    return _parent ? _parent->getCandidateDrawables() : _candidateDrawables;
-  }
+  const std::vector<roam::Triangle>& getCandidates() const { return _parent ? _parent->getCandidates() : _candidates; }
 
   /// Metres by which bounding spheres and boxes are enlarged; see boundsMargin. Throws roam::Error if negative or not
   /// finite.
@@ -135,8 +122,7 @@ class BoxIntersector : public osgUtil::Intersector {
   double _stretch = 1.0;  ///< factor by which a length in that frame grows at most
 
   Intersections _intersections;
-  std::vector<Candidate> _candidates;
-  std::vector<CandidateDrawable> _candidateDrawables;
+  std::vector<roam::Triangle> _candidates;
 };
 
 }  // namespace osgRoam

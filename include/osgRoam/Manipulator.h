@@ -178,6 +178,17 @@ class Manipulator : public osgGA::CameraManipulator {
   [[nodiscard]] bool down(std::string_view command) const;
   void releaseKeys();
 
+  /// The wishes of a device with axes, such as a gamepad. They add to those of the keys.
+  struct Axes {
+    double forward = 0.0, right = 0.0, up = 0.0;      ///< shares of the speed, in [-1, 1]
+    double turn_left = 0.0, look_up = 0.0;            ///< radians a second
+    bool fast = false, slow = false, crouch = false;  ///< as the keys
+    bool operator==(const Axes&) const = default;
+  };
+  /// Valid until the next call. Numbers that are not finite count as 0.
+  void setAxes(const Axes& axes);
+  [[nodiscard]] const Axes& axes() const;
+
   /// On: the mouse looks whenever it moves; its pointer is hidden. Escape (the command "release") turns it off.
   void setMouseGrab(bool on);
   [[nodiscard]] bool mouseGrab() const;

@@ -48,8 +48,8 @@ struct Velocity {
 /// A space and the instances in it. Queries may run at the same time, but not during a change. Changes allocate.
 class Instances final : public LiveSpace {
  public:
-  /// Metres. largest_error() is this or, if larger, that of the space. Worlds with more, such as those wider than some
-  /// 7 m, are refused: build them lossless.
+  /// Metres. largest_error() is the larger of this and that of the space. add() refuses worlds with a larger error,
+  /// such as those wider than some 7 m: build them lossless.
   static constexpr double usual_error = 1e-4;
 
   /// `space`, such as a World or a Pager, stands still. It must outlive this and keep its address. Its objects and

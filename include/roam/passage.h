@@ -6,8 +6,9 @@
 ///     if (p.found) std::cout << "passable up to a radius of " << p.radius << " m\n";
 ///
 /// The walking clearance of a position on a floor at height z is the largest radius of a vertical capsule from z + step
-/// to z + height that is free: lower obstacles are stepped over. Floor steeper than the slope limit is a wall. A body
-/// of height 0 is a sphere: it must be free when it is lifted off the floor by at most the step and its radius. The
+/// to z + height that is free, and stays free when it is lowered to the floor or onto an obstacle at most a step high:
+/// such obstacles are stepped over. Floor steeper than the slope limit is a wall. A body of height 0 is a sphere: it
+/// must be free when it is lifted off the floor by at most the step and its radius, and when it is lowered again. The
 /// flying clearance is the distance of the centre from everything. A body of radius r passes a way if the clearance is
 /// at least r all along it.
 ///

@@ -32,9 +32,9 @@ struct RouteOptions {
   /// m/s^2, > 0: see WalkerInput. With a limit the body comes to rest at each turn and at the end.
   double acceleration = std::numeric_limits<double>::infinity();
   double braking = std::numeric_limits<double>::infinity();
-  /// > 0: the body is blocked if in this time, and at least 8 steps, it came nearer to its waypoint by less than 1/20
-  /// of free motion, or if 64 steps in a row end within 1e-6 s. A slide so long that comes a little nearer is
-  /// progress, too, as along a wall met 3 degrees from head-on.
+  /// > 0: the body is blocked after this time, and at least 8 steps, without progress. Progress: it came nearer to its
+  /// waypoint by 1/20 of the length of free motion, or slid that far and came a little nearer, as along a wall met 3
+  /// degrees from head-on. 64 steps in a row that end within 1e-6 s block it, too.
   double patience = 1.0;
   double wait = 10.0;             ///< >= 0, real time: how long follow() waits for a LiveSpace after its last change
   std::optional<Box> scene = {};  ///< the box for Outcome::left_scene; none: that of the space
@@ -96,7 +96,6 @@ class Route {
   [[nodiscard]] bool done() const;
   const StepReport& advance();                      ///< makes one step; throws roam::Error when done()
   [[nodiscard]] const RouteResult& result() const;  ///< so far; complete when done()
-  [[nodiscard]] const Walker& walker() const;
 
  private:
   friend RouteResult follow(Walker& walker, LiveSpace& space, std::span<const Vec3> waypoints,

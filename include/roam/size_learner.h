@@ -2,7 +2,7 @@
 /// \file
 /// Size learner: adapts a body's size while it roams, if training is incomplete or missing.
 ///
-///     roam::SizeLearner learner(profile, {.radius_min = 0.2});
+///     roam::SizeLearner learner(profile);
 ///     for (;;) {
 ///       walker.step(input, dt);
 ///       if (const auto lesson = learner.watch(walker, input.velocity, dt)) {
@@ -40,17 +40,15 @@ struct Lesson {
   double width = 0.0;           ///< of the opening or crack
 };
 
-struct LearnLimits {
-  double radius_min = 0.15;  ///< m: smallest body offered
-  double support_max = 1.0;  ///< m: largest support disc offered
-  double patience = 0.5;     ///< s of pushing against an opening before it is measured
-};
-
 class SizeLearner {
  public:
+  static constexpr double radius_min = 0.15;  ///< m: smallest body offered
+  static constexpr double support_max = 1.0;  ///< m: largest support disc offered
+  static constexpr double patience = 0.5;     ///< s of pushing against an opening before it is measured
+
   /// Starts from `known`. Its radius and support_radius are those of the walker outside all regions. Throws roam::Error
-  /// if it or the limits are out of range.
-  explicit SizeLearner(Profile known, const LearnLimits& limits = {});
+  /// if it is out of range.
+  explicit SizeLearner(Profile known);
 
   /// Call after each step with the desired velocity, m/s, and the seconds of the step; after placing, with 0. Offers a
   /// lesson once each time that the body meets its cause.
@@ -70,7 +68,6 @@ class SizeLearner {
   [[nodiscard]] std::optional<Lesson> support(const Walker& walker) const;
 
   Profile profile_;
-  LearnLimits limits_;
   double pushed_ = 0.0;     ///< s without getting on
   bool offered_ = false;    ///< since it began to push, or to fall
   bool firm_ = false;       ///< has stood firmly, on floor under its axis: then where

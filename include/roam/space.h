@@ -73,7 +73,7 @@ struct Query {
 };
 
 /// The first impact of a sweep; see SweepResult for the other members. A miss has time 1 and distance 0. Because a
-/// space stores triangles to within largest_error(), a hit at time 0 may be up to 2 mm clear. `point` lies on the
+/// space stores triangles to within largest_error(), a hit at time 0 may have a gap of up to 2 mm. `point` lies on the
 /// triangle as stored. The normal of a ray is that of the face, or of the nearest edge or corner.
 struct Impact : SweepResult {
   TriangleId triangle = no_triangle;  ///< touched first; if `unknown`, Space::object() names the reason

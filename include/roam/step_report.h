@@ -86,14 +86,15 @@ struct Segment {
 /// Result of one step. Belongs to the Walker; valid until its next call.
 struct StepReport {
   InlineList<Segment, 64> segments;  ///< in order; empty if the body did not move. Pieces in one direction are merged
-  /// Each feature of a triangle once, the last touched last; of more than 8, the first 7 and the last. `distance` is
-  /// the gap to the plane of the contact where the body stopped.
+  /// Each touched feature of a triangle once, in the order in which it was last touched. Of more than 8 features, the
+  /// first 7 and the last. `distance` is the gap to the plane of the contact where the body stopped.
   InlineList<Contact, 8> contacts;
-  InlineList<Event, 24> events;  ///< in order. A very long step may leave out slides and steps, never those that end it
-  Vec3 from{0.0};                ///< the centre before
-  Vec3 to{0.0};                  ///< the centre now
-  double height = 0.0;           ///< of the body now
-  double radius = 0.0;           ///< of the body now
+  /// In order. A very long step may leave out slides and steps, never the events that end it.
+  InlineList<Event, 24> events;
+  Vec3 from{0.0};       ///< the centre before
+  Vec3 to{0.0};         ///< the centre now
+  double height = 0.0;  ///< of the body now
+  double radius = 0.0;  ///< of the body now
   /// At `to`: of the last segment, or of the position if the body did not move. 0: none (ghost, or overlapping).
   double axis_clearance = 0.0;
   double least_axis_clearance = 0.0;    ///< the least of all segments and `to`

@@ -29,9 +29,9 @@
 
 namespace roam {
 
-/// A user's secret key. A store whose manifest has an authentication code of this key was built or adopted by somebody
-/// who has the key. Make it of 32 bytes from a cryptographic generator, and keep it in a file that only its user can
-/// read.
+/// A user's secret key for authentication codes: a code of this key in a store's manifest shows that somebody with the
+/// key built or adopted the store. Take 32 bytes from a cryptographic generator, and keep them in a file that only the
+/// user can read.
 struct StoreKey {
   std::array<std::byte, 32> bytes{};
 };
@@ -57,23 +57,10 @@ struct StoreInfo {
 
 /// The source of a stored triangle.
 struct SourceTriangle {
-  std::string part;          ///< ScenePart::name
+  std::string part;          ///< name of the file or tile, without the folders in which the scene lies
   std::uint64_t number = 0;  ///< within the part, in the order of the file
   TriangleId scene = 0;      ///< within the scene: the number that World::build gives it after import_scene
   std::string object;        ///< name; may be empty
-};
-
-/// Source of a store's bytes: files by default. Derive from it to read from elsewhere. Its functions are called from
-/// any thread at any time.
-class StoreBytes {
- public:
-  virtual ~StoreBytes() = default;
-  /// Reads a small file, such as "CURRENT". Throws roam::Error if it cannot be read or is larger than `limit` bytes.
-  [[nodiscard]] virtual std::vector<std::byte> whole(const std::string& file, std::uint64_t limit) = 0;
-  /// Fills `out` with a file's bytes from `offset` on; the file is one such as "packs/<64 digits>.pack". Returns null,
-  /// or the reason of the failure as a text of static lifetime. Does not throw, and does not allocate from the second
-  /// read of a file on. A pager treats an exception as a failure.
-  [[nodiscard]] virtual const char* read(const std::string& file, std::uint64_t offset, std::span<std::byte> out) = 0;
 };
 
 /// An open store. Holds the manifest in memory; reads tiles and pages on demand.
@@ -84,8 +71,6 @@ class Store {
   /// `memory`: limit for the manifest, bytes. Throws roam::Error if there is no store, its format is newer than this
   /// library, or its manifest is damaged or too large.
   [[nodiscard]] static std::shared_ptr<const Store> open(const std::filesystem::path& folder,
-                                                         std::uint64_t memory = usual_memory);
-  [[nodiscard]] static std::shared_ptr<const Store> open(std::shared_ptr<StoreBytes> bytes, const std::string& name,
                                                          std::uint64_t memory = usual_memory);
   /// Whether the folder holds a file CURRENT.
   [[nodiscard]] static bool is_store(const std::filesystem::path& folder);
@@ -114,11 +99,11 @@ class Store {
   /// SourceTriangle::scene alone, which is faster.
   [[nodiscard]] TriangleId scene_triangle(TriangleId triangle) const;
 
-  struct State;
+  struct State;  // for the rooms of this library alone
+  explicit Store(std::unique_ptr<State> state);
   [[nodiscard]] const State& state() const { return *state_; }
 
  private:
-  explicit Store(std::unique_ptr<State> state);
   std::unique_ptr<State> state_;
 };
 

@@ -8,12 +8,13 @@
 ///
 ///   plan_store    reads the scene part by part into sorted runs in the store's scratch folder, and divides it into
 ///                 shards: ranges of the Morton curve of about a million triangles each
-///   build_shard   builds one shard; independent of all others, on any machine that sees the folder
+///   build_task    builds some of the shards, a task of the plan; independent of all others, on any machine that sees
+///                 the folder
 ///   merge_store   checks that all shards are there, writes the manifest, publishes it by rename, removes the scratch
 ///
 /// Each step may end at any moment, also by a power cut, and be run again: complete work is kept. The result is the
-/// same to the last byte for any number of threads and any memory. Unchanged parts of a scene (ScenePart) are not read
-/// again, and shards of unchanged parts are not built again.
+/// same to the last byte for any number of threads, tasks and machines, and any memory. Unchanged files and tiles of a
+/// scene are not read again, and their shards are not built again.
 
 #include <cstdint>
 #include <filesystem>
@@ -44,9 +45,10 @@ struct StoreBuildOptions {
   ImportOptions import = {};                      ///< `progress` and `memory_limit` are not used
   std::uint64_t memory = 1ull << 30;              ///< bytes, >= least_memory: of this process and its readers together
   int threads = 0;                                ///< 0: one per core
+  std::uint64_t tasks = 0;                        ///< of the plan; 0: as many as are equally long, at most 1000
   bool lossless = false;                          ///< as BuildOptions::lossless
   /// With a key, the store gets an authentication code (Store::is_authentic). An older store in `output` without a code
-  /// of the same key is refused (NotAuthentic), and unfinished work without one is done again. All steps need the same
+  /// of the same key is refused, and unfinished work without one is done again. All steps need the same
   /// key. Without a key, everything in `output` is trusted: only for folders that nobody else can write.
   std::optional<StoreKey> key{};
   /// With a key: trusts the store in `output`, whoever built it, and gives it a code of the key.
@@ -67,6 +69,11 @@ struct StoreBuildReport {
   std::uint64_t triangles = 0;     ///< of the scene
   std::uint64_t shards = 0;        ///< of the store
   std::uint64_t shards_built = 0;  ///< by this call
+  // Of the plan; 0 without one:
+  std::uint64_t shards_to_build = 0, triangles_to_build = 0;
+  std::uint64_t tasks = 0;
+  std::uint64_t longest_task = 0;  ///< triangles
+  std::uint64_t task_shards = 0;   ///< of the task of build_task
   std::uint64_t parts = 0;         ///< of the scene
   std::uint64_t parts_read = 0;    ///< by this call
   double read_seconds = 0.0, plan_seconds = 0.0, shard_seconds = 0.0, merge_seconds = 0.0;
@@ -74,27 +81,36 @@ struct StoreBuildReport {
   StoreInfo store;                 ///< as published, or `unchanged`
 };
 
-/// The store in `output` has no authentication code of the key.
-class NotAuthentic : public Error {
+/// The plan has no task of this number.
+class NoSuchTask : public Error {
  public:
   using Error::Error;
 };
 
-/// Runs plan_store, build_shard for each shard, and merge_store. Throws as they do.
+/// No build is planned: it has not begun, or its store is complete.
+class NothingPlanned : public Error {
+ public:
+  using Error::Error;
+};
+
+/// Runs plan_store, build_task for each task, and merge_store. Throws as they do.
 StoreBuildReport build_store(const StoreBuildOptions& options);
 
-/// Reads changed parts and divides the scene into shards. Returns how many shards must be built; 0 if `unchanged`.
-/// Planning again gives the same plan, and keeps shards that are built. Throws roam::Error if the scene cannot be read,
+/// Reads changed parts, divides the scene into shards, and shares those that must be built out among tasks, about
+/// equally long. Returns the number of tasks; 0 if `unchanged`. Planning again gives the same plan, and keeps shards
+/// that are built; another number of tasks only shares them out anew. Throws roam::Error if the scene cannot be read,
 /// the folder is neither empty nor a store, another build is at work on it (the message names its process), or memory
-/// or disk are too small; NotAuthentic; roam::Cancelled.
+/// or disk are too small, or the store in `output` has no code of the key; roam::Cancelled.
 std::uint64_t plan_store(const StoreBuildOptions& options, StoreBuildReport& report);
 
-/// Builds shard `i` of the plan in `options.output`, 0 <= i < plan_store(). Uses `key`, `memory`, `threads` and
-/// `progress`. Does nothing if the shard is there. Throws roam::Error if there is no plan, or if a run of it is
-/// missing.
-void build_shard(const StoreBuildOptions& options, std::uint64_t i, StoreBuildReport& report);
+/// Builds the shards of task `i` of the plan in `options.output`, 0 <= i < plan_store(). Uses `key`, `memory`,
+/// `threads` and `progress`. Leaves out shards that are there. May run several times, also at once, on any machines:
+/// each file is written under a name of its own, and renamed. Throws NothingPlanned, NoSuchTask, and roam::Error if a
+/// run of the plan is missing.
+void build_task(const StoreBuildOptions& options, std::uint64_t i, StoreBuildReport& report);
 
-/// Publishes the store. Throws roam::Error with the shards that are missing or damaged.
+/// Checks every byte that was built, and publishes the store. Throws NothingPlanned, and roam::Error with the tasks of
+/// which shards are missing or damaged.
 void merge_store(const StoreBuildOptions& options, StoreBuildReport& report);
 
 /// Builds the damaged shards again (verify_store) from the same scene, and publishes. The store knows how its scene was

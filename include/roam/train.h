@@ -118,8 +118,8 @@ struct Contradiction {
     chosen_back,      ///< the same, back up over a crack: should arrive
     inside_opening,   ///< just narrower than the path's opening: should arrive
     outside_opening,  ///< just wider: should be stopped
-    wide_foot,        ///< support disc just wide enough for the crack: should arrive
-    small_foot,       ///< support disc just too small: should fall
+    wide_disc,        ///< support disc just wide enough for the crack: should arrive
+    small_disc,       ///< support disc just too small: should fall
   };
   Body body = Body::chosen;
   Trial trial;
@@ -165,7 +165,7 @@ struct Training : FittingBody {
   double carried = 0.0;          ///< smallest radius that crosses them without sagging
   std::optional<Crack> hardest;  ///< crack with an uneven rim that decides `least`
   double trapped_radius = 0.0;   ///< a smaller sphere cannot roll out of the widest crack
-  double least_foot = 0.0;       ///< smallest support disc that spans all cracks; 0: no crack
+  double least_support = 0.0;    ///< smallest support disc that spans all cracks; 0: no crack
   std::optional<Trench> trench;  ///< the widest that the body sinks into
 
   std::vector<TrainedPath> paths;

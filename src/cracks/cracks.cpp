@@ -7,7 +7,7 @@
 
 #include "cracks/rim_edges.h"
 #include "cracks/void_measure.h"
-#include "roam/support.h"
+#include "motion/carrying.h"
 #include "text/names.h"
 
 namespace roam {
@@ -49,7 +49,7 @@ FoundCrack crack_of(const VoidProbe& probe, const MeasuredVoid& measured,
   crack.point = measured.disc.centre;
   crack.radius = measured.disc.radius;
   crack.direction = across(probe.floor(), measured.disc);
-  crack.foot_radius = measured.foot_radius;
+  crack.support_radius = measured.support_radius;
   const double depth = bottom ? crack.point.z - bottom->z : 0.0;
   if (depth <= carrying_band + same_depth) crack.shallow_depth = depth;
   crack.rim = measured.rim;
@@ -66,7 +66,7 @@ std::vector<FoundCrack> drops_of(const CrackOptions& options, const std::vector<
     const RimPlace& first = open[group.front()];
     drop.kind = Crack::Kind::open_drop;
     drop.point = first.disc.centre;
-    drop.radius = drop.foot_radius = options.support_max;
+    drop.radius = drop.support_radius = options.support_max;
     const Vec3 out = drop.point - first.rim;
     const double length = std::hypot(out.x, out.y);
     drop.direction = length > 0.0 ? Vec3(out.x / length, out.y / length, 0.0) : Vec3(1.0, 0.0, 0.0);

@@ -28,12 +28,12 @@ struct CrackOptions {
 
 /// A crack with the data that training needs.
 struct FoundCrack : Crack {
-  /// m, at least `radius`: a foot that carries even the thinnest body. Such a body comes closer to walls, and so
-  /// farther from floor if the gap runs along or obliquely into a wall. Exact to the spacing of a lattice, 3 cm for a
-  /// radius of 5 cm.
-  double foot_radius = 0.0;
-  /// m, the depth of a gap whose bottom is so near below the rim that a walker's foot takes it for floor. No foot
-  /// bridges such a gap, and no step reaches its bottom. 0: the gap is deeper.
+  /// m, at least `radius`: a support disc that carries even the thinnest body. Such a body comes closer to walls, and
+  /// so farther from floor if the gap runs along or obliquely into a wall. Exact to the spacing of a lattice, 3 cm for
+  /// a radius of 5 cm.
+  double support_radius = 0.0;
+  /// m, the depth of a gap whose bottom is so near below the rim that a walker's support disc takes it for floor. No
+  /// support disc bridges such a gap, and no step reaches its bottom. 0: the gap is deeper.
   double shallow_depth = 0.0;
   /// Places along the rim, sorted. Along a triangle's edge, each is at most 2 * smallest, or 1/65536 of the edge, from
   /// the next. A way of the feet that crosses the gap passes between or over them.

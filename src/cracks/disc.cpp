@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "cracks/floor_plan.h"
+#include "math/level_distance.h"
 
 namespace roam::cracks {
 
@@ -43,7 +44,7 @@ std::optional<Climb> steepest(const Vec3& centre, const std::vector<NearPlace>& 
 Vec3 first_enough(const PlanObstacles& plan, const Vec3& from, const Vec3& to, double enough) {
   constexpr double precision = 1e-6;  // m
   double below = 0.0, above = 1.0;
-  while ((above - below) * std::hypot(to.x - from.x, to.y - from.y) > precision) {
+  while ((above - below) * level_distance(to, from) > precision) {
     const double middle = 0.5 * (below + above);
     (plan.nearest(from + middle * (to - from), enough).distance >= enough ? above : below) = middle;
   }

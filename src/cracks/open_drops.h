@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Voids wider than any foot: pits, shafts, cliffs, the end of a floor. Also finds the places beside them that belong
+/// Voids wider than any disc: pits, shafts, cliffs, the end of a floor. Also finds the places beside them that belong
 /// to them.
 
 #include <atomic>
@@ -42,7 +42,7 @@ class OpenDrops {
 /// Whether a place of a void belongs to an open drop beside it, as between the end of a floor and a post in front of
 /// it. The largest body that stands there must reach the drop through nothing narrower than itself (to some
 /// millimetres), going no farther than its radius + support_max. False if reached floor lies on two sides of the place,
-/// because then a foot must carry the body across. `is_reached` as in find_cracks. False once `ended` is set.
+/// because then a disc must carry the body across. `is_reached` as in find_cracks. False once `ended` is set.
 [[nodiscard]] bool opens_into_drop(const CrackOptions& options, const VoidProbe& probe,
                                    const std::function<bool(const Vec3& foot)>& is_reached, const Vec3& place,
                                    const std::atomic<bool>& ended);

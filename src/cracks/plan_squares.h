@@ -9,12 +9,10 @@
 #include <vector>
 
 #include "math/disjoint_sets.h"
+#include "math/level_distance.h"
 #include "roam/math.h"
 
 namespace roam::cracks {
-
-/// m, seen from above.
-[[nodiscard]] inline double level_distance(const Vec3& a, const Vec3& b) { return std::hypot(a.x - b.x, a.y - b.y); }
 
 /// The number of a square of a lattice in the plan; squares 2^32 apart share one.
 [[nodiscard]] inline std::uint64_t square_number(std::int64_t x, std::int64_t y) {

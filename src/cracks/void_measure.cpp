@@ -70,7 +70,7 @@ class Floods {
       const Disc& disc = discs_[flood];
       const bool is_open = disc.radius >= probe_.open_radius();
       MeasuredVoid& whole = voids[{sets_.find(flood), is_open}];
-      whole.foot_radius = std::max({whole.foot_radius, disc.radius, feet_[flood]});
+      whole.support_radius = std::max({whole.support_radius, disc.radius, supports_[flood]});
       if (disc.radius > whole.disc.radius ||
           (disc.radius == whole.disc.radius && comes_before(disc.centre, whole.disc.centre)))
         whole.disc = disc;
@@ -147,7 +147,8 @@ class Floods {
     std::vector<Vec3> own_drops = open_discs(filled);
     discs_.push_back(largest(seed, filled, own_drops));
     const Disc& disc = discs_.back();
-    feet_.push_back(disc.radius > 0.0 && disc.radius < probe_.open_radius() ? foot_over(filled, own_drops) : 0.0);
+    supports_.push_back(disc.radius > 0.0 && disc.radius < probe_.open_radius() ? support_over(filled, own_drops)
+                                                                                : 0.0);
     return flood;
   }
 
@@ -214,8 +215,8 @@ class Floods {
            opens_into_drop(options_, probe_, is_reached_, place, ended_);
   }
 
-  /// The greatest distance from floor of a smallest body's axis, outside open drops, which no foot bridges.
-  double foot_over(std::vector<Cell>& cells, const std::vector<Vec3>& own_drops) {
+  /// The greatest distance from floor of a smallest body's axis, outside open drops, which no support disc bridges.
+  double support_over(std::vector<Cell>& cells, const std::vector<Vec3>& own_drops) {
     std::sort(cells.begin(), cells.end(), [](const Cell& a, const Cell& b) {
       return a.floor_distance != b.floor_distance ? a.floor_distance > b.floor_distance
                                                   : std::tie(a.x, a.y) < std::tie(b.x, b.y);
@@ -315,8 +316,9 @@ class Floods {
     return probe_.sees(from, to) && probe_.sinks(to, probe_.radius() - sink_margin);
   }
 
-  /// The largest body that fits into the void near `start`, within `may_be`, as the foot that carries it. If walls
-  /// leave no room for a body as wide as the gap, it is the foot for the widest bodies that fit between the walls.
+  /// The largest body that fits into the void near `start`, within `may_be`, as the support disc that carries it. If
+  /// walls leave no room for a body as wide as the gap, it is the support disc for the widest bodies that fit between
+  /// the walls.
   Disc grown(const Vec3& start, const std::function<bool(const Vec3& to)>& may_be) const {
     constexpr double walls_decide = 0.001;  // m: walls limit the body if floor is farther than this beyond them
     constexpr double widest_share = 0.8;    // of the room between the walls; assumed width of bodies
@@ -339,7 +341,7 @@ class Floods {
   DisjointSets sets_;
   std::vector<Disc> discs_;              ///< of each flood
   std::vector<std::vector<Vec3>> rims_;  ///< likewise
-  std::vector<double> feet_;             ///< likewise: the greatest distance from floor of a smallest body's axis
+  std::vector<double> supports_;         ///< likewise: the greatest distance from floor of a smallest body's axis
 };
 
 /// The voids that were climbed but not measured, with their widest discs.
@@ -354,7 +356,7 @@ std::vector<MeasuredVoid> climbed(const CrackOptions& options, const OpenDrops& 
       if (places[i].disc.radius > found.disc.radius) found.disc = places[i].disc;
       found.rim.push_back(places[i].rim);
     }
-    found.foot_radius = found.disc.radius;
+    found.support_radius = found.disc.radius;
   }
   return voids;
 }

@@ -12,7 +12,7 @@ namespace roam::cracks {
 /// A measured void: the largest disc of all its arms.
 struct MeasuredVoid {
   Disc disc;
-  double foot_radius = 0.0;
+  double support_radius = 0.0;
   std::vector<Vec3> rim;
 };
 

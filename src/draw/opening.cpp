@@ -39,7 +39,7 @@ class OpeningPainter {
     panel.border();
     section_line(panel, section_name);
     panel.disc("body", d_.body, o_.radius, style_);
-    if (o_.support_radius > 0.0) panel.disc("foot", d_.body, o_.support_radius, foot_style);
+    if (o_.support_radius > 0.0) panel.disc("disc", d_.body, o_.support_radius, disc_style);
     if (d_.is_level) {
       // An oblique width is longer than in the plan, so its number stands in the section.
       const Point half(d_.half_width.x, 0.0);
@@ -58,8 +58,8 @@ class OpeningPainter {
     panel.capsule("body", feet - Point(0.0, sunk(o_)), o_.radius, o_.height, style_);
     if (o_.support_radius > 0.0) {
       const Point left(-o_.support_radius, o_.floor), right(o_.support_radius, o_.floor);
-      panel.lines("foot", {{left, right}}, foot_line_style);
-      panel.label("label", right, {"foot", length_text(o_.support_radius) + " around"}, foot_style.stroke);
+      panel.lines("disc", {{left, right}}, disc_line_style);
+      panel.label("label", right, {"support disc", length_text(o_.support_radius) + " around"}, disc_style.stroke);
     }
     const bool crack = o_.kind == OpeningView::Kind::crack;
     if (crack && !o_.fits) {
@@ -157,7 +157,7 @@ Sheet opening_sheet(const std::string& title, std::span<const OpeningView> openi
                                           {"floor", floor_style},
                                           {"body", body_style},
                                           {"body that does not fit", misfit_style},
-                                          {"foot", foot_style},
+                                          {"support disc", disc_style},
                                           {"measured", measure_style}}});
   return page.finish();
 }

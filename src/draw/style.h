@@ -52,8 +52,8 @@ inline constexpr Style face_style{0.8, {0.85, 0.87, 0.90}, Colour{0.85, 0.87, 0.
 // The body and its way.
 inline constexpr Style body_style{1.8, blue, blue.at(0.16), 1.0};
 inline constexpr Style misfit_style{2.0, red, red.at(0.16), 1.0};
-inline constexpr Style foot_style{2.0, green, {}, 1.0};
-inline constexpr Style foot_line_style{5.0, green};
+inline constexpr Style disc_style{2.0, green, {}, 1.0};
+inline constexpr Style disc_line_style{5.0, green};
 inline constexpr Style band_style = area_style(blue.at(0.16));
 inline constexpr Style way_style{4.0, blue, {}, 3.0};
 inline constexpr Style ghost_style{4.0, {0.45, 0.25, 0.65}, {}, 3.0};

@@ -4,11 +4,10 @@
 #include <glm/geometric.hpp>
 
 #include "draw/lines.h"
+#include "math/level_distance.h"
 
 namespace roam::draw {
 namespace {
-
-double plan_distance(const Vec3& a, const Vec3& b) { return std::hypot(b.x - a.x, b.y - a.y); }
 
 /// The distance of a place from the straight piece a-b, with the body's height as a fourth coordinate.
 double deviation(const Place& p, const Place& a, const Place& b) {
@@ -128,11 +127,11 @@ Way simplified(const Record& record, double tolerance) {
     }
     if (!keep[i]) continue;
     const bool jump = i > 0 && p.teleport;
-    const double step = i == 0 || jump ? 0.0 : plan_distance(places[before].position, p.position);
+    const double step = i == 0 || jump ? 0.0 : level_distance(places[before].position, p.position);
     const double start = way.length;
     way.length += step;
     for (std::size_t k = before + 1; k < i; ++k) {
-      way.along[k] = std::min(start + plan_distance(places[before].position, places[k].position), way.length);
+      way.along[k] = std::min(start + level_distance(places[before].position, places[k].position), way.length);
     }
     way.along[i] = way.length;
     way.points.push_back({p.position, p.height, way.length, jump});

@@ -35,8 +35,6 @@ struct Numbers {
   throw Error(fmt::format("{}:{}", name, line), what);
 }
 
-std::string excerpt(std::string_view word) { return printable(word, longest_excerpt); }
-
 /// Lines of a text, and how many bytes they had.
 class Lines {
  public:

@@ -1,10 +1,12 @@
 #include "graphics/hud.h"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <osg/BlendFunc>
 #include <osg/Camera>
 #include <osg/NodeCallback>
+#include <utility>
 
 #include "graphics/hud_panels.h"
 
@@ -24,43 +26,67 @@ class Hud::Panels : public osg::NodeCallback {
   std::vector<HudLabel> labels;
   double hint_opacity = 1.0;
   std::vector<HelpLine> help;
-  std::string help_focus, button;
+  std::string help_focus, button, list_focus;
+  std::optional<HudList> list;
+  double covered = 0.0;
   bool help_shown = false;
   Detail detail = Detail::full;
   bool crosshair = true;
   bool status_changed = true, message_changed = true, help_changed = true, crosshair_changed = true;
   bool hint_changed = true, recording_changed = true, labels_changed = true, button_changed = true;
-  std::vector<Target> help_targets, button_targets;  ///< of the last frame
+  bool list_changed = true;
+  // Of the last frame.
+  std::vector<Target> help_targets, button_targets, list_targets;
+  Rectangle message_place, hint_place, recording_place, button_place, list_place, help_place;
 
   /// Adds the nodes, from the lowest to the topmost.
   void add_to(osg::Group& group) {
-    for (osg::Node* node : {static_cast<osg::Node*>(labels_.get()), static_cast<osg::Node*>(crosshair_.get()),
-                            status_panel_.node(), static_cast<osg::Node*>(message_.get()),
-                            static_cast<osg::Node*>(recording_.get()), static_cast<osg::Node*>(button_.get()),
-                            static_cast<osg::Node*>(help_.get()), static_cast<osg::Node*>(hint_.get())}) {
+    for (osg::Node* node :
+         {static_cast<osg::Node*>(labels_.get()), static_cast<osg::Node*>(crosshair_.get()), status_panel_.node(),
+          static_cast<osg::Node*>(message_.get()), static_cast<osg::Node*>(recording_.get()),
+          static_cast<osg::Node*>(button_.get()), static_cast<osg::Node*>(list_.get()),
+          static_cast<osg::Node*>(help_.get()), static_cast<osg::Node*>(hint_.get())}) {
       group.addChild(node);
     }
   }
 
   /// The name of the part at a point of the picture, x and y in [-1, 1]; empty: none.
   [[nodiscard]] std::string name_at(const std::vector<Target>& targets, double x, double y) const {
-    const double across = 0.5 * (x + 1.0) * page_.width, up = 0.5 * (y + 1.0) * page_.height;
-    const auto found = std::find_if(targets.begin(), targets.end(), [&](const Target& target) {
-      const Rectangle& r = target.where;
-      return across >= r.x && across < r.x + r.width && up >= r.y && up < r.y + r.height;
-    });
+    const auto found =
+        std::find_if(targets.begin(), targets.end(), [&](const Target& target) { return is_in(target.where, x, y); });
     return found == targets.end() || detail == Detail::off ? std::string() : found->name;
+  }
+  /// Whether a point of the picture, x and y in [-1, 1], is in a rectangle of pixels.
+  [[nodiscard]] bool is_in(const Rectangle& r, double x, double y) const {
+    const double across = 0.5 * (x + 1.0) * page_.width, up = 0.5 * (y + 1.0) * page_.height;
+    return across >= r.x && across < r.x + r.width && up >= r.y && up < r.y + r.height;
+  }
+  /// The page of the present window, before anything covers a part of it.
+  [[nodiscard]] Page whole_page() const {
+    const osg::Viewport& viewport = *picture_->getViewport();
+    return Page::of(static_cast<float>(viewport.width()), static_cast<float>(viewport.height()));
+  }
+  [[nodiscard]] std::vector<Rectangle> places() const {
+    std::vector<Rectangle> all{hint_place};
+    if (detail != Detail::off) {
+      all.insert(all.end(),
+                 {status_panel_.place(), message_place, recording_place, button_place, list_place, help_place});
+    }
+    std::erase_if(all, [](const Rectangle& r) { return r == Rectangle{}; });
+    return all;
   }
 
   void change_all() {
     status_changed = message_changed = help_changed = crosshair_changed = hint_changed = recording_changed = true;
-    labels_changed = button_changed = true;
+    labels_changed = button_changed = list_changed = true;
   }
   /// Hides everything but the hint, or no longer.
   void set_off(bool off) {
     const osg::Node::NodeMask mask = off ? 0u : ~0u;
     status_panel_.node()->setNodeMask(mask);
-    for (const auto& group : {labels_, crosshair_, message_, recording_, button_, help_}) group->setNodeMask(mask);
+    for (const auto& group : {labels_, crosshair_, message_, recording_, button_, list_, help_}) {
+      group->setNodeMask(mask);
+    }
   }
 
   [[nodiscard]] std::vector<StatusLine> status_shown() const {
@@ -71,45 +97,74 @@ class Hud::Panels : public osg::NodeCallback {
   }
 
   void operator()(osg::Node* node, osg::NodeVisitor* visitor) override {
-    const osg::Viewport& viewport = *picture_->getViewport();
-    const Page page = Page::of(static_cast<float>(viewport.width()), static_cast<float>(viewport.height()));
+    Page page = whole_page();
+    page.right = std::round((1.0f - static_cast<float>(covered)) * page.width);
+    if (list && !help_shown && detail != Detail::off) page.right = std::min(page.right, left_of_list(page));
     if (page != page_) change_all();
     page_ = page;
-    if (hint_changed) {
-      show_only(*hint_, {hint.empty() ? nullptr : make_hint(page_, hint, hint_opacity, plates_.get())});
-      hint_changed = false;
-    }
+    if (detail != Detail::off && status_changed) status_panel_.lay_out(page_, status_shown());
+    status_changed = status_changed && detail == Detail::off;
+    // The status is the first, then what makes room for it.
+    const Rectangle before = std::exchange(status_place_, detail == Detail::off ? Rectangle{} : status_panel_.place());
+    if (hint_changed || before != status_place_) show_hint();
+    message_changed = message_changed || before != status_place_;
     if (detail != Detail::off) lay_out();
     traverse(node, visitor);
   }
 
  private:
+  void show_hint() {
+    const Rectangle before = hint_place;
+    const Placed made = hint.empty() ? Placed{} : make_hint(page_, hint, hint_opacity, status_place_, plates_.get());
+    show_only(*hint_, {made.node});
+    hint_place = made.where;
+    hint_changed = false;
+    message_changed = message_changed || before != hint_place;
+  }
+
+  /// The height below which a message has to end, because of the status and the hint.
+  [[nodiscard]] float message_limit() const {
+    float limit = page_.height;
+    for (const Rectangle& above : {status_place_, hint_place}) {
+      if (above != Rectangle{}) limit = std::min(limit, above.y - std::round(0.4f * page_.margin));
+    }
+    return limit;
+  }
+
   void lay_out() {
     osg::StateSet* plates = plates_.get();
-    if (status_changed) status_panel_.lay_out(page_, status_shown());
     if (message_changed) {
-      const bool any = !message.empty() || progress;
-      show_only(*message_, {any ? make_message(page_, message, tone, progress, plates) : nullptr});
+      const bool any = (!message.empty() || progress) && !(help_shown && page_.small);
+      const Placed made = any ? make_message(page_, message, tone, progress, message_limit(), plates) : Placed{};
+      show_only(*message_, {made.node});
+      message_place = made.where;
     }
     if (help_changed) {
-      show(*help_, help_targets, help_shown ? make_help(page_, help, help_focus, plates) : Clickable{});
+      help_place = show(*help_, help_targets, help_shown ? make_help(page_, help, help_focus, plates) : Clickable{});
     }
     if (button_changed) {
       const bool any = !button.empty() && !help_shown && detail == Detail::full;
-      show(*button_, button_targets, any ? make_button(page_, button, plates) : Clickable{});
+      button_place = show(*button_, button_targets, any ? make_button(page_, button, plates) : Clickable{});
+    }
+    if (list_changed) {
+      const bool any = list && !help_shown;
+      list_place = show(*list_, list_targets, any ? make_list(page_, *list, list_focus, plates) : Clickable{});
     }
     if (crosshair_changed) show_only(*crosshair_, {crosshair && !help_shown ? make_crosshair(page_, plates) : nullptr});
     if (labels_changed) show_only(*labels_, {help_shown ? nullptr : make_labels(page_, labels, plates)});
     if (recording_changed) {
-      show_only(*recording_, {recording.empty() ? nullptr : make_recording(page_, recording, plates)});
+      const Placed made = recording.empty() ? Placed{} : make_recording(page_, recording, plates);
+      show_only(*recording_, {made.node});
+      recording_place = made.where;
     }
-    status_changed = message_changed = help_changed = crosshair_changed = recording_changed = false;
-    labels_changed = button_changed = false;
+    message_changed = help_changed = crosshair_changed = recording_changed = false;
+    labels_changed = button_changed = list_changed = false;
   }
 
-  static void show(osg::Group& group, std::vector<Target>& targets, Clickable made) {
+  static Rectangle show(osg::Group& group, std::vector<Target>& targets, Clickable made) {
     show_only(group, {made.node});
     targets = std::move(made.targets);
+    return made.where;
   }
 
   osg::ref_ptr<osg::Camera> picture_;
@@ -118,7 +173,8 @@ class Hud::Panels : public osg::NodeCallback {
   StatusPanel status_panel_{plates_};
   osg::ref_ptr<osg::Group> message_ = new osg::Group, help_ = new osg::Group, crosshair_ = new osg::Group;
   osg::ref_ptr<osg::Group> hint_ = new osg::Group, recording_ = new osg::Group, labels_ = new osg::Group;
-  osg::ref_ptr<osg::Group> button_ = new osg::Group;
+  osg::ref_ptr<osg::Group> button_ = new osg::Group, list_ = new osg::Group;
+  Rectangle status_place_;  ///< for which hint and message are laid out
 };
 
 Hud::Hud(Frame& frame) : panels_(new Panels(frame.flat())), parent_(frame.flat()), group_(new osg::Group) {
@@ -204,6 +260,30 @@ void Hud::set_button(std::string text) {
 
 bool Hud::button_at(double x, double y) const { return !panels_->name_at(panels_->button_targets, x, y).empty(); }
 
+void Hud::set_list(std::optional<HudList> list) {
+  if (list == panels_->list) return;
+  panels_->list = std::move(list);
+  panels_->list_changed = true;
+}
+
+std::size_t Hud::list_rows() const { return rows_of_list(panels_->whole_page()); }
+
+std::string Hud::list_at(double x, double y) const { return panels_->name_at(panels_->list_targets, x, y); }
+
+bool Hud::list_covers(double x, double y) const {
+  return panels_->detail != Detail::off && panels_->is_in(panels_->list_place, x, y);
+}
+
+void Hud::set_list_focus(std::string name) {
+  if (name == panels_->list_focus) return;
+  panels_->list_focus = std::move(name);
+  panels_->list_changed = true;
+}
+
+void Hud::set_covered(double share) { panels_->covered = std::clamp(share, 0.0, 1.0); }
+
+std::vector<Rectangle> Hud::panels() const { return panels_->places(); }
+
 void Hud::set_detail(Detail detail) {
   if (detail == panels_->detail) return;
   panels_->detail = detail;
@@ -231,6 +311,13 @@ std::string Hud::text() const {
   if (!panels_->message.empty()) all += panels_->message + '\n';
   all += hint;
   for (const HudLabel& label : panels_->labels) all += label.text + '\n';
+  if (panels_->list && !panels_->help_shown) {
+    all += panels_->list->title + '\n';
+    for (const ListRow& row : panels_->list->rows) {
+      const char* const boxes[] = {"", "[ ] ", "[-] ", "[x] "};
+      all += boxes[static_cast<std::size_t>(row.box)] + row.text + '\n';
+    }
+  }
   if (panels_->help_shown) {
     for (const HelpLine& line : panels_->help) {
       all += (line.effect.empty() ? line.key : line.key + ": " + line.effect) + '\n';

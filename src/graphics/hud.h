@@ -10,12 +10,15 @@
 /// The text scales with the window. It is readable from 640 x 360 to 3840 x 2160, and stays inside smaller windows.
 /// Setting an unchanged value costs nothing; changes are laid out before the next frame.
 
+#include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <osg/ref_ptr>
 #include <string>
 #include <vector>
 
 #include "graphics/frame.h"
+#include "graphics/plate.h"
 
 namespace roam::graphics {
 
@@ -49,6 +52,26 @@ struct HudLabel {
   bool operator==(const HudLabel&) const = default;
 };
 
+/// A row of the list, with a box that is ticked, half ticked or not.
+struct ListRow {
+  enum class Box : std::uint8_t { none, off, half, on };
+  std::string text{};   ///< shortened where it is too long
+  std::string name{};   ///< of its box and its text: see Hud::list_at()
+  std::string opens{};  ///< name of the arrow before it; empty: none
+  bool is_open = false;
+  int depth = 0;  ///< steps to the right
+  Box box = Box::none;
+  bool operator==(const ListRow&) const = default;
+};
+
+/// A list at the right edge. Give it the rows that are to be seen: Hud::list_rows() of them have room.
+struct HudList {
+  std::string title{};
+  std::string search{};  ///< a field below the title, for a click
+  std::vector<ListRow> rows{};
+  bool operator==(const HudList&) const = default;
+};
+
 /// The head-up display of a frame. Use it between frames, from the thread that calls viewer.frame(), in any threading
 /// model.
 class Hud {
@@ -73,7 +96,7 @@ class Hud {
   /// From about 480 x 360 pixels on, all lines are visible. In smaller windows only the first ones are, with a line
   /// that says so.
   void set_help(std::vector<HelpLine> lines);
-  /// The help replaces the status and the crosshair; the message stays.
+  /// The help replaces the status, the crosshair and the list; the message stays, unless the window is small.
   void show_help(bool shown);
   [[nodiscard]] bool help_shown() const;
   /// The name of the help's line at a point of the last frame, x and y in [-1, 1]; empty: none.
@@ -84,12 +107,29 @@ class Hud {
   void set_button(std::string text);
   /// Whether the button is at a point of the last frame, x and y in [-1, 1].
   [[nodiscard]] bool button_at(double x, double y) const;
+  /// The list, which takes the place of a plan; none: no list. It is hidden while the help is shown.
+  void set_list(std::optional<HudList> list);
+  /// The number of rows that a list has room for.
+  [[nodiscard]] std::size_t list_rows() const;
+  /// The name of the list's part at a point of the last frame, x and y in [-1, 1]: of a row or an arrow, or
+  /// list_search. Empty: none.
+  [[nodiscard]] std::string list_at(double x, double y) const;
+  static constexpr const char* list_search = "search";
+  /// Whether the list covers a point of the last frame.
+  [[nodiscard]] bool list_covers(double x, double y) const;
+  /// Highlights the row with this name; empty: none.
+  void set_list_focus(std::string name);
+  /// The share of the picture, at its right, that something else covers: status, message and hint stay left of it.
+  void set_covered(double share);
+  /// The rectangles of the status, the message, the hint, the recording, the button, the list and the help that the
+  /// last frame showed, in pixels.
+  [[nodiscard]] std::vector<Rectangle> panels() const;
   void set_detail(Detail detail);
   [[nodiscard]] Detail detail() const;
   void set_crosshair(bool shown);  ///< default true
 
-  /// All visible text, line by line: "label: value", "recording: ...", the message, the hint, the labels, "key:
-  /// effect". Not the button.
+  /// All visible text, line by line: "label: value", "recording: ...", the message, the hint, the labels, the list with
+  /// "[x] " before its ticked rows, "key: effect". Not the button.
   [[nodiscard]] std::string text() const;
 
  private:

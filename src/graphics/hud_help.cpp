@@ -109,8 +109,10 @@ Arrangement arrange(const std::vector<HelpLine>& lines, int letter, std::vector<
   return a;
 }
 
-/// The bottom of the help, above the message.
-float bottom_of_help(const Page& page) { return 0.07f * page.height + 3.6f * static_cast<float>(page.letter); }
+/// The bottom of the help, above the message, which is not there on a small page.
+float bottom_of_help(const Page& page) {
+  return page.small ? page.margin : 0.07f * page.height + 3.6f * static_cast<float>(page.letter);
+}
 
 /// The lines, broken so that a column of them is at most `width` pixels wide. Text without a space is shortened.
 std::vector<HelpLine> narrowed(const std::vector<HelpLine>& lines, int letter, float width) {
@@ -185,7 +187,7 @@ Arrangement fit(const Page& page, const std::vector<HelpLine>& lines) {
 Clickable make_help(const Page& page, const std::vector<HelpLine>& lines, const std::string& focus,
                     osg::StateSet* plates) {
   osg::ref_ptr<osg::Group> group = new osg::Group;
-  Clickable made{group, {}};
+  Clickable made{group, {}, {}};
   const Arrangement a = lines.empty() ? Arrangement{} : fit(page, lines);
   if (a.columns.empty()) return made;
   const auto add_plate = [&](const Rectangle& where, float radius, const osg::Vec4& color) {
@@ -196,7 +198,8 @@ Clickable make_help(const Page& page, const std::vector<HelpLine>& lines, const 
   const float left = std::round(0.5f * (page.width - a.width));
   const float middle = 0.5f * (bottom_of_help(page) + page.height - page.margin);
   const float top = std::round(middle + 0.5f * a.height);
-  add_plate({left, top - a.height, a.width, a.height}, 0.6f * page.margin, panel_color);
+  made.where = {left, top - a.height, a.width, a.height};
+  add_plate(made.where, 0.6f * page.margin, panel_color);
 
   float x = left + 1.5f * a.gap;
   for (const Column& column : a.columns) {

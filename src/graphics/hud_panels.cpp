@@ -28,6 +28,8 @@ osg::ref_ptr<osg::Geometry> plate(osg::StateSet* plates, const Rectangle& where,
 /// A note with its remedy takes two or three lines.
 constexpr std::size_t most_value_lines = 3;
 
+float top_of_button(const Page& page) { return page.margin + page.line + std::round(0.6f * page.margin); }
+
 float up_to(float value, float step) { return std::ceil(value / step) * step; }
 
 }  // namespace
@@ -39,10 +41,13 @@ Page Page::of(float width, float height) {
   Page page;
   page.width = width;
   page.height = height;
+  page.right = width;
   page.letter = std::max(9, static_cast<int>(std::lround(6.0f + 0.0125f * effective)));
   page.letter = std::max(page.letter, effective >= 350.0f ? 12 : 9);
   page.margin = static_cast<float>(page.letter);
   page.line = std::round(1.45f * static_cast<float>(page.letter));
+  constexpr int small_letter = 12;
+  page.small = page.letter <= small_letter;
   return page;
 }
 
@@ -56,16 +61,16 @@ void StatusPanel::lay_out(const Page& page, const std::vector<StatusLine>& lines
     width_ = 0;
     rebuild(lines);
   }
-  if (rows_.empty()) return;
+  if (rows_.empty()) {
+    place_ = {};
+    return;
+  }
   for (std::size_t i = 0; i < lines.size(); ++i) break_value(i, lines[i].value);
-  // The message below stays free.
-  const auto room = static_cast<std::size_t>(0.7f * page.height / page.line);
-  std::size_t most = most_value_lines;
-  while (most > 1 && lines_in_all(most) > room) --most;
+  const std::vector<std::size_t> counts = share_lines();
   bool moved = rebuilt;
   for (std::size_t i = 0; i < lines.size(); ++i) {
     Row& row = rows_[i];
-    const std::size_t count = std::min(row.broken.size(), most);
+    const std::size_t count = counts[i];
     moved = moved || count != row.lines;
     if (count != row.lines) row.shown = first_lines(i, count);
     row.lines = count;
@@ -76,14 +81,14 @@ void StatusPanel::lay_out(const Page& page, const std::vector<StatusLine>& lines
   for (std::size_t i = 0; i < rows_.size(); ++i) widest = std::max(widest, left_of(i) + rows_[i].value->width());
   // The width changes in steps and shrinks late, because a panel that follows each digit is restless.
   const float step = 3.0f * static_cast<float>(page.letter);
-  const float wished = std::min(up_to(widest - page.margin, step), page.width - 2.8f * page.margin);
+  const float wished = std::min(up_to(widest - page.margin, step), page.right - 2.8f * page.margin);
   const bool resized = wished > width_ || wished + 2 * step < width_;
   if (moved || resized) place_plate(resized ? wished : width_);
 }
 
 float StatusPanel::width_for(std::size_t row) const {
   // Less than half of the picture; more in small windows, where half would be a word a line.
-  const float right = std::max(0.45f * page_.width, std::min(0.9f * page_.width, 30.0f * page_.margin));
+  const float right = std::max(0.45f * page_.right, std::min(0.9f * page_.right, 30.0f * page_.margin));
   return right - (labels_[row].empty() ? 1.8f * page_.margin : value_left_);
 }
 
@@ -103,10 +108,17 @@ void StatusPanel::break_value(std::size_t row, const std::string& words) {
   if (r.lines > 0) r.shown = first_lines(row, std::min(r.lines, r.broken.size()));
 }
 
-std::size_t StatusPanel::lines_in_all(std::size_t most_lines) const {
-  std::size_t count = 0;
-  for (const Row& row : rows_) count += std::min(row.broken.size(), most_lines);
-  return count;
+std::vector<std::size_t> StatusPanel::share_lines() const {
+  // The message below stays free.
+  const auto room = static_cast<std::size_t>(std::max(0.0f, 0.66f * page_.height - 2.0f * page_.margin) / page_.line);
+  std::vector<std::size_t> counts(rows_.size(), 1);
+  std::size_t left = room - std::min(room, rows_.size());
+  for (std::size_t i = rows_.size(); i-- > 0;) {
+    const std::size_t more = std::min({rows_[i].broken.size() - 1, most_value_lines - 1, left});
+    counts[i] += more;
+    left -= more;
+  }
+  return counts;
 }
 
 std::string StatusPanel::first_lines(std::size_t row, std::size_t count) const {
@@ -159,34 +171,36 @@ void StatusPanel::place_rows() {
 void StatusPanel::place_plate(float width) {
   width_ = width;
   const float height = page_.line * static_cast<float>(lines_) + 0.8f * page_.margin;
-  move_plate(*plate_, {page_.margin, page_.height - page_.margin - height, width + 0.8f * page_.margin, height},
-             0.5f * page_.margin);
+  place_ = {page_.margin, page_.height - page_.margin - height, width + 0.8f * page_.margin, height};
+  move_plate(*plate_, place_, 0.5f * page_.margin);
 }
 
-osg::ref_ptr<osg::Node> make_message(const Page& page, const std::string& text, Tone tone,
-                                     std::optional<double> progress, osg::StateSet* plates) {
+Placed make_message(const Page& page, const std::string& text, Tone tone, std::optional<double> progress, float limit,
+                    osg::StateSet* plates) {
   osg::ref_ptr<osg::Group> group = new osg::Group;
   const Look look{static_cast<int>(std::lround(1.15f * static_cast<float>(page.letter))), false, color_of(tone)};
   const float line_height = std::round(1.45f * static_cast<float>(look.size));
   const float pad = page.margin;
   const float bar = std::max(3.0f, std::round(0.3f * page.margin));
 
-  std::vector<std::string> lines = break_lines(text, look, 0.78f * page.width);
-  // Never over the middle of the picture.
-  const auto most = static_cast<std::size_t>(std::max(1.0f, 0.3f * page.height / line_height));
+  std::vector<std::string> lines = break_lines(text, look, 0.78f * page.right);
+  const float bar_height = progress ? bar + (lines.empty() ? 0.0f : 0.5f * pad) : 0.0f;
+  // Above the button, and never over the middle of the picture.
+  const float bottom = std::round(std::max(0.07f * page.height, top_of_button(page) + 0.5f * page.margin));
+  const float room = std::min(0.3f * page.height, limit - bottom - bar_height - pad);
+  const auto most = static_cast<std::size_t>(std::max(1.0f, room / line_height));
   if (lines.size() > most) lines.resize(most);
   float widest = progress ? 16.0f * page.margin : 0.0f;
   for (std::string& line : lines) {
-    line = shorten(line, look, 0.9f * page.width);
+    line = shorten(line, look, 0.9f * page.right);
     widest = std::max(widest, width_of(line, look));
   }
   const float text_height = line_height * static_cast<float>(lines.size());
-  const float bar_height = progress ? bar + (lines.empty() ? 0.0f : 0.5f * pad) : 0.0f;
   Rectangle panel;
   panel.width = std::round(widest + 2 * pad);
   panel.height = std::round(text_height + bar_height + pad);
-  panel.x = std::round(0.5f * (page.width - panel.width));
-  panel.y = std::round(0.07f * page.height);
+  panel.x = std::round(0.5f * (page.right - panel.width));
+  panel.y = bottom;
   group->addChild(plate(plates, panel, 0.5f * pad, panel_color));
   if (tone == Tone::warning) {
     group->addChild(plate(plates, {panel.x, panel.y, bar, panel.height}, 0.5f * bar, warning_color));
@@ -194,7 +208,7 @@ osg::ref_ptr<osg::Node> make_message(const Page& page, const std::string& text, 
 
   float y = panel.y + panel.height - 0.5f * pad - std::round(1.08f * static_cast<float>(look.size));
   for (const std::string& line : lines) {
-    const float x = std::round(0.5f * (page.width - width_of(line, look)));
+    const float x = std::round(0.5f * (page.right - width_of(line, look)));
     group->addChild(make_text(line, look, x, std::round(y)));
     y -= line_height;
   }
@@ -205,30 +219,35 @@ osg::ref_ptr<osg::Node> make_message(const Page& page, const std::string& text, 
     groove.width *= share;
     if (groove.width >= 1) group->addChild(plate(plates, groove, bar, accent_color));
   }
-  return group;
+  return {group, panel};
 }
 
-osg::ref_ptr<osg::Node> make_hint(const Page& page, const std::string& text, double opacity, osg::StateSet* plates) {
+Placed make_hint(const Page& page, const std::string& text, double opacity, const Rectangle& status,
+                 osg::StateSet* plates) {
   osg::ref_ptr<osg::Group> group = new osg::Group;
   const auto faded = [&](osg::Vec4 color) {
     color.a() *= static_cast<float>(std::clamp(opacity, 0.0, 1.0));
     return color;
   };
   const Look look{static_cast<int>(std::lround(1.15f * static_cast<float>(page.letter))), false, faded(text_color)};
-  const std::string words = shorten(text, look, page.width - 4 * page.margin);
+  const std::string words = shorten(text, look, page.right - 4 * page.margin);
   const float width = width_of(words, look), line = std::round(1.45f * static_cast<float>(look.size));
   Rectangle panel;
   panel.width = std::round(width + 2 * page.margin);
   panel.height = std::round(line + page.margin);
-  panel.x = std::round(0.5f * (page.width - panel.width));
+  panel.x = std::round(0.5f * (page.right - panel.width));
   panel.y = std::round(0.56f * page.height);
+  const float gap = std::round(0.4f * page.margin);
+  if (overlap({panel.x, panel.y - gap, panel.width, panel.height + gap}, status)) {
+    panel.y = std::round(std::min(0.44f * page.height, status.y - gap) - panel.height);
+  }
   group->addChild(plate(plates, panel, 0.5f * page.margin, faded(panel_color)));
   const float y = panel.y + panel.height - 0.5f * page.margin - std::round(1.08f * static_cast<float>(look.size));
   group->addChild(make_text(words, look, std::round(panel.x + page.margin), std::round(y)));
-  return group;
+  return {group, panel};
 }
 
-osg::ref_ptr<osg::Node> make_recording(const Page& page, const std::string& text, osg::StateSet* plates) {
+Placed make_recording(const Page& page, const std::string& text, osg::StateSet* plates) {
   osg::ref_ptr<osg::Group> group = new osg::Group;
   const Look look{page.letter, false, text_color};
   const float dot = std::round(0.75f * static_cast<float>(page.letter)), pad = page.margin;
@@ -244,18 +263,19 @@ osg::ref_ptr<osg::Node> make_recording(const Page& page, const std::string& text
   group->addChild(plate(plates, mark, 0.5f * dot, recording_color));
   const float base = std::round(panel.y + 0.5f * panel.height - 0.36f * static_cast<float>(look.size));
   group->addChild(make_text(text, look, std::round(mark.x + dot + 0.5f * pad), base));
-  return group;
+  return {group, panel};
 }
 
 Clickable make_button(const Page& page, const std::string& text, osg::StateSet* plates) {
   const Look look{page.letter, false, label_color};
   const float pad = std::round(0.6f * page.margin);
-  const Rectangle panel{page.margin, page.margin, std::round(width_of(text, look) + 2 * pad), page.line + pad};
+  const Rectangle panel{page.margin, page.margin, std::round(width_of(text, look) + 2 * pad),
+                        top_of_button(page) - page.margin};
   osg::ref_ptr<osg::Group> group = new osg::Group;
   group->addChild(plate(plates, panel, 0.5f * pad, panel_color));
   const float base = std::round(panel.y + 0.5f * panel.height - 0.36f * static_cast<float>(look.size));
   group->addChild(make_text(text, look, panel.x + pad, base));
-  return {group, {{panel, text}}};
+  return {group, {{panel, text}}, panel};
 }
 
 osg::ref_ptr<osg::Node> make_labels(const Page& page, const std::vector<HudLabel>& labels, osg::StateSet* plates) {

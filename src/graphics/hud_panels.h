@@ -18,9 +18,11 @@ namespace roam::graphics {
 /// The size of the picture and the sizes derived from it, in pixels.
 struct Page {
   float width = 0, height = 0;
-  int letter = 16;    ///< size of the text
-  float margin = 16;  ///< from the picture's edge
-  float line = 23;    ///< from one base line to the next
+  float right = 0;     ///< of the part for status, message and hint; beyond it is a large plan, or the list
+  int letter = 16;     ///< size of the text
+  float margin = 16;   ///< from the picture's edge
+  float line = 23;     ///< from one base line to the next
+  bool small = false;  ///< there is little room: parts that are not needed now are left out
 
   static Page of(float width, float height);
   bool operator==(const Page&) const = default;
@@ -33,6 +35,8 @@ class StatusPanel {
   explicit StatusPanel(osg::ref_ptr<osg::StateSet> plates) : plates_(std::move(plates)) {}
   [[nodiscard]] osg::Node* node() const { return group_.get(); }
   void lay_out(const Page& page, const std::vector<StatusLine>& lines);
+  /// The plate; empty without lines.
+  [[nodiscard]] const Rectangle& place() const { return place_; }
 
  private:
   struct Row {
@@ -48,7 +52,8 @@ class StatusPanel {
   /// Left edge of a row's value, in pixels.
   [[nodiscard]] float left_of(std::size_t row) const;
   void break_value(std::size_t row, const std::string& words);
-  [[nodiscard]] std::size_t lines_in_all(std::size_t most_lines) const;
+  /// The number of lines of each row. The last rows, which are those of tools, come first.
+  [[nodiscard]] std::vector<std::size_t> share_lines() const;
   /// A row's first lines, with "…" if there are more.
   [[nodiscard]] std::string first_lines(std::size_t row, std::size_t count) const;
   void place_rows();
@@ -63,18 +68,25 @@ class StatusPanel {
   float value_left_ = 0;
   float width_ = 0;
   std::size_t lines_ = 0;
+  Rectangle place_;
 };
 
-/// The message in the lower middle, with the progress bar.
-[[nodiscard]] osg::ref_ptr<osg::Node> make_message(const Page& page, const std::string& text, Tone tone,
-                                                   std::optional<double> progress, osg::StateSet* plates);
+/// A node, and the rectangle that it covers.
+struct Placed {
+  osg::ref_ptr<osg::Node> node;
+  Rectangle where;
+};
 
-/// A sentence above the middle, over the crosshair.
-[[nodiscard]] osg::ref_ptr<osg::Node> make_hint(const Page& page, const std::string& text, double opacity,
-                                                osg::StateSet* plates);
+/// The message in the lower middle, with the progress bar. It ends below `limit` pixels from below, if one line does.
+[[nodiscard]] Placed make_message(const Page& page, const std::string& text, Tone tone, std::optional<double> progress,
+                                  float limit, osg::StateSet* plates);
+
+/// A sentence above the middle, over the crosshair; under it where `status` is in the way.
+[[nodiscard]] Placed make_hint(const Page& page, const std::string& text, double opacity, const Rectangle& status,
+                               osg::StateSet* plates);
 
 /// A red dot and a text at the upper right.
-[[nodiscard]] osg::ref_ptr<osg::Node> make_recording(const Page& page, const std::string& text, osg::StateSet* plates);
+[[nodiscard]] Placed make_recording(const Page& page, const std::string& text, osg::StateSet* plates);
 
 [[nodiscard]] osg::ref_ptr<osg::Node> make_labels(const Page& page, const std::vector<HudLabel>& labels,
                                                   osg::StateSet* plates);
@@ -85,14 +97,23 @@ struct Target {
   std::string name;
 };
 
-/// A node and its clickable parts.
+/// A node, its clickable parts, and the rectangle that it covers.
 struct Clickable {
   osg::ref_ptr<osg::Node> node;
   std::vector<Target> targets;
+  Rectangle where;
 };
 
 /// A text at the lower left.
 [[nodiscard]] Clickable make_button(const Page& page, const std::string& text, osg::StateSet* plates);
+
+/// The list at the right edge. The row named `focus` is highlighted. Its targets are the names of rows, and
+/// Hud::list_search.
+[[nodiscard]] Clickable make_list(const Page& page, const HudList& list, const std::string& focus,
+                                  osg::StateSet* plates);
+/// The rows that a list has room for, and its left edge in pixels.
+[[nodiscard]] std::size_t rows_of_list(const Page& page);
+[[nodiscard]] float left_of_list(const Page& page);
 
 /// The keys, over the whole picture. The lines named `focus` are highlighted. Uses as many columns, as small letters
 /// and as many breaks as needed to fit. If they still do not fit, shows the first of them and "… enlarge the window".

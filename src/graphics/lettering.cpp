@@ -21,6 +21,9 @@ namespace roam::graphics {
 namespace {
 
 constexpr std::string_view ellipsis = "…";
+/// Pixels. Smaller letters get slight hints only: full ones would move stems by a large part of a letter's width, so
+/// that gaps within words look like gaps between them.
+constexpr int least_full_size = 12;
 /// Pixels around a text, for letters that reach beyond their own width.
 constexpr int margin = 2;
 
@@ -35,7 +38,7 @@ using Face = std::unique_ptr<cairo_font_face_t, Freed<cairo_font_face_destroy>>;
 using Font = std::unique_ptr<cairo_scaled_font_t, Freed<cairo_scaled_font_destroy>>;
 
 /// DejaVu Sans, or fontconfig's replacement for it. Null if there is none.
-Face find_face(bool bold) {
+Face find_face(bool bold, bool full) {
   const auto name = reinterpret_cast<const FcChar8*>(bold ? "DejaVu Sans:bold" : "DejaVu Sans:book");
   const std::unique_ptr<FcPattern, Freed<FcPatternDestroy>> wish(FcNameParse(name));
   FcConfigSubstitute(nullptr, wish.get(), FcMatchPattern);
@@ -48,20 +51,21 @@ Face find_face(bool bold) {
   FcPatternDel(match.get(), FC_AUTOHINT);
   FcPatternAddBool(match.get(), FC_AUTOHINT, FcTrue);
   FcPatternDel(match.get(), FC_HINT_STYLE);
-  FcPatternAddInteger(match.get(), FC_HINT_STYLE, FC_HINT_FULL);
+  FcPatternAddInteger(match.get(), FC_HINT_STYLE, full ? FC_HINT_FULL : FC_HINT_SLIGHT);
   Face face(cairo_ft_font_face_create_for_pattern(match.get()));
   return cairo_font_face_status(face.get()) == CAIRO_STATUS_SUCCESS ? std::move(face) : nullptr;
 }
 
 Font load_font(int size, bool bold) {
-  Face face = find_face(bold);
+  const bool full = size >= least_full_size;
+  Face face = find_face(bold, full);
   if (!face) {
     const auto weight = bold ? CAIRO_FONT_WEIGHT_BOLD : CAIRO_FONT_WEIGHT_NORMAL;
     face.reset(cairo_toy_font_face_create("@cairo:", CAIRO_FONT_SLANT_NORMAL, weight));
   }
   const std::unique_ptr<cairo_font_options_t, Freed<cairo_font_options_destroy>> options(cairo_font_options_create());
   cairo_font_options_set_antialias(options.get(), CAIRO_ANTIALIAS_GRAY);
-  cairo_font_options_set_hint_style(options.get(), CAIRO_HINT_STYLE_FULL);
+  cairo_font_options_set_hint_style(options.get(), full ? CAIRO_HINT_STYLE_FULL : CAIRO_HINT_STYLE_SLIGHT);
   cairo_font_options_set_hint_metrics(options.get(), CAIRO_HINT_METRICS_ON);
   cairo_matrix_t scale, none;
   cairo_matrix_init_scale(&scale, size, size);

@@ -9,6 +9,7 @@
 #include <osg/Program>
 #include <osg/StateSet>
 #include <string>
+#include <utility>
 
 namespace roam::graphics {
 namespace {
@@ -142,13 +143,12 @@ void make_state(osg::StateSet& state) {
   program->addShader(new osg::Shader(osg::Shader::FRAGMENT, fragment_source));
   state.setAttribute(program);
   state.setAttributeAndModes(new osg::BlendFunc);
-  state.setAttribute(new osg::LineWidth(2.0f));
   state.setMode(GL_CULL_FACE, osg::StateAttribute::OFF);
 }
 
 }  // namespace
 
-Overlay::Overlay(Frame& frame) : parent_(frame.space()), group_(new osg::Group), marks_(new osg::Group) {
+Overlay::Overlay(Frame& frame) : frame_(frame), parent_(frame.space()), group_(new osg::Group), marks_(new osg::Group) {
   group_->setName("overlay");
   make_state(*group_->getOrCreateStateSet());
   group_->addChild(make_pass(false, marks_));
@@ -159,6 +159,11 @@ Overlay::Overlay(Frame& frame) : parent_(frame.space()), group_(new osg::Group),
 Overlay::~Overlay() { parent_->removeChild(group_); }
 
 void Overlay::set_marks(const Marks& marks) {
+  constexpr float least_width = 2.0f, height_in_widths = 540.0f;
+  const float width = std::max(least_width, static_cast<float>(frame_.height()) / height_in_widths);
+  if (std::exchange(line_width_, width) != width) {
+    group_->getOrCreateStateSet()->setAttribute(new osg::LineWidth(width));
+  }
   Strokes lines(GL_LINES), faces(GL_TRIANGLES);
   if (marks.body) draw_body(*marks.body, lines);
   for (const ContactMark& contact : marks.contacts) draw_contact(contact, lines);

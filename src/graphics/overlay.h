@@ -46,7 +46,8 @@ struct Marks {
   std::vector<LabelMark> labels{};
 };
 
-/// Draws marks in a frame. Use it from the thread that calls viewer.frame(), between frames.
+/// Draws marks in a frame, with lines that get wider with it. Use it from the thread that calls viewer.frame(), between
+/// frames.
 class Overlay {
  public:
   explicit Overlay(Frame& frame);
@@ -57,6 +58,8 @@ class Overlay {
   void set_marks(const Marks& marks);
 
  private:
+  Frame& frame_;
+  float line_width_ = 0.0f;  ///< pixels
   osg::ref_ptr<osg::Group> parent_, group_, marks_;
 };
 

@@ -126,11 +126,16 @@ Rectangle PlanPanel::place() const {
   const auto width = static_cast<float>(frame_.width()), height = static_cast<float>(frame_.height());
   const Page page = Page::of(width, height);
   const float share = view_.size == PlanSize::large ? large_share : small_share;
-  const float side = std::round(std::min(share * height, 0.6f * width));
-  // A line below the upper edge stays free for the mark of a recording.
-  const float top =
-      view_.size == PlanSize::large ? 0.5f * (height + side) : height - 2.0f * page.margin - 2.0f * page.line;
+  // A line below the upper edge stays free for the mark of a recording, and the middle for the crosshair.
+  const float top = height - 2.0f * page.margin - 2.0f * page.line;
+  const float side = std::round(std::min({share * height, 0.46f * width, std::max(1.0f, top - page.margin)}));
   return {std::round(width - page.margin - side), std::round(std::max(top - side, page.margin)), side, side};
+}
+
+double PlanPanel::covered() const {
+  if (view_.size != PlanSize::large) return 0.0;
+  const Page page = Page::of(static_cast<float>(frame_.width()), static_cast<float>(frame_.height()));
+  return 1.0 - static_cast<double>(place().x - 0.4f * page.margin) / std::max(1, frame_.width());
 }
 
 void PlanPanel::lay_out() {

@@ -62,9 +62,12 @@ class PlanPanel {
   void set_view(const PlanView& view);
   /// The metres at a point of the picture, x and y in [-1, 1]; none outside of the panel.
   [[nodiscard]] std::optional<glm::dvec2> at(double x, double y) const;
+  /// Its rectangle in the picture, pixels, when it is shown.
+  [[nodiscard]] Rectangle place() const;
+  /// The share of the picture that a large plan takes at the right; else 0.
+  [[nodiscard]] double covered() const;
 
  private:
-  [[nodiscard]] Rectangle place() const;
   void lay_out();
   void lay_out_places();
   void move_places();

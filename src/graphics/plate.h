@@ -12,7 +12,13 @@ namespace roam::graphics {
 /// A rectangle in pixels from the lower left corner of the picture.
 struct Rectangle {
   float x = 0, y = 0, width = 0, height = 0;
+  bool operator==(const Rectangle&) const = default;
 };
+
+/// Whether two rectangles have common points inside.
+[[nodiscard]] inline bool overlap(const Rectangle& a, const Rectangle& b) {
+  return a.x < b.x + b.width && b.x < a.x + a.width && a.y < b.y + b.height && b.y < a.y + a.height;
+}
 
 /// A filled rectangle; `radius` of its corners in pixels. Draw it below a node with plate_state(), in any threading
 /// model.

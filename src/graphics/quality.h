@@ -6,8 +6,7 @@
 
 namespace roam::graphics {
 
-/// full: several samples a pixel, shadows (sun.h), ambient occlusion, edges, smoothing. For graphics cards and for
-/// stills.
+/// full: several samples a pixel, shadows and gloss (sun.h), ambient occlusion, edges, smoothing. For cards and stills.
 /// light: one sample a pixel and light_effects.
 /// plain: the scene alone.
 enum class Quality : std::uint8_t { full, light, plain };

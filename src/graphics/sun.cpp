@@ -20,10 +20,10 @@ namespace {
 
 constexpr int levels = 4;  // of maps, each four times as wide as the one before
 constexpr int tile = shadow_map_side;
-constexpr double finest = 8.0;    // m: half the side of the first map
-constexpr double moves = 0.25;    // of half the side: a map follows the eye by such steps, which are whole texels
-constexpr unsigned map_unit = 1;  // the texture unit of the maps; that of pictures is 0
+constexpr double finest = 8.0;  // m: half the side of the first map
+constexpr double moves = 0.25;  // of half the side: a map follows the eye by such steps, which are whole texels
 constexpr auto shadow_define = "ROAM_SUN";
+constexpr auto full_define = "ROAM_FULL";
 
 constexpr const char* caster_vertex = R"(#version 120
 #pragma import_defines(ROAM_SECTION, ROAM_BLENDED, ROAM_CUT, ROAM_TEXTURED)
@@ -138,7 +138,9 @@ class Sun::Maps : public osg::Node {
   void traverse(osg::NodeVisitor& visitor) override {
     osgUtil::CullVisitor* const cull = visitor.asCullVisitor();
     if (cull == nullptr) return;
-    const bool shown = shown_ && frame_.next_quality() == Quality::full && scene_->getBound().valid();
+    const bool full = frame_.next_quality() == Quality::full && scene_->getBound().valid();
+    const bool shown = full && shown_;
+    set_full(full);
     show(shown);
     if (!shown) return;
     aim(cull->getCurrentCamera()->getInverseViewMatrix().getTrans());
@@ -149,7 +151,10 @@ class Sun::Maps : public osg::Node {
 
   void set_shown(bool shown) { shown_ = shown; }
   void set_outdoors(float share) { outdoors_->set(share); }
-  void end() { show(false); }
+  void end() {
+    show(false);
+    set_full(false);
+  }
 
  private:
   /// A square about a place across the light.
@@ -202,21 +207,32 @@ class Sun::Maps : public osg::Node {
     return camera;
   }
 
-  /// Lights the scene with shadows, or as without a sun.
+  /// Lights the scene by day or lamp, and lets smooth surfaces mirror, or as without a sun.
+  void set_full(bool full) {
+    osg::StateSet& state = *scene_->getOrCreateStateSet();
+    if (full == (state.getUniform("roam_outdoors") != nullptr)) return;
+    if (full) {
+      state.setDefine(full_define);
+      state.addUniform(outdoors_);
+    } else {
+      state.removeDefine(full_define);
+      state.removeUniform(outdoors_);
+    }
+  }
+
+  /// Lights the scene with shadows, or without.
   void show(bool shown) {
     osg::StateSet& state = *scene_->getOrCreateStateSet();
     if (shown == (state.getUniform("roam_sun_tiles") != nullptr)) return;
     if (shown) {
       state.setDefine(shadow_define, std::to_string(levels));
-      state.setTextureAttribute(map_unit, map_);
-      state.addUniform(map_sampler_);
-      for (osg::Uniform* uniform : {outdoors_.get(), to_map_.get(), tiles_.get()}) state.addUniform(uniform);
+      state.setTextureAttribute(shadow_unit, map_);
+      for (osg::Uniform* uniform : {to_map_.get(), tiles_.get()}) state.addUniform(uniform);
       return;
     }
     state.removeDefine(shadow_define);
-    state.removeTextureAttribute(map_unit, osg::StateAttribute::TEXTURE);
-    state.removeUniform(map_sampler_);
-    for (osg::Uniform* uniform : {outdoors_.get(), to_map_.get(), tiles_.get()}) state.removeUniform(uniform);
+    state.removeTextureAttribute(shadow_unit, osg::StateAttribute::TEXTURE);
+    for (osg::Uniform* uniform : {to_map_.get(), tiles_.get()}) state.removeUniform(uniform);
   }
 
   /// Puts the maps about the eye. Those that moved, and all if the scene has changed, are due.
@@ -260,7 +276,6 @@ class Sun::Maps : public osg::Node {
   osg::ref_ptr<osg::Texture2D> map_;
   osg::ref_ptr<osg::Group> casters_;  // the scene, drawn as depths
   osg::ref_ptr<osg::Uniform> outdoors_, to_map_, tiles_;
-  osg::ref_ptr<osg::Uniform> map_sampler_ = new osg::Uniform("roam_shadow", static_cast<int>(map_unit));
   std::array<Level, levels> drawn_;
   bool shown_ = true;
   osg::BoundingSphered seen_;  // the scene of which the maps are

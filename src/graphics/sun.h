@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The sun: its shadows, and how bright it is beside the lamp at the eye.
+/// The sun: its shadows, its glints, and how bright it is beside the lamp at the eye.
 ///
 /// Shadow maps lie in one texture, from fine about the eye to coarse for the whole scene, up to 512 m from the eye. A
 /// map moves by whole texels and is drawn only when it moves or the scene changes, so shadows do not tremble and a
@@ -30,7 +30,8 @@ class Sun {
   /// and a weaker sun the smaller it is.
   void set_outdoors(double share);
   /// Whether frames of Quality::full have shadows; true at first. They suit scenes whose detail does not depend on the
-  /// eye: else a coarse shadow may lie on a fine surface.
+  /// eye: else a coarse shadow may lie on a fine surface. With and without, surfaces are brighter where they face the
+  /// sun, and smooth ones mirror it.
   void set_shadows(bool shown);
 
  private:

@@ -23,12 +23,17 @@ std::uint32_t DisplayTexture::all_levels(std::uint32_t width, std::uint32_t heig
   return static_cast<std::uint32_t>(std::bit_width(std::max(width, height)));
 }
 
+bool DisplayLook::has_image() const {
+  return texture != no_texture || gloss_texture != no_texture || emission_texture != no_texture;
+}
+
 std::uint64_t DisplayPart::node_bytes() const {
   // A geometry of OpenSceneGraph with its arrays and buffers; other nodes take less.
   constexpr std::uint64_t most = 2048;
   std::uint64_t nodes = textures.size() + looks.size() + geometries.size() + groups;
   for (const DisplayPages& node : pages) nodes += 1 + node.levels.size();
-  return most * nodes;
+  constexpr std::uint64_t name_most = 256;  // without its letters
+  return most * nodes + name_most * objects.size();
 }
 
 std::uint64_t DisplayPart::bytes() const {
@@ -36,8 +41,10 @@ std::uint64_t DisplayPart::bytes() const {
   for (const DisplayTexture& texture : textures) sum += texture.bytes.size();
   for (const DisplayGeometry& g : geometries) {
     sum += g.positions.size() * (sizeof(glm::vec3) + 4) + g.normals.size() * sizeof(glm::vec3) +
-           g.coordinates.size() * sizeof(glm::vec2) + g.indices.size() * sizeof(std::uint16_t);
+           g.coordinates.size() * sizeof(glm::vec2) + g.indices.size() * sizeof(std::uint16_t) +
+           g.runs.size() * sizeof(DisplayRun);
   }
+  for (const std::string& name : objects) sum += name.size();
   return sum;
 }
 

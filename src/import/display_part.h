@@ -47,9 +47,23 @@ enum class DisplayCover : std::uint8_t {
 struct DisplayLook {
   static constexpr std::uint32_t no_texture = std::numeric_limits<std::uint32_t>::max();
 
-  std::uint32_t texture = no_texture;  ///< index in DisplayPart::textures
+  std::uint32_t texture = no_texture;  ///< index in DisplayPart::textures; multiplied with the colours
   DisplayCover cover = DisplayCover::opaque;
-  float cutoff = 0.5f;  ///< 0..1
+  float cutoff = 0.5f;     ///< 0..1
+  float roughness = 1.0f;  ///< 0 (a mirror) .. 1 (dull)
+  float metalness = 0.0f;  ///< 0..1
+  /// Of roughness (grey) and metalness (opacity), multiplied with the two.
+  std::uint32_t gloss_texture = no_texture;
+  std::array<std::uint8_t, 3> emission{};       ///< the colour in which it shines by itself
+  std::uint32_t emission_texture = no_texture;  ///< multiplied with the emission
+
+  [[nodiscard]] bool has_image() const;
+};
+
+/// Triangles of one object that follow each other in a geometry.
+struct DisplayRun {
+  std::uint32_t object = 0;  ///< index in DisplayPart::objects
+  std::uint32_t triangles = 0;
 };
 
 /// At most 16,384 triangles that lie close together and are drawn together.
@@ -62,6 +76,7 @@ struct DisplayGeometry {
   std::vector<glm::vec3> normals;                    ///< one for each position; empty if the file has none
   std::vector<glm::vec2> coordinates;                ///< one for each position; empty without a texture
   std::vector<std::uint16_t> indices;                ///< into positions, three for each triangle
+  std::vector<DisplayRun> runs;                      ///< of all triangles, in their order; empty: objects unknown
 };
 
 /// What is shown in a range of distance or size: a group of the same part, or a page still to be read.
@@ -85,6 +100,10 @@ struct DisplayPages {
 /// A part of a scene, ready to be drawn. Groups are the nodes of a tree. Group 0 is always shown; each other group is a
 /// level of one DisplayPages. The contents of a group come after the DisplayPages that has it as a level.
 struct DisplayPart {
+  /// Between the names of an object's ancestors and its own.
+  static constexpr char name_separator = '\x1f';
+  static constexpr std::size_t name_limit = 4096;  ///< bytes of an object's names
+
   /// Coordinates are scene - origin. Equal in all parts of one read_display, and in their pages.
   Vec3 origin{0.0};
   Box bounds;  ///< in the frame of the scene; those of pages are as the files state them
@@ -92,6 +111,7 @@ struct DisplayPart {
   std::uint32_t source = 0;  ///< the index of the path that it is from
   std::vector<DisplayTexture> textures;
   std::vector<DisplayLook> looks;
+  std::vector<std::string> objects;  ///< names, the outermost ancestor's first; empty names are left out
   std::vector<DisplayGeometry> geometries;
   std::uint32_t groups = 1;
   std::vector<DisplayPages> pages;

@@ -34,7 +34,7 @@ void MeshReceiver::take_content(FrameKind kind, std::span<const std::byte> paylo
 void MeshReceiver::begin_object(std::span<const std::byte> payload) {
   finish_object();
   PayloadReader fields(payload);
-  std::string name = fields.take_text();
+  std::string name = take_object_name(fields);
   const auto continues = fields.take<std::uint8_t>();
   if (!fields.complete() || continues > 1) throw StreamDamaged{"a frame of broken length"};
   count_bytes(sizeof(Mesh) + name.size());

@@ -17,6 +17,7 @@ class MeshReceiver : public StreamReceiver {
  public:
   using StreamReceiver::StreamReceiver;
   [[nodiscard]] std::uint64_t triangles() const override { return triangles_; }
+  [[nodiscard]] std::uint64_t vertices() const override { return vertices_; }
 
  protected:
   using Corners = std::array<std::uint32_t, 3>;

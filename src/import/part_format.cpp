@@ -119,9 +119,19 @@ DisplayLook take_look(Reader& from, const DisplayPart& part) {
   look.texture = from.take<std::uint32_t>();
   look.cover = from.take(DisplayCover::cut);
   look.cutoff = from.take<float>();
-  const bool textured = look.texture != DisplayLook::no_texture;
-  if (textured && look.texture >= part.textures.size()) throw StreamDamaged{"a look without its image"};
-  if (!(look.cutoff >= 0.0f && look.cutoff <= 1.0f)) throw StreamDamaged{"a value of no meaning"};
+  look.roughness = from.take<float>();
+  look.metalness = from.take<float>();
+  look.gloss_texture = from.take<std::uint32_t>();
+  for (std::uint8_t& c : look.emission) c = from.take<std::uint8_t>();
+  look.emission_texture = from.take<std::uint32_t>();
+  for (const std::uint32_t image : {look.texture, look.gloss_texture, look.emission_texture}) {
+    if (image != DisplayLook::no_texture && image >= part.textures.size()) {
+      throw StreamDamaged{"a look without its image"};
+    }
+  }
+  for (const float share : {look.cutoff, look.roughness, look.metalness}) {
+    if (!(share >= 0.0f && share <= 1.0f)) throw StreamDamaged{"a value of no meaning"};
+  }
   return look;
 }
 
@@ -136,13 +146,14 @@ DisplayGeometry take_geometry(Reader& from, const DisplayPart& part) {
   from.take_list(g.normals, most);
   from.take_list(g.coordinates, most);
   from.take_list(g.indices, 3 * most);
+  from.take_list(g.runs, most);
   if (g.group >= part.groups || g.look >= part.looks.size()) throw StreamDamaged{"a geometry without a place"};
   check_place(g.cell);
   for (const glm::vec3& p : g.positions) check_place(g.cell + Vec3(p));
   check_finite(g.normals);
   check_finite(g.coordinates);
   const std::size_t n = g.positions.size();
-  const bool textured = part.looks[g.look].texture != DisplayLook::no_texture;
+  const bool textured = part.looks[g.look].has_image();
   if (n == 0 || g.indices.empty() || g.indices.size() % 3 != 0 || g.colours.size() != n ||
       (!g.normals.empty() && g.normals.size() != n) || g.coordinates.size() != (textured ? n : 0)) {
     throw StreamDamaged{"a geometry that is not whole"};
@@ -150,6 +161,12 @@ DisplayGeometry take_geometry(Reader& from, const DisplayPart& part) {
   for (const std::uint16_t i : g.indices) {
     if (i >= n) throw StreamDamaged{"a triangle of vertices that are not there"};
   }
+  std::uint64_t in_runs = 0;
+  for (const DisplayRun& run : g.runs) {
+    if (run.object >= part.objects.size()) throw StreamDamaged{"triangles of no object"};
+    in_runs += run.triangles;
+  }
+  if (!g.runs.empty() && 3 * in_runs != g.indices.size()) throw StreamDamaged{"triangles of no object"};
   return g;
 }
 
@@ -212,7 +229,14 @@ std::vector<std::byte> encode(const DisplayPart& part) {
     to.add(look.texture);
     to.add(look.cover);
     to.add(look.cutoff);
+    to.add(look.roughness);
+    to.add(look.metalness);
+    to.add(look.gloss_texture);
+    for (const std::uint8_t c : look.emission) to.add(c);
+    to.add(look.emission_texture);
   }
+  to.add(std::uint64_t{part.objects.size()});
+  for (const std::string& name : part.objects) to.add_list(name);
   to.add(std::uint64_t{part.geometries.size()});
   for (const DisplayGeometry& g : part.geometries) {
     to.add(g.group);
@@ -223,6 +247,7 @@ std::vector<std::byte> encode(const DisplayPart& part) {
     to.add_list(g.normals);
     to.add_list(g.coordinates);
     to.add_list(g.indices);
+    to.add_list(g.runs);
   }
   to.add(std::uint64_t{part.pages.size()});
   for (const DisplayPages& pages : part.pages) {
@@ -243,7 +268,7 @@ std::vector<std::byte> encode(const DisplayPart& part) {
 
 void decode(std::span<const std::byte> bytes, DisplayPart& part) {
   // The least bytes of an element, so that no count allocates more than a multiple of the bytes present.
-  constexpr std::size_t texture_bytes = 23, look_bytes = 9, geometry_bytes = 72, pages_bytes = 41;
+  constexpr std::size_t texture_bytes = 23, look_bytes = 28, name_bytes = 8, geometry_bytes = 80, pages_bytes = 41;
   // A group has no bytes of its own, but each group except the first is a level, which has.
   constexpr std::size_t level_bytes = 16;
   Reader from(bytes);
@@ -251,6 +276,9 @@ void decode(std::span<const std::byte> bytes, DisplayPart& part) {
   if (part.groups == 0 || part.groups > 1 + bytes.size() / level_bytes) throw StreamDamaged{"groups that are no tree"};
   for (std::uint64_t n = from.take_count(texture_bytes); n > 0; --n) part.textures.push_back(take_texture(from));
   for (std::uint64_t n = from.take_count(look_bytes); n > 0; --n) part.looks.push_back(take_look(from, part));
+  for (std::uint64_t n = from.take_count(name_bytes); n > 0; --n) {
+    from.take_list(part.objects.emplace_back(), DisplayPart::name_limit);
+  }
   std::uint64_t triangles = 0;
   for (std::uint64_t n = from.take_count(geometry_bytes); n > 0; --n) {
     part.geometries.push_back(take_geometry(from, part));

@@ -37,6 +37,12 @@ bool counts_blocks(const std::filesystem::path& file) {
 
 }  // namespace
 
+double processor_seconds() {
+  timespec time{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+
 ProcessorBudget ProcessorBudget::from_now_on(int process) {
   ProcessorBudget budget(process);
   budget.used_before_ = budget.used();
@@ -52,7 +58,30 @@ void ProcessorBudget::add_file(const std::filesystem::path& file) {
   // A hole in a file costs its author nothing. Some file systems compress data.
   constexpr std::uint64_t block = 512, compression = 16;
   const auto on_disk = compression * block * static_cast<std::uint64_t>(status.st_blocks);
-  file_bytes_ += counts_blocks(file) ? std::min(size, on_disk) : size;
+  const std::uint64_t bytes = counts_blocks(file) ? std::min(size, on_disk) : size;
+  file_bytes_ += bytes;
+  if (scene_ != nullptr) scene_->add_file({status.st_dev, status.st_ino}, bytes);
+}
+
+void SceneBudget::add_file(const std::pair<std::uint64_t, std::uint64_t>& file, std::uint64_t bytes) {
+  const std::lock_guard lock(mutex_);
+  if (files_.insert(file).second) file_bytes_ += bytes;
+}
+
+bool SceneBudget::add(double seconds) {
+  const std::lock_guard lock(mutex_);
+  seconds_ += seconds;
+  return seconds_ <= allowed_now();
+}
+
+double SceneBudget::allowed() const {
+  const std::lock_guard lock(mutex_);
+  return allowed_now();
+}
+
+double SceneBudget::allowed_now() const {
+  return ProcessorBudget::least_seconds + seconds_per_file * static_cast<double>(files_.size()) +
+         ProcessorBudget::seconds_per_byte * static_cast<double>(file_bytes_);
 }
 
 std::uint64_t ProcessorBudget::bytes() const {

@@ -4,10 +4,16 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <mutex>
 #include <set>
 #include <utility>
 
 namespace roam::reader {
+
+class SceneBudget;
+
+/// Processor seconds of the calling thread.
+[[nodiscard]] double processor_seconds();
 
 /// Compares the processor time of a reader with the bytes of the scene's files that it reads, as the kernel counts
 /// both.
@@ -24,6 +30,8 @@ class ProcessorBudget {
   /// Counts from now on.
   [[nodiscard]] static ProcessorBudget from_now_on(int process);
 
+  /// From now on adds the files to those of the scene.
+  void share(SceneBudget* scene) { scene_ = scene; }
   /// Adds a file that the reader reports as opened. Each file counts once, by its bytes on the disk.
   void add_file(const std::filesystem::path& file);
 
@@ -40,10 +48,34 @@ class ProcessorBudget {
 
  private:
   int process_;
+  SceneBudget* scene_ = nullptr;
   double used_before_ = 0.0;
   std::uint64_t read_before_ = 0;
   std::uint64_t file_bytes_ = 0;
   std::set<std::pair<std::uint64_t, std::uint64_t>> files_;  ///< device and inode
+};
+
+/// A limit on the processor time of all readers of a scene whose parts are read one by one. The files of the scene
+/// count once, however many parts mention them. Thread-safe.
+class SceneBudget {
+ public:
+  /// A reader starts in less than half of it, on a busy machine too.
+  static constexpr double seconds_per_file = 0.25;
+
+  /// Adds a file of so many bytes on the disk. Each device and inode counts once.
+  void add_file(const std::pair<std::uint64_t, std::uint64_t>& file, std::uint64_t bytes);
+  /// Adds the time of a reader. Returns whether the sum is within the limit.
+  [[nodiscard]] bool add(double seconds);
+  /// Seconds that all readers together may use so far.
+  [[nodiscard]] double allowed() const;
+
+ private:
+  [[nodiscard]] double allowed_now() const;
+
+  mutable std::mutex mutex_;
+  std::set<std::pair<std::uint64_t, std::uint64_t>> files_;
+  std::uint64_t file_bytes_ = 0;
+  double seconds_ = 0.0;
 };
 
 }  // namespace roam::reader

@@ -6,8 +6,8 @@
 #include <chrono>
 #include <csignal>
 #include <cstring>
-#include <ctime>
 #include <system_error>
+#include <utility>
 
 #include "text/printable.h"
 
@@ -23,8 +23,8 @@ constexpr int wait_milliseconds = 100;
 constexpr int ending_milliseconds = 2000;
 /// Seconds of processor time that a reader may have used while its reports are still in the pipe.
 constexpr double unheard_seconds = 2.0;
-/// Most processor seconds of this program for the files that a reader names. A path costs it microseconds.
-constexpr double most_naming_seconds = 10.0;
+/// Seconds after which the scene's budget hears of a reader again.
+constexpr double shared_step = 0.1;
 /// Time for a reader without a file to start and send its greeting.
 constexpr std::chrono::seconds greeting_time{30};
 /// The rate of a slow disk, bytes a second: a silent reader gets one second more for this many bytes of files.
@@ -82,13 +82,6 @@ std::string last_words(const std::string& complaints) {
 std::string without_slash(std::string path) {
   while (path.size() > 1 && path.back() == '/') path.pop_back();
   return path;
-}
-
-/// Processor time of this thread.
-double own_seconds() {
-  timespec time{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
 }
 
 /// The reason why a reader ended early.
@@ -168,6 +161,16 @@ void receive(const Reading& reading, ReaderProcess& process, StreamReceiver& rec
   Clock::time_point reported = Clock::now();
   double waited = 0.0, heard = 0.0;  // seconds: in all, and until the last bytes arrived
   double named = 0.0;                // processor seconds of this thread, for the files that the reader named
+  double shared = 0.0;               // processor seconds that the scene's budget knows
+  const auto share = [&](double used, double step) {
+    if (reading.scene == nullptr || used - shared < step) return;
+    if (reading.scene->add(used - std::exchange(shared, used))) return;
+    throw fail(
+        fmt::format("the readers of its parts computed for more than {:.0f} s together. The scene is damaged, or "
+                    "mentions its files over and over; then write it out as fewer files",
+                    reading.scene->allowed()));
+  };
+  budget.share(reading.scene);
   try {
     while (!receiver.ended()) {
       std::size_t received = 0;
@@ -181,24 +184,27 @@ void receive(const Reading& reading, ReaderProcess& process, StreamReceiver& rec
       }
       if (arrival == ReaderProcess::Arrival::bytes) {
         receiver.take(received);
-        const double before = own_seconds();
+        const double before = processor_seconds();
         for (const std::string& file : receiver.take_opened()) {
           if (reading.scope.resolve(file) == fs::path(file)) budget.add_file(file);
-          if (own_seconds() - before + named > most_naming_seconds) {
-            throw fail("its reader names files over and over and was ended. The file is damaged");
-          }
         }
-        named += own_seconds() - before;
-        if (receiver.triangles() > budget.triangles()) {
-          throw fail(fmt::format(
-              "it gives more than {} triangles from {} bytes: it repeats itself over and over. If that is meant, write "
-              "it out without repetition",
-              budget.triangles(), budget.bytes()));
+        named += processor_seconds() - before;
+        // A file's author pays as little for triangles that are left out, and for vertices, as for triangles.
+        const std::uint64_t given =
+            std::max(receiver.triangles() + receiver.left_out_triangles(), receiver.vertices() / 3);
+        if (given > budget.triangles()) {
+          throw fail(
+              fmt::format("it gives more than {} triangles, or three vertices for each, from {} bytes: it repeats "
+                          "itself over and over. If that is meant, write "
+                          "it out without repetition",
+                          budget.triangles(), budget.bytes()));
         }
       }
       // Unread bytes in the pipe may report more opened files.
       const double grace = arrival == ReaderProcess::Arrival::bytes ? unheard_seconds : 0.0;
-      if (const double used = budget.used(); used > ProcessorBudget::least_seconds) {
+      const double used = budget.used() + named + receiver.own_seconds();
+      if (arrival != ReaderProcess::Arrival::bytes) share(used, shared_step);
+      if (used > ProcessorBudget::least_seconds) {
         if (const double allowed = budget.allowed(); used > allowed + grace) {
           throw fail(fmt::format(
               "its reader computed for more than {:.0f} s on {} bytes and was ended. The file is damaged, or refers to "
@@ -234,6 +240,7 @@ void receive(const Reading& reading, ReaderProcess& process, StreamReceiver& rec
         reading.report_progress(receiver.bytes_read(), receiver.triangles());
       }
     }
+    share(budget.used() + named + receiver.own_seconds(), 0.0);
   } catch (const StreamReceiver::ContentTooLarge&) {
     throw fail(too_much_memory(options));
   } catch (const StreamReceiver::StreamDamaged& damage) {

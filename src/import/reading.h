@@ -31,6 +31,7 @@ struct Reading {
   Wanted wanted = Wanted::meshes;
   std::string tile{};            ///< the only tile of a folder to read; empty: all
   std::optional<Vec3> origin{};  ///< of the parts of the previous paths
+  SceneBudget* scene = nullptr;  ///< that of all parts of the scene, if there are several readings
   /// Called about every tenth of a second with the bytes read and the triangles received for this path.
   std::function<void(std::uint64_t, std::uint64_t)> report_progress;
 };

@@ -7,9 +7,9 @@
 
 #include "files/escaped.h"
 #include "import/find_reader.h"
+#include "import/parts.h"
 #include "import/read_all.h"
 #include "math/floating_point.h"
-#include "roam/import.h"
 
 namespace roam {
 namespace {
@@ -26,18 +26,20 @@ struct Tile {
 /// Receives the list of a scene's parts.
 class PartList : public reader::StreamReceiver {
  public:
-  PartList(ImportReport& report, std::size_t ignore_patterns) : StreamReceiver(report, ignore_patterns, text_bytes) {}
+  /// `memory`: most bytes that the parts of the list may take.
+  PartList(ImportReport& report, std::size_t ignore_patterns, std::uint64_t memory)
+      : StreamReceiver(report, ignore_patterns, memory) {}
 
   [[nodiscard]] std::uint64_t triangles() const override { return 0; }
   [[nodiscard]] const std::vector<Tile>& tiles() const { return tiles_; }
 
  private:
-  /// Enough for the names of millions of tiles.
-  static constexpr std::uint64_t text_bytes = 1ull << 30;
+  /// Bytes of a part besides its texts, and copies of these: in the list, as paths and names, and in a build.
+  static constexpr std::uint64_t part_bytes = 1024, copies = 8;
 
   void take_content(reader::FrameKind kind, std::span<const std::byte> payload) override {
     if (kind != reader::FrameKind::tile) throw StreamDamaged{"a frame of unknown kind"};
-    count_bytes(payload.size());
+    count_bytes(part_bytes + copies * payload.size());
     reader::PayloadReader fields(payload);
     fs::path file = fields.take_text();
     const bool present = fields.take<std::uint8_t>() != 0;
@@ -51,18 +53,16 @@ class PartList : public reader::StreamReceiver {
   std::vector<Tile> tiles_;
 };
 
-/// Deepest nesting of folders in a tile's folder: the cost of looking at them grows with its cube.
-constexpr int deepest = 64;
-
 /// Regular files below a folder, sorted. Links that lead out of the scene are not followed.
 std::vector<fs::path> files_in(const fs::path& folder, const reader::SceneScope& scope) {
   std::vector<fs::path> files;
   std::error_code none;
   fs::recursive_directory_iterator entry(folder, fs::directory_options::skip_permission_denied, none);
   while (!none && entry != fs::recursive_directory_iterator()) {
-    if (entry.depth() > deepest) {
+    if (entry.depth() > reader::deepest_nesting) {
       throw Error(folder.string(),
-                  fmt::format("more than {} folders lie in each other there, as in no scene; remove them", deepest));
+                  fmt::format("more than {} folders lie in each other there, as in no scene; remove them",
+                              reader::deepest_nesting));
     }
     if (!scope.find(entry->path()).empty()) files.push_back(entry->path());
     entry.increment(none);
@@ -139,6 +139,17 @@ void add_contents(const fs::path& path, const std::vector<Tile>& tiles, const st
                   std::vector<ScenePart>& parts) {
   std::error_code none;
   const fs::path folder = fs::is_directory(path, none) ? scope.scene : scope.scene.parent_path();
+  // A tileset may name a file at many places. It is looked up once; unset: absent.
+  std::map<fs::path, std::optional<std::uint64_t>> bytes_of;
+  const auto bytes_at = [&](const fs::path& file) {
+    const auto [known, is_new] = bytes_of.try_emplace(file);
+    if (is_new && !scope.find(file).empty()) {
+      std::error_code unseen;
+      const auto bytes = fs::file_size(file, unseen);
+      known->second = unseen ? 0 : bytes;
+    }
+    return known->second;
+  };
   for (std::size_t i = 0; i < tiles.size(); ++i) {
     if (options.progress && !options.progress({})) throw Cancelled();
     const Tile& tile = tiles[i];
@@ -151,11 +162,10 @@ void add_contents(const fs::path& path, const std::vector<Tile>& tiles, const st
       part.tile = tile.part;
     }
     // The files may have gone meanwhile; then reading the part says so.
-    if (scope.find(tile.file).empty()) continue;
+    const std::optional<std::uint64_t> bytes = bytes_at(tile.file);
+    if (!bytes) continue;
     parts.back().files.push_back(tile.file);
-    std::error_code unseen;
-    const auto bytes = fs::file_size(tile.file, unseen);
-    parts.back().bytes += unseen ? 0 : bytes;
+    parts.back().bytes += *bytes;
   }
 }
 
@@ -182,7 +192,7 @@ std::vector<ScenePart> scene_parts(std::span<const fs::path> paths, const Import
       if (options.progress && !options.progress({})) throw Cancelled();
     };
     const std::optional<Georeference> frame = report.georeference;
-    PartList list(report, options.ignore.size());
+    PartList list(report, options.ignore.size(), options.memory_limit);
     std::vector<bool> matched(options.ignore.size());
     reader::read_one(reading, list, matched);
     std::error_code none;

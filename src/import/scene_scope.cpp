@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <system_error>
 
 #include "roam/error.h"
@@ -17,9 +18,9 @@ namespace fs = std::filesystem;
 constexpr int link_limit = 40;
 
 bool is_below(const fs::path& path, const fs::path& folder) {
-  return std::mismatch(folder.begin(), folder.end(), path.begin(), path.end()).first == folder.end();
+  const auto [end, rest] = std::mismatch(folder.begin(), folder.end(), path.begin(), path.end());
+  return end == folder.end() && std::distance(rest, path.end()) <= deepest_nesting + 1;
 }
-
 
 /// The absolute form of a path, with no links in the folders above its last part. A folder at the end of a link is
 /// followed, too, if `through_link`.

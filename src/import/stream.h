@@ -53,12 +53,14 @@
 namespace roam::reader {
 
 inline constexpr int stream_fd = 3;
-inline constexpr std::uint32_t stream_version = 8;
+inline constexpr std::uint32_t stream_version = 9;
 inline constexpr std::uint32_t frame_magic = 0x31524d52;  // "RMR1"
 /// Largest payload, in bytes; a sender splits vertices and triangles accordingly.
 inline constexpr std::uint32_t payload_limit = 4u << 20;
 /// Largest text, in bytes; the sender cuts longer names.
 inline constexpr std::uint32_t text_limit = 64u << 10;
+/// Most bytes of an object's name that the receiver keeps.
+inline constexpr std::size_t object_name_limit = 1024;
 
 enum class FrameKind : std::uint16_t {
   hello,

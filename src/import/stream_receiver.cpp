@@ -4,23 +4,12 @@
 #include <cmath>
 #include <cstring>
 
+#include "import/processor_budget.h"
 #include "import/scene_scope.h"
 #include "text/printable.h"
 
 namespace roam::reader {
 namespace {
-
-/// Adds to the entry of the same name, or adds an entry if there is room.
-void note_object(std::vector<LeftOutObject>& objects, LeftOutObject&& object) {
-  for (LeftOutObject& known : objects) {
-    if (known.name == object.name) {
-      known.vertices += object.vertices;
-      known.triangles += object.triangles;
-      return;
-    }
-  }
-  if (objects.size() < ImportReport::name_limit) objects.push_back(std::move(object));
-}
 
 /// The least room for new bytes: the size of the pipe.
 constexpr std::size_t room_bytes = 1u << 20;
@@ -36,7 +25,20 @@ StreamReceiver::StreamReceiver(ImportReport& report, std::size_t ignore_patterns
     : report_(report),
       ignore_patterns_(ignore_patterns),
       content_bytes_left_(content_bytes),
-      buffer_(std::make_unique_for_overwrite<std::byte[]>(buffer_bytes)) {}
+      buffer_(std::make_unique_for_overwrite<std::byte[]>(buffer_bytes)),
+      bad_objects_{report.bad_objects},
+      ignored_objects_{report.ignored_objects} {}
+
+/// Adds to the entry of the same name, or adds an entry if there is room.
+void StreamReceiver::LeftOutObjects::add(LeftOutObject&& object) {
+  for (std::size_t i = places.size(); i < list.size(); ++i) places.try_emplace(list[i].name, i);
+  if (const auto known = places.find(object.name); known != places.end()) {
+    list[known->second].vertices += object.vertices;
+    list[known->second].triangles += object.triangles;
+  } else if (list.size() < ImportReport::name_limit) {
+    list.push_back(std::move(object));
+  }
+}
 
 std::span<std::byte> StreamReceiver::room() {
   if (buffer_bytes - end_ < room_bytes) {
@@ -68,6 +70,22 @@ void StreamReceiver::take(std::size_t count) {
 }
 
 void StreamReceiver::handle(const FrameHeader& header, std::span<const std::byte> payload) {
+  switch (header.kind) {
+    case FrameKind::object:
+    case FrameKind::vertices:
+    case FrameKind::triangles:
+    case FrameKind::part:
+    case FrameKind::part_bytes:
+      return take_content(header.kind, payload);
+    default:
+      break;
+  }
+  const double before = processor_seconds();
+  take_description(header, payload);
+  own_seconds_ += processor_seconds() - before;
+}
+
+void StreamReceiver::take_description(const FrameHeader& header, std::span<const std::byte> payload) {
   PayloadReader fields(payload);
   switch (header.kind) {
     case FrameKind::hello:
@@ -131,6 +149,15 @@ void StreamReceiver::take_name(PayloadReader& fields, std::vector<std::string>& 
   if (names.size() < ImportReport::name_limit) names.push_back(std::move(name));
 }
 
+std::string StreamReceiver::take_object_name(PayloadReader& fields) {
+  std::string name = fields.take_text();
+  if (name.size() <= object_name_limit) return name;
+  std::size_t end = object_name_limit;
+  // A byte 10xxxxxx continues a character of UTF-8, which has at most four.
+  for (int k = 0; k < 3 && (static_cast<unsigned char>(name[end]) & 0xc0) == 0x80; ++k) --end;
+  return name.substr(0, end);
+}
+
 void StreamReceiver::count_bytes(std::size_t bytes) {
   if (bytes > content_bytes_left_) throw ContentTooLarge{};
   content_bytes_left_ -= bytes;
@@ -170,11 +197,12 @@ std::string StreamReceiver::spelt(std::string sentence) const {
 void StreamReceiver::take_left_out(PayloadReader& fields) {
   const auto reason = fields.take<LeftOutReason>();
   LeftOutObject object;
-  object.name = fields.take_text();
+  object.name = take_object_name(fields);
   object.vertices = fields.take<std::uint64_t>();
   object.triangles = fields.take<std::uint64_t>();
   const bool bad = reason == LeftOutReason::bad_vertices;
-  note_object(bad ? report_.bad_objects : report_.ignored_objects, std::move(object));
+  left_out_triangles_ += object.triangles;
+  (bad ? bad_objects_ : ignored_objects_).add(std::move(object));
 }
 
 void StreamReceiver::take_end(PayloadReader& fields) {

@@ -7,11 +7,12 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
+#include "import/parts.h"
 #include "import/stream.h"
-#include "roam/import.h"
 
 namespace roam::reader {
 
@@ -44,6 +45,12 @@ class StreamReceiver {
   [[nodiscard]] const std::vector<bool>& matched() const { return matched_; }
   /// Triangles received so far.
   [[nodiscard]] virtual std::uint64_t triangles() const = 0;
+  /// Vertices received so far, if there are any without triangles.
+  [[nodiscard]] virtual std::uint64_t vertices() const { return 0; }
+  /// Triangles that the reader left out of objects so far.
+  [[nodiscard]] std::uint64_t left_out_triangles() const { return left_out_triangles_; }
+  /// Processor seconds of this thread for frames that are no content.
+  [[nodiscard]] double own_seconds() const { return own_seconds_; }
 
   /// The stream violates the protocol, so the reader is broken.
   struct StreamDamaged {
@@ -61,10 +68,20 @@ class StreamReceiver {
   void count_bytes(std::size_t bytes);
   /// Adds a text to the names, if there is room.
   static void take_name(PayloadReader& fields, std::vector<std::string>& names);
+  /// The next text, cut to object_name_limit between two characters.
+  static std::string take_object_name(PayloadReader& fields);
   ImportReport& report_;
 
  private:
+  /// Objects that were left out, and the place of each name in their list.
+  struct LeftOutObjects {
+    std::vector<LeftOutObject>& list;
+    std::unordered_map<std::string, std::size_t> places{};
+    void add(LeftOutObject&& object);
+  };
+
   void handle(const FrameHeader& header, std::span<const std::byte> payload);
+  void take_description(const FrameHeader& header, std::span<const std::byte> payload);
   void take_hello(PayloadReader& fields);
   void take_looked_up(PayloadReader& fields);
   void take_left_out(PayloadReader& fields);
@@ -81,6 +98,9 @@ class StreamReceiver {
   std::uint64_t bytes_read_ = 0;
   std::vector<bool> matched_;
   std::vector<std::string> opened_;
+  LeftOutObjects bad_objects_, ignored_objects_;
+  std::uint64_t left_out_triangles_ = 0;
+  double own_seconds_ = 0.0;
   const LookUpSink* look_ups_ = nullptr;
   std::string readers_name_, users_name_;
 };

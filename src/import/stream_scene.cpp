@@ -3,22 +3,24 @@
 #include <system_error>
 #include <vector>
 
+#include "import/parts.h"
 #include "import/piece_receiver.h"
+#include "import/processor_budget.h"
 #include "import/read_all.h"
 #include "import/report_notes.h"
 #include "import/scene_scope.h"
 #include "math/floating_point.h"
-#include "roam/import.h"
 
 namespace roam {
 namespace {
 
 ImportReport stream(std::span<const reader::Source> sources, const ImportOptions& options, const PieceSink& sink,
-                    const LookUpSink& look_ups = {}) {
+                    const LookUpSink& look_ups = {}, reader::SceneBudget* scene = nullptr) {
   ImportReport report;
   reader::read_all(sources, options, report, [&](reader::Reading& reading, std::vector<bool>& matched) {
     const std::uint64_t triangles_before = report.triangles;
     reading.wanted = reader::Reading::Wanted::pieces;
+    reading.scene = scene;
     reader::PieceReceiver receiver(report, options.ignore.size(), sink);
     receiver.pass_look_ups(look_ups);
     reader::read_one(reading, receiver, matched);
@@ -54,11 +56,12 @@ ImportReport stream_scene(std::span<const std::filesystem::path> paths, const Im
 }
 
 ImportReport stream_part(const ScenePart& part, const ImportOptions& options, const PieceSink& sink,
-                         const LookUpSink& look_ups) {
+                         const LookUpSink& look_ups, reader::SceneBudget* scene) {
   const DefaultFloatingPoint guard;
+  reader::SceneBudget alone;
   const reader::Source source{part.path, part.tile, part.frame, part.bytes};
   if (!part.tile.empty() && part.files.empty()) return report_missing(source, options);
-  return stream(std::span(&source, 1), options, sink, look_ups);
+  return stream(std::span(&source, 1), options, sink, look_ups, scene != nullptr ? scene : &alone);
 }
 
 }  // namespace roam

@@ -40,7 +40,7 @@ void note_landing(Move& move, double speed) {
 void land(Move& move, Gait& gait, const Ground& ground, double speed) {
   stand_on(move, gait, ground);
   note_landing(move, speed);
-  if (has_foot(move)) forget_other_storeys(move, gait);
+  if (has_disc(move)) forget_other_storeys(move, gait);
 }
 
 }  // namespace
@@ -71,14 +71,14 @@ bool fly_on(Move& move, Gait& gait, const Vec3& velocity, double seconds) {
   for (int contact = 0; contact < slide_limit && left > 0.0; ++contact) {
     const Vec3 before = move.place;
     double share = left;
-    const std::optional<double> until_foot =
-        has_foot(move) && whole.z <= 0.0 ? carried_after(move, gait, motion * left) : std::nullopt;
-    if (until_foot) share *= *until_foot;
+    const std::optional<double> until_disc =
+        has_disc(move) && whole.z <= 0.0 ? carried_after(move, gait, motion * left) : std::nullopt;
+    if (until_disc) share *= *until_disc;
     const Advance a = move.advance(motion * share, seconds * share);
     left -= a.fraction * share;
-    if (until_foot && !a.touched) {
+    if (until_disc && !a.touched) {
       const double speed = falling();
-      land_on_foot(move, gait);
+      land_on_disc(move, gait);
       note_landing(move, speed);
       return true;
     }

@@ -46,12 +46,12 @@ struct Point {
 /// middle is queried, and the square is divided.
 class Search {
  public:
-  Search(const Space& space, const FloorPlane& plane, const SupportDisc& foot, const Vec3& axis)
-      : space_(space), plane_(plane), foot_(foot), axis_(axis) {
+  Search(const Space& space, const FloorPlane& plane, const SupportDisc& disc, const Vec3& axis)
+      : space_(space), plane_(plane), disc_(disc), axis_(axis) {
     const double rise = std::hypot(plane.normal.x, plane.normal.y) / plane.normal.z;
-    column_ = {0.0, std::min(foot.band + foot.radius * rise, Space::reach_limit)};
-    floor_ = {foot.slope_degrees, foot.band, plane.point, plane.normal};
-    smallest_ = std::max(least_half, least_half_part * foot.radius);
+    column_ = {0.0, std::min(disc.band + disc.radius * rise, Space::reach_limit)};
+    floor_ = {disc.slope_degrees, disc.band, plane.point, plane.normal};
+    smallest_ = std::max(least_half, least_half_part * disc.radius);
   }
 
   enum class Result : std::uint8_t { none, free, hidden };
@@ -62,21 +62,21 @@ class Search {
   Result run(bool past_walls, walking::DiscFound& disc) {
     std::array<Square, stack_size> stack;
     std::size_t depth = 0;
-    stack[depth++] = {0.0, 0.0, foot_.radius};
+    stack[depth++] = {0.0, 0.0, disc_.radius};
     for (int count = 0; depth > 0; ++count) {
       if (count >= square_limit || queries_ >= query_limit) return Result::free;
       const Square square = stack[--depth];
       if (!meets_domain(square) || settled(square)) continue;
       if (meets_floor(square.x, square.y)) {
         if (settled(square)) continue;
-      } else if (std::hypot(square.x, square.y) <= foot_.radius) {
+      } else if (std::hypot(square.x, square.y) <= disc_.radius) {
         if (in_sight(square.x, square.y)) {
           disc = {true, axis_.x + square.x, axis_.y + square.y};
           return Result::free;
         }
         if (past_walls) return Result::hidden;
       }
-      if (!past_walls && square.half <= hidden_part * foot_.radius && hidden(square)) continue;
+      if (!past_walls && square.half <= hidden_part * disc_.radius && hidden(square)) continue;
       if (square.half <= smallest_) return past_walls ? Result::hidden : Result::free;
       const double half = 0.5 * square.half;
       if (depth + 4 > stack.size()) return Result::free;
@@ -91,7 +91,7 @@ class Search {
   bool is_free(const walking::DiscFound& disc) {
     if (!disc.found) return false;
     const double x = disc.x - axis_.x, y = disc.y - axis_.y;
-    return std::hypot(x, y) <= foot_.radius && !meets_floor(x, y) && in_sight(x, y);
+    return std::hypot(x, y) <= disc_.radius && !meets_floor(x, y) && in_sight(x, y);
   }
 
   /// Whether any floor that was met is unknown space.
@@ -100,11 +100,11 @@ class Search {
  private:
   [[nodiscard]] bool meets_domain(const Square& s) const {
     const double x = std::max(0.0, std::abs(s.x) - s.half), y = std::max(0.0, std::abs(s.y) - s.half);
-    return x * x + y * y <= foot_.radius * foot_.radius;
+    return x * x + y * y <= disc_.radius * disc_.radius;
   }
 
   [[nodiscard]] bool settled(const Square& s) const {
-    const double squared = foot_.radius * foot_.radius;
+    const double squared = disc_.radius * disc_.radius;
     return std::any_of(points_.begin(), points_.begin() + std::min(found_, points_.size()), [&](const Point& p) {
       const double x = std::abs(s.x - p.x) + s.half, y = std::abs(s.y - p.y) + s.half;
       return x * x + y * y < squared;
@@ -120,18 +120,18 @@ class Search {
   /// Whether there is floor nearer than the radius; remembers its nearest point.
   bool meets_floor(double x, double y) {
     ++queries_;
-    const Clearance near = space_.floor_clearance(column_, over(x, y), foot_.radius, floor_);
+    const Clearance near = space_.floor_clearance(column_, over(x, y), disc_.radius, floor_);
     if (!near.found) return false;
     unknown_ |= near.unknown;
     const Point point{near.point.x - axis_.x, near.point.y - axis_.y};
     points_[found_++ % points_.size()] = point;
-    return std::hypot(point.x - x, point.y - y) < foot_.radius;
+    return std::hypot(point.x - x, point.y - y) < disc_.radius;
   }
 
   bool in_sight(double x, double y) {
-    const Vec3 knee(0.0, 0.0, foot_.knee);
+    const Vec3 knee(0.0, 0.0, disc_.knee);
     const Vec3 from = over(0.0, 0.0) + knee, to = over(x, y) + knee;
-    const double radius = std::min(sight_radius, 0.25 * foot_.radius);
+    const double radius = std::min(sight_radius, 0.25 * disc_.radius);
     const FirstImpact wall = space_.first_impact({radius, 0.0}, from, to - from);
     unknown_ |= wall.hit && wall.unknown;
     return !wall.hit;
@@ -149,7 +149,7 @@ class Search {
 
   const Space& space_;
   const FloorPlane& plane_;
-  const SupportDisc& foot_;
+  const SupportDisc& disc_;
   Vec3 axis_;
   Body column_;
   Floor floor_;

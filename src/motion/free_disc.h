@@ -2,7 +2,7 @@
 /// \file
 /// The search behind carrying(), for a support disc that moves.
 
-#include "roam/support.h"
+#include "motion/carrying.h"
 
 namespace roam::walking {
 

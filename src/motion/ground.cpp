@@ -165,7 +165,7 @@ void keep_ground(Move& move, Gait& gait, double horizontal) {
   // On a rim the body has sunk below the level on which it stands.
   const double sunk = gait.footing == Footing::rim ? std::max(0.0, *gait.level - move.feet()) : 0.0;
   const double reach = std::max(0.0, move.settings.step - sunk) + slope_drop + 3.0 * move.skin;
-  const bool look_for_foot = has_foot(move) && !see_floor(move, gait, reach, horizontal);
+  const bool look_for_disc = has_disc(move) && !see_floor(move, gait, reach, horizontal);
   const Vec3 down(0.0, 0.0, -1.0);
   const auto [s, to_ground] = look_below(move, horizontal, reach);
   std::optional<Ground> ground;
@@ -176,7 +176,7 @@ void keep_ground(Move& move, Gait& gait, double horizontal) {
     lowered.place.z -= std::max(0.0, to_skin(move, s, to_ground));
     ground = footing_here(lowered, gait);
   }
-  if (look_for_foot) {
+  if (look_for_disc) {
     const double drop = ground ? to_skin(move, s, to_ground) : std::numeric_limits<double>::infinity();
     if (carry(move, gait, drop, reach)) return;
   }

@@ -4,9 +4,9 @@
 
 #include <optional>
 
+#include "motion/carrying.h"
 #include "motion/gait.h"
 #include "motion/move.h"
-#include "roam/support.h"
 
 namespace roam::walking {
 

@@ -102,11 +102,11 @@ const char* to_string(Outcome outcome) {
 class Route::State {
  public:
   State(Walker& walker, std::span<const Vec3> waypoints, const RouteOptions& options);
-  [[nodiscard]] bool done() const { return done_; }
-  [[nodiscard]] const RouteResult& result() const { return result_; }
-  [[nodiscard]] const Walker& walker() const { return *walker_; }
   const StepReport& advance();
   void start_window();
+
+  RouteResult result;
+  bool done = false;
 
  private:
   [[nodiscard]] bool limited() const;
@@ -121,7 +121,6 @@ class Route::State {
   Walker* walker_;
   std::vector<Vec3> waypoints_;
   RouteOptions options_;
-  RouteResult result_;
   bool coming_down_ = false;  ///< to the ground, before it goes anywhere
   bool inside_ = false;       ///< has been in the box of the scene
   std::size_t next_ = 1;
@@ -132,7 +131,6 @@ class Route::State {
   std::uint64_t window_steps_ = 0;
   std::uint64_t vain_steps_ = 0;  ///< see is_vain_again
   EventFilter filter_;
-  bool done_ = false;
 };
 
 Route::State::State(Walker& walker, std::span<const Vec3> waypoints, const RouteOptions& options)
@@ -140,11 +138,11 @@ Route::State::State(Walker& walker, std::span<const Vec3> waypoints, const Route
   const DefaultFloatingPoint guard;
   check(options, waypoints, walker);
   const StepReport& start = walker.place(waypoints_[0]);
-  result_.add_placement(start);
-  result_.waypoints = 1;
-  result_.end = walker.position();
-  inside_ = inside(result_.end, scene(), walker.body());
-  filter_.append(result_.events, 0, start);
+  result.add_placement(start);
+  result.waypoints = 1;
+  result.end = walker.position();
+  inside_ = inside(result.end, scene(), walker.body());
+  filter_.append(result.events, 0, start);
   start_window();
   coming_down_ = walker.mode() == Mode::walk && !walker.stance().level && walker.settings().gravity > 0.0;
   if (walker.held()) {
@@ -167,7 +165,7 @@ void Route::State::turn_to_next(bool hindered) {
     if (!counts_as_reached(goal, *walker_)) return;
     if (!hindered && glm::length(way_to(goal, *walker_)) > at_waypoint) return;
     ++next_;
-    ++result_.waypoints;
+    ++result.waypoints;
     start_window();
     hindered = false;
   }
@@ -198,8 +196,8 @@ double Route::State::until_rest(const Vec3& way) const {
 
 const StepReport& Route::State::advance() {
   const DefaultFloatingPoint guard;
-  if (done_)
-    throw Error("the route has ended (" + std::string(to_string(result_.outcome)) + "): ask done() before each step");
+  if (done)
+    throw Error("the route has ended (" + std::string(to_string(result.outcome)) + "): ask done() before each step");
   const Vec3 way = way_to(waypoints_[next_], *walker_);
   const double distance = glm::length(way);
   double dt = options_.dt, planned = 0.0;
@@ -218,9 +216,9 @@ const StepReport& Route::State::advance() {
     }
   }
   const StepReport& report = walker_->step(input, dt);
-  result_.add_step(report);
-  result_.end = walker_->position();
-  filter_.append(result_.events, result_.steps, report);
+  result.add_step(report);
+  result.end = walker_->position();
+  filter_.append(result.events, result.steps, report);
   judge(report, distance, limited() ? planned : options_.speed * report.elapsed);
   return report;
 }
@@ -238,14 +236,14 @@ void Route::State::judge(const StepReport& report, double distance_before, doubl
   if (coming_down_) {
     // Without ground the body may also be caught between slopes; then it goes on from there.
     coming_down_ = !walker_->stance().level && walker_->rise_speed() < 0.0;
-    if (coming_down_ && (is_vain || result_.simulated > longest_descent)) return finish(Outcome::held);
+    if (coming_down_ && (is_vain || result.simulated > longest_descent)) return finish(Outcome::held);
     start_window();
     return;
   }
   const double distance = glm::length(way_to(waypoints_[next_], *walker_));
   const bool nearer = distance_before - distance > progress_part * free_way;
   turn_to_next(!report.contacts.empty() || !nearer);
-  if (done_) return;
+  if (done) return;
   window_time_ += report.elapsed;
   window_free_ += free_way;
   ++window_steps_;
@@ -280,12 +278,12 @@ void Route::State::describe_blockage(const StepReport& report) {
   if (length > at_waypoint && !c->unknown) {
     if (const auto opening = measure_opening(*walker_, way / length)) blockage.opening = opening->width;
   }
-  result_.blocked_at = blockage;
+  result.blocked_at = blockage;
 }
 
 void Route::State::finish(Outcome outcome) {
-  result_.outcome = outcome;
-  done_ = true;
+  result.outcome = outcome;
+  done = true;
 }
 
 Route::Route(Walker& walker, std::span<const Vec3> waypoints, const RouteOptions& options)
@@ -295,10 +293,9 @@ Route::Route(const Route& other) : state_(std::make_unique<State>(*other.state_)
 Route::Route(Route&& other) noexcept = default;
 Route& Route::operator=(const Route& other) { return *this = Route(other); }
 Route& Route::operator=(Route&& other) noexcept = default;
-bool Route::done() const { return state_->done(); }
+bool Route::done() const { return state_->done; }
 const StepReport& Route::advance() { return state_->advance(); }
-const RouteResult& Route::result() const { return state_->result(); }
-const Walker& Route::walker() const { return state_->walker(); }
+const RouteResult& Route::result() const { return state_->result; }
 void Route::start_window() { state_->start_window(); }
 
 RouteResult follow(Walker& walker, std::span<const Vec3> waypoints, const RouteOptions& options) {

@@ -76,8 +76,8 @@ void adapt(Move& m, const Gait& gait, const Sizes& sizes) {
   if (sizes.settled()) return;
   const Size want = wanted(sizes, m.place, m.place - Vec3(0.0, 0.0, 0.5 * m.height));
   // The support disc touches nothing. But over a crack it does not shrink.
-  const double foot = m.settings.support_radius;
-  if (want.support_radius > foot || (want.support_radius < foot && gait.footing != Footing::disc)) {
+  const double disc = m.settings.support_radius;
+  if (want.support_radius > disc || (want.support_radius < disc && gait.footing != Footing::disc)) {
     sizes.present.support_radius = want.support_radius;
   }
   if (want.radius < m.settings.radius) narrow(m, sizes, want.radius);

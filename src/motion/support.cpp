@@ -18,15 +18,15 @@ constexpr double under_axis = 2e-3;
 
 /// A support disc smaller than the body counts as large as the body. Otherwise a crack could be too narrow for the disc
 /// to fall in and too wide for the body to be carried by its rims.
-double foot_radius(const WalkerSettings& settings) { return std::max(settings.support_radius, settings.radius); }
+double disc_radius(const WalkerSettings& settings) { return std::max(settings.support_radius, settings.radius); }
 
 /// Storage moves the floor under the axis and the floor around, and tilts the plane between them. The band is wider by
 /// that much, so that floor that carries stays in it.
 double stored_band(double skin) { return carrying_band + 2.0 * skin; }
 
-SupportDisc foot_of(const WalkerSettings& settings, double skin, double height) {
+SupportDisc disc_of(const WalkerSettings& settings, double skin, double height) {
   const double band = stored_band(skin), knee = std::max(settings.step + 2.0 * skin, band);
-  return {foot_radius(settings), settings.slope_degrees, std::min(knee, 0.5 * height), band};
+  return {disc_radius(settings), settings.slope_degrees, std::min(knee, 0.5 * height), band};
 }
 
 /// Height of the centre of a body at `place` that is a skin above the plane.
@@ -50,7 +50,7 @@ Beside plane_beside(const Move& m, const Vec3& axis, double lower, double upper)
   floor.slope_degrees = m.settings.slope_degrees;
   floor.band = 0.5 * (upper - lower);
   floor.point = middle;
-  const Clearance near = m.space.floor_clearance({0.0, floor.band}, middle, foot_radius(m.settings), floor);
+  const Clearance near = m.space.floor_clearance({0.0, floor.band}, middle, disc_radius(m.settings), floor);
   return {near.found, near.unknown, {near.point, Vec3(0.0, 0.0, 1.0)}, near.object};
 }
 
@@ -75,7 +75,7 @@ bool carries(const Move& m, Gait& gait, const FloorPlane& plane, const Vec3& pla
 }
 
 /// Stands on the plane that carries. The plane is remembered if it is that of a floor.
-void stand_on_foot(Move& m, Gait& gait, const FloorPlane& plane, bool is_floor) {
+void stand_on_disc(Move& m, Gait& gait, const FloorPlane& plane, bool is_floor) {
   if (gait.footing != Footing::disc) m.note(EventKind::bridged);
   stand_on(m, gait,
            {plane.normal, plane.level(m.place), true, false, gait.disc_result.carrying == Carrying::unknown,
@@ -89,12 +89,12 @@ void stand_on_foot(Move& m, Gait& gait, const FloorPlane& plane, bool is_floor) 
 
 Carrying carrying(const Space& space, const WalkerSettings& settings, double skin, double height,
                   const FloorPlane& plane, const Vec3& place, DiscFound& last) {
-  const SupportDisc foot = foot_of(settings, skin, height);
-  if (has_floor(space, foot.slope_degrees, foot.band, plane, place)) return Carrying::no;
-  return find_disc(space, plane, foot, place, last);
+  const SupportDisc disc = disc_of(settings, skin, height);
+  if (has_floor(space, disc.slope_degrees, disc.band, plane, place)) return Carrying::no;
+  return find_disc(space, plane, disc, place, last);
 }
 
-bool has_foot(const Move& move) { return move.settings.support_radius > 0.0; }
+bool has_disc(const Move& move) { return move.settings.support_radius > 0.0; }
 
 bool see_floor(const Move& m, Gait& gait, double reach, double horizontal) {
   const double r = m.settings.radius;
@@ -139,7 +139,7 @@ bool carry(Move& m, Gait& gait, double drop, double reach) {
   if (-drop >= lift - rest || lift < -reach || lift > m.settings.step + m.settings.radius) return false;
   if (!carries(m, gait, plane, m.place)) return false;
   if (std::abs(lift) > rest) m.advance(Vec3(0.0, 0.0, lift), 0.0);
-  stand_on_foot(m, gait, plane, is_floor);
+  stand_on_disc(m, gait, plane, is_floor);
   return true;
 }
 
@@ -167,7 +167,7 @@ std::optional<double> carried_after(const Move& m, Gait& gait, const Vec3& motio
   return part;
 }
 
-void land_on_foot(Move& m, Gait& gait) { stand_on_foot(m, gait, gait.floor, true); }
+void land_on_disc(Move& m, Gait& gait) { stand_on_disc(m, gait, gait.floor, true); }
 
 void forget_other_storeys(const Move& m, Gait& gait) {
   if (!gait.level || std::abs(*gait.level - gait.floor.level(m.place)) > carrying_band) gait.floor_seen = false;

@@ -4,9 +4,9 @@
 
 #include <optional>
 
+#include "motion/carrying.h"
 #include "motion/gait.h"
 #include "motion/move.h"
-#include "roam/support.h"
 
 namespace roam::walking {
 
@@ -16,7 +16,7 @@ namespace roam::walking {
                                 const FloorPlane& plane, const Vec3& place, DiscFound& last);
 
 /// Whether the body has a support disc.
-[[nodiscard]] bool has_foot(const Move& move);
+[[nodiscard]] bool has_disc(const Move& move);
 
 /// Looks for floor under the axis, at most `reach` metres below the lowest point, and remembers its plane.
 /// `horizontal`: metres moved since the last look.
@@ -31,7 +31,7 @@ bool carry(Move& move, Gait& gait, double drop, double reach);
 [[nodiscard]] std::optional<double> carried_after(const Move& move, Gait& gait, const Vec3& motion);
 
 /// Makes the body stand at the end of carried_after().
-void land_on_foot(Move& move, Gait& gait);
+void land_on_disc(Move& move, Gait& gait);
 
 /// Called after landing on real ground: forgets the last floor plane if it belongs to another level.
 void forget_other_storeys(const Move& move, Gait& gait);

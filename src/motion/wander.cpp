@@ -189,10 +189,11 @@ std::optional<WanderStart> wander_start(const Space& space, const WalkerSettings
 class Wander::State {
  public:
   State(Walker& walker, const WanderOptions& options);
-  [[nodiscard]] bool done() const { return done_; }
-  [[nodiscard]] const RouteResult& result() const { return result_; }
   void look();
   const StepReport& advance();
+
+  RouteResult result;
+  bool done = false;
 
  private:
   struct Look {
@@ -212,7 +213,6 @@ class Wander::State {
 
   Walker* walker_;
   WanderOptions options_;
-  RouteResult result_;
   std::unordered_map<std::uint64_t, std::uint32_t> visits_;  ///< of each cell
   std::uint64_t last_cell_ = 0;
   Vec3 heading_{0.0};             ///< unit; zero before the first look
@@ -226,7 +226,6 @@ class Wander::State {
   double held_seconds_ = 0.0;
   bool was_inside_ = false;  ///< has been in the box of the scene
   EventFilter filter_;
-  bool done_ = false;
 };
 
 Wander::State::State(Walker& walker, const WanderOptions& options) : walker_(&walker), options_(options) {
@@ -243,7 +242,7 @@ Wander::State::State(Walker& walker, const WanderOptions& options) : walker_(&wa
     start.events.clear();
     start.elapsed = 0.0;
   } else {
-    result_.add_placement(start);
+    result.add_placement(start);
   }
   note(start);
 }
@@ -304,8 +303,8 @@ void Wander::State::look() {
   }
   if (best < 0.0) {
     // Every way from here has failed.
-    result_.outcome = Outcome::held;
-    done_ = true;
+    result.outcome = Outcome::held;
+    done = true;
   }
   heading_ = next;
   leg_start_ = walker_->position();
@@ -314,11 +313,11 @@ void Wander::State::look() {
 
 const StepReport& Wander::State::advance() {
   const DefaultFloatingPoint guard;
-  if (done_) throw Error("the wandering has ended: ask done() before each step");
+  if (done) throw Error("the wandering has ended: ask done() before each step");
   look();
-  if (done_) return walker_->report();
+  if (done) return walker_->report();
   const StepReport& report = walker_->step({.velocity = options_.speed * heading_}, options_.dt);
-  result_.add_step(report);
+  result.add_step(report);
   const double moved = report.length();
   way_left_ -= moved;
   window_length_ += moved;
@@ -329,28 +328,28 @@ const StepReport& Wander::State::advance() {
     window_length_ = window_seconds_ = 0.0;
   }
   note(report);
-  if (is_vain && !done_) {
-    result_.outcome = Outcome::held;
-    done_ = true;
+  if (is_vain && !done) {
+    result.outcome = Outcome::held;
+    done = true;
   }
-  if (!done_ && result_.simulated >= options_.seconds) {
-    if (report.held) result_.outcome = Outcome::held;
-    done_ = true;
+  if (!done && result.simulated >= options_.seconds) {
+    if (report.held) result.outcome = Outcome::held;
+    done = true;
   }
   return report;
 }
 
 void Wander::State::note(const StepReport& report) {
-  result_.end = report.to;
-  filter_.append(result_.events, result_.steps, report);
-  auto& events = result_.events;
+  result.end = report.to;
+  filter_.append(result.events, result.steps, report);
+  auto& events = result.events;
   if (std::ssize(events) > most_events) events.erase(events.begin() + (most_events - 1), events.end() - 1);
   const std::uint64_t here = cell(report.to);
   if (visits_.size() >= most_visits) visits_.clear();
   if (here != last_cell_ || visits_.empty()) ++visits_[here];
   last_cell_ = here;
 
-  if (report.put_back && !done_ && result_.steps > 0) {
+  if (report.put_back && !done && result.steps > 0) {
     // Put back to where it stood last: from there, and from where this leg began, it does not go the same way again.
     voids_.push_back({report.to, heading_});
     voids_.push_back({leg_start_, heading_});
@@ -359,8 +358,8 @@ void Wander::State::note(const StepReport& report) {
   }
   held_seconds_ = report.held ? held_seconds_ + report.elapsed : 0.0;
   if (held_seconds_ > held_limit) {
-    result_.outcome = Outcome::held;
-    done_ = true;
+    result.outcome = Outcome::held;
+    done = true;
   }
   const bool flies = walker_->mode() == Mode::fly;
   const Box scene = flies ? airspace(walker_->space(), walker_->settings()) : walker_->space().bounds();
@@ -375,8 +374,8 @@ void Wander::State::note(const StepReport& report) {
   }
   // A body may fly in from outside.
   if (!inside && (!flies || was_inside_)) {
-    result_.outcome = Outcome::left_scene;
-    done_ = true;
+    result.outcome = Outcome::left_scene;
+    done = true;
   }
   was_inside_ = was_inside_ || inside;
 }
@@ -387,9 +386,9 @@ Wander::Wander(const Wander& other) : state_(std::make_unique<State>(*other.stat
 Wander::Wander(Wander&& other) noexcept = default;
 Wander& Wander::operator=(const Wander& other) { return *this = Wander(other); }
 Wander& Wander::operator=(Wander&& other) noexcept = default;
-bool Wander::done() const { return state_->done(); }
+bool Wander::done() const { return state_->done; }
 void Wander::look() { state_->look(); }
 const StepReport& Wander::advance() { return state_->advance(); }
-const RouteResult& Wander::result() const { return state_->result(); }
+const RouteResult& Wander::result() const { return state_->result; }
 
 }  // namespace roam

@@ -32,10 +32,8 @@ std::vector<Level> levels(const osg::LOD& lod) {
   return all;
 }
 
-Level loaded_level(const osg::LOD& lod, bool finest) {
-  std::vector<Level> all = levels(lod);
-  if (!finest) std::reverse(all.begin(), all.end());
-  for (Level& level : all) {
+Level loaded_level(const osg::LOD& lod) {
+  for (Level& level : levels(lod)) {
     // Numbers are ascending, so the last one decides.
     if (level.back() < lod.getNumChildren()) return std::move(level);
   }

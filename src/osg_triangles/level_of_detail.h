@@ -14,9 +14,8 @@ using Level = std::vector<unsigned>;
 /// may belong to several levels.
 [[nodiscard]] std::vector<Level> levels(const osg::LOD& lod);
 
-/// The finest (or coarsest) level whose children are all loaded. An incomplete level would leave holes. Empty if there
-/// is none.
-[[nodiscard]] Level loaded_level(const osg::LOD& lod, bool finest);
+/// The finest level whose children are all loaded. An incomplete level would leave holes. Empty if there is none.
+[[nodiscard]] Level loaded_level(const osg::LOD& lod);
 
 /// Whether `lod` is a coarser level of another child of `parent`. Some modellers, and OpenFlight, give each level a
 /// node of its own.

@@ -150,7 +150,6 @@ void BoxIntersector::reset() {
   osgUtil::Intersector::reset();
   _intersections.clear();
   _candidates.clear();
-  _candidateDrawables.clear();
   shrinkTo(1.0);
 }
 

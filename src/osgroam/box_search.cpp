@@ -114,17 +114,10 @@ void BoxIntersector::Search::offer(const Corners& corners) {
     if (most < root_._lower[k] || least > root_._upper[k]) return;
   }
   if (below_._gather) {
-    gather(triangle, corners);
+    root_._candidates.push_back(triangle);
   } else {
     sweep(triangle, corners);
   }
-}
-
-void BoxIntersector::Search::gather(const roam::Triangle& triangle, const Corners& corners) {
-  if (!gathered_) root_._candidateDrawables.push_back({visitor_.getNodePath(), &drawable_});
-  gathered_ = true;
-  root_._candidates.push_back(
-      {triangle, static_cast<unsigned>(root_._candidateDrawables.size() - 1), corners.primitive, corners.half});
 }
 
 void BoxIntersector::Search::sweep(const roam::Triangle& triangle, const Corners& corners) {

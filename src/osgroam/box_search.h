@@ -59,7 +59,6 @@ class BoxIntersector::Search {
   /// The k-d tree of this geometry; null if it is absent or unreliable.
   [[nodiscard]] const osg::KdTree* kd_tree(const osg::Geometry& geometry) const;
   void offer(const roam::osg_triangles::Corners& corners);
-  void gather(const roam::Triangle& triangle, const roam::osg_triangles::Corners& corners);
   void sweep(const roam::Triangle& triangle, const roam::osg_triangles::Corners& corners);
   void keep(const roam::SweepResult& result, const roam::Triangle& triangle,
             const roam::osg_triangles::Corners& corners);
@@ -74,7 +73,6 @@ class BoxIntersector::Search {
   osg::Vec3f lower_, upper_;
   roam::osg_triangles::Vertices vertices_;
   const osg::Vec3* floats_ = nullptr;
-  bool gathered_ = false;         ///< the drawable is in the list of those with candidates
   Intersections::iterator kept_;  ///< of this drawable, if only its earliest is wanted
   bool has_kept_ = false;
 };

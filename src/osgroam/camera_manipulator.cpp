@@ -125,6 +125,8 @@ bool Manipulator::handle(const Adapter& event, osgGA::GUIActionAdapter& viewer) 
       if (std::exchange(s.home_wanted, false)) home(event, viewer);
       break;
     case Adapter::PUSH:
+      // Two fingers that scroll sideways are buttons without a number in OpenSceneGraph's X11 windows.
+      if (event.getButton() == 0) break;
       taken = !s.pointer.push(event) || s.go_to_clicked(event);
       break;
     case Adapter::DOUBLECLICK:

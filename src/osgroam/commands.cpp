@@ -3,6 +3,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <numbers>
+#include <utility>
 
 #include "osgroam/manipulator_state.h"
 
@@ -13,6 +14,9 @@ using Adapter = osgGA::GUIEventAdapter;
 
 /// Factor of the speed for one notch of the wheel; three notches double it.
 constexpr double notch = 1.25;
+
+/// Seconds between two notches of a wheel that is turned fast, and the least share of a notch that comes sooner.
+constexpr double notch_time = 0.04, least_share = 0.05;
 
 /// Metres: the limit of a click's distance.
 constexpr double click_limit = 1e5;
@@ -102,12 +106,12 @@ bool Manipulator::State::look(const Adapter& event) {
 }
 
 bool Manipulator::State::scroll(const Adapter& event) {
-  double notches = 0.0;
-  if (event.getScrollingMotion() == Adapter::SCROLL_UP) notches = 1.0;
-  if (event.getScrollingMotion() == Adapter::SCROLL_DOWN) notches = -1.0;
-  if (event.getScrollingMotion() == Adapter::SCROLL_2D) notches = std::clamp(event.getScrollingDeltaY(), -1.0f, 1.0f);
-  if (!std::isfinite(notches) || notches == 0.0) return false;
-  change_speed(settings.speed * std::pow(notch, notches));
+  const double notches = notches_of(event);
+  if (notches == 0.0) return false;
+  // Two fingers on a touchpad give many more notches a second than a wheel. They count as a fast wheel's.
+  const double since = event.getTime() - std::exchange(scrolled_at, event.getTime());
+  const double share = since >= 0.0 ? std::clamp(since / notch_time, least_share, 1.0) : 1.0;
+  change_speed(settings.speed * std::pow(notch, share * notches));
   return true;
 }
 

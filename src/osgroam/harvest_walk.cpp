@@ -44,7 +44,7 @@ class HarvestWalk : public triangles::GraphWalk {
   void meet(osg::LOD& lod, osg::PagedLOD* paged) override {
     // Inside a level that finer files replace, take the loaded level.
     if (paged == nullptr || inside_level_) {
-      for (const unsigned i : triangles::loaded_level(lod, true)) lod.getChild(i)->accept(*this);
+      for (const unsigned i : triangles::loaded_level(lod)) lod.getChild(i)->accept(*this);
       return;
     }
     for (unsigned i = 0; i < std::min(paged->getNumChildren(), paged->getNumFileNames()); ++i) {

@@ -1,5 +1,6 @@
 #include "osgRoam/Manipulator.h"
 
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <string>
@@ -241,6 +242,18 @@ bool Manipulator::down(std::string_view command) const { return _state->keyboard
 void Manipulator::releaseKeys() {
   if (_state->last_time) _state->keyboard.release_all(*_state->last_time);
 }
+
+void Manipulator::setAxes(const Axes& axes) {
+  _state->axes = axes;
+  for (double Axes::*axis : {&Axes::forward, &Axes::right, &Axes::up, &Axes::turn_left, &Axes::look_up}) {
+    if (!std::isfinite(axes.*axis)) _state->axes.*axis = 0.0;
+  }
+  for (double Axes::*axis : {&Axes::forward, &Axes::right, &Axes::up}) {
+    _state->axes.*axis = std::clamp(_state->axes.*axis, -1.0, 1.0);
+  }
+}
+
+const Manipulator::Axes& Manipulator::axes() const { return _state->axes; }
 
 void Manipulator::setMouseGrab(bool on) { _state->pointer.want_grab(on); }
 

@@ -65,6 +65,8 @@ struct Manipulator::State {
   std::optional<double> last_time;  ///< of the last frame, seconds
   bool continuous = false;          ///< continuous update has been requested from the viewer
   HeldCommands held_before;         ///< as of the last frame
+  Axes axes;
+  double scrolled_at = -1e9;  ///< s, of the last turn of the wheel
 
   // Reports.
   StepCallback on_step;
@@ -114,6 +116,9 @@ struct Manipulator::State {
   bool take_build();
   /// Moves the body by the time since the last frame.
   void frame(double time);
+  void turn(double seconds);
+  /// Whether keys or axes move the body.
+  [[nodiscard]] bool moves(const HeldCommands& held) const;
   void run(double seconds, const HeldCommands& held);
   void step(double seconds, const HeldCommands& held);
   /// Whether the body can go to a target by itself.

@@ -182,6 +182,7 @@ void Manipulator::State::frame(double time) {
   }
   const double begin = std::max(*last_time, time - longest_frame);
   last_time = time;
+  turn(time - begin);
   guarded([&] {
     if (walker && !stuck) {
       // The callback may replace the walker, so copy its values.
@@ -202,6 +203,16 @@ void Manipulator::State::frame(double time) {
   held_before = keyboard.held();
 }
 
+void Manipulator::State::turn(double seconds) {
+  if (!(seconds > 0.0)) return;
+  pose.yaw = wrapped_yaw(pose.yaw + seconds * axes.turn_left);
+  pose.pitch = limited_pitch(pose.pitch + seconds * axes.look_up);
+}
+
+bool Manipulator::State::moves(const HeldCommands& held) const {
+  return held.move() || axes.forward != 0.0 || axes.right != 0.0 || axes.up != 0.0;
+}
+
 void Manipulator::State::run(double seconds, const HeldCommands& held) {
   if (!(seconds > 0.0)) return;
   const double pieces = std::ceil(seconds / longest_step - clock_rounding);
@@ -217,12 +228,12 @@ void Manipulator::State::run(double seconds, const HeldCommands& held) {
 void Manipulator::State::step(double seconds, const HeldCommands& held) {
   const bool jumps = jump_left > 0.0;
   jump_left -= seconds;
-  if (held.move() || jumps) {
+  if (moves(held) || jumps) {
     journey.end();
     at_computed_home = false;
   }
   roam::WalkerInput input;
-  input.crouch = held.crouch;
+  input.crouch = held.crouch || axes.crouch;
   input.jump = jumps;
   if (journey.under_way()) {
     input.velocity = journey.velocity(*walker, settings.speed * settings.fast_factor, seconds);
@@ -279,25 +290,27 @@ void Manipulator::State::fly_pilot(double seconds) {
 }
 
 roam::Vec3 Manipulator::State::wish(const HeldCommands& held) const {
-  const auto axis = [](bool plus, bool minus) { return static_cast<double>(plus) - static_cast<double>(minus); };
+  const auto axis = [](bool plus, bool minus, double more) {
+    return static_cast<double>(plus) - static_cast<double>(minus) + more;
+  };
   const double pitch = mode == roam::Mode::walk ? 0.0 : pose.pitch;
-  const roam::Vec3 direction = axis(held.forward, held.back) * forward(pose.yaw, pitch) +
-                               axis(held.right, held.left) * right(pose.yaw) +
-                               roam::Vec3(0.0, 0.0, axis(held.up, held.down));
-  const double factor = held.slow ? slow_factor : 1.0;
-  return roam::wish_velocity(settings, direction, held.fast) * factor;
+  const roam::Vec3 direction = axis(held.forward, held.back, axes.forward) * forward(pose.yaw, pitch) +
+                               axis(held.right, held.left, axes.right) * right(pose.yaw) +
+                               roam::Vec3(0.0, 0.0, axis(held.up, held.down, axes.up));
+  const double factor = held.slow || axes.slow ? slow_factor : 1.0;
+  return roam::wish_velocity(settings, direction, held.fast || axes.fast) * factor;
 }
 
 void Manipulator::State::ease(roam::WalkerInput& input, const HeldCommands& held) {
-  if (held.move()) eased_speed = std::max(glm::length(input.velocity), glm::length(walker->pace()));
+  if (moves(held)) eased_speed = std::max(glm::length(input.velocity), glm::length(walker->pace()));
   if (easing > 0.0 && eased_speed > 0.0) input.acceleration = input.braking = eased_speed / easing;
 }
 
 bool Manipulator::State::restless() const {
   if (build) return true;
   if (!walker || stuck) return false;
-  return moved || keyboard.held().move() || journey.under_way() || pilot || soft.moving() || jump_left > 0.0 ||
-         walker->report().met_unknown;
+  return moved || moves(keyboard.held()) || axes.turn_left != 0.0 || axes.look_up != 0.0 || journey.under_way() ||
+         pilot || soft.moving() || jump_left > 0.0 || walker->report().met_unknown;
 }
 
 }  // namespace osgRoam

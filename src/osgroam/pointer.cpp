@@ -1,5 +1,6 @@
 #include "osgroam/pointer.h"
 
+#include <algorithm>
 #include <cmath>
 #include <osgViewer/View>
 
@@ -31,6 +32,14 @@ osgViewer::View* viewer_view(osgGA::GUIActionAdapter& viewer) {
 }
 
 }  // namespace
+
+double notches_of(const osgGA::GUIEventAdapter& event) {
+  const auto motion = event.getScrollingMotion();
+  if (motion == osgGA::GUIEventAdapter::SCROLL_UP) return 1.0;
+  if (motion == osgGA::GUIEventAdapter::SCROLL_DOWN) return -1.0;
+  if (motion != osgGA::GUIEventAdapter::SCROLL_2D || !std::isfinite(event.getScrollingDeltaY())) return 0.0;
+  return std::clamp(static_cast<double>(event.getScrollingDeltaY()), -1.0, 1.0);
+}
 
 Pointer::~Pointer() {
   show();

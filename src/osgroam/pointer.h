@@ -15,6 +15,9 @@ class Controls;
 /// The most seconds and heights of the window between the two clicks of a double click.
 inline constexpr double double_click_time = 0.4, double_click_distance = 0.01;
 
+/// The notches by which a SCROLL event turns the wheel, > 0 upwards; touchpads may give parts of one. 0: not at all.
+[[nodiscard]] double notches_of(const osgGA::GUIEventAdapter& event);
+
 class Pointer {
  public:
   /// Left and up, in heights of the window.

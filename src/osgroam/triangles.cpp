@@ -11,7 +11,7 @@ namespace triangles = roam::osg_triangles;
 
 class MeshCollector : public triangles::GraphWalk {
  public:
-  MeshCollector(const osg::Vec3d& origin, bool finest) : GraphWalk(osg::Matrixd::translate(origin)), finest_(finest) {}
+  explicit MeshCollector(const osg::Vec3d& origin) : GraphWalk(osg::Matrixd::translate(origin)) {}
 
   std::vector<roam::Mesh> take() { return std::move(meshes_); }
 
@@ -25,24 +25,22 @@ class MeshCollector : public triangles::GraphWalk {
   }
 
   void meet(osg::LOD& lod, osg::PagedLOD*) override {
-    for (const unsigned i : triangles::loaded_level(lod, finest_)) lod.getChild(i)->accept(*this);
+    for (const unsigned i : triangles::loaded_level(lod)) lod.getChild(i)->accept(*this);
   }
 
-  bool finest_;
   std::vector<roam::Mesh> meshes_;
 };
 
 }  // namespace
 
-std::vector<roam::Mesh> collectMeshes(osg::Node& node, const osg::Vec3d& origin, LevelOfDetail level) {
-  MeshCollector collector(origin, level == FINEST_LEVEL);
+std::vector<roam::Mesh> collectMeshes(osg::Node& node, const osg::Vec3d& origin) {
+  MeshCollector collector(origin);
   node.accept(collector);
   return collector.take();
 }
 
-roam::World buildWorld(osg::Node& node, const osg::Vec3d& origin, const roam::BuildOptions& options,
-                       LevelOfDetail level) {
-  return roam::World::build(collectMeshes(node, origin, level), options);
+roam::World buildWorld(osg::Node& node, const osg::Vec3d& origin, const roam::BuildOptions& options) {
+  return roam::World::build(collectMeshes(node, origin), options);
 }
 
 }  // namespace osgRoam

@@ -39,7 +39,7 @@ void demand_box(const std::string& member, const Box& box) {
   }
 }
 
-void demand_foot(const std::string& member, double radius) {
+void demand_support_radius(const std::string& member, double radius) {
   constexpr double most = Space::reach_limit / 4.0;
   if (!(radius >= 0.0 && radius <= most)) {
     refuse(member, fmt::format("is {} m; it must be at least 0 and at most {:g} m", radius, most));
@@ -285,7 +285,7 @@ void check(const Profile& p) {
     refuse("mode", fmt::format("must be \"walk\" or \"fly\", not \"{}\"", to_string(p.mode)));
   }
   demand_body("radius, height, step or slope", p, p.radius);
-  demand_foot("support_radius", p.support_radius);
+  demand_support_radius("support_radius", p.support_radius);
   if (!(p.smallest >= 0.0 && std::isfinite(p.smallest))) {
     refuse("interval.min", fmt::format("must be a number of at least 0, not {}", p.smallest));
   }
@@ -296,7 +296,7 @@ void check(const Profile& p) {
     const std::string path = fmt::format("regions[{}].", i);
     demand_box(path + "bounds", p.regions[i].bounds);
     demand_body(path + "radius", p, p.regions[i].radius);
-    demand_foot(path + "support_radius", p.regions[i].support_radius);
+    demand_support_radius(path + "support_radius", p.regions[i].support_radius);
   }
   if (std::find(methods.begin(), methods.end(), p.method) == methods.end()) {
     refuse("method", fmt::format("must be \"paper\", \"interval\" or \"roaming\", not \"{}\"", printable(p.method)));

@@ -4,14 +4,14 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <glm/geometric.hpp>
 #include <utility>
 
 #include "math/floating_point.h"
+#include "math/level_distance.h"
 #include "math/slope.h"
+#include "motion/carrying.h"
 #include "roam/opening.h"
-#include "roam/support.h"
 
 namespace roam {
 namespace {
@@ -79,9 +79,9 @@ bool floor_below(const Walker& walker) {
 
 /// A walker with this support disc, moved straight from `from` until its axis is at `to`. Nothing if it does not
 /// arrive, or if its support disc does not carry it there over known floor.
-std::optional<Walker> carried_at(const Walker& walker, double foot, const Vec3& from, const Vec3& to) {
+std::optional<Walker> carried_at(const Walker& walker, double support, const Vec3& from, const Vec3& to) {
   WalkerSettings settings = walker.settings();
-  settings.support_radius = foot;
+  settings.support_radius = support;
   Walker trial(walker.space(), settings, Mode::walk, from);
   const Vec3 whole(to.x - from.x, to.y - from.y, 0.0);
   const int most = 2 * static_cast<int>(glm::length(whole) / (trial_speed * trial_step)) + 2;
@@ -93,7 +93,7 @@ std::optional<Walker> carried_at(const Walker& walker, double foot, const Vec3& 
     if (!trial.grounded() || trial.report().has(EventKind::fell)) return std::nullopt;
   }
   const Vec3& end = trial.position();
-  const bool there = std::hypot(to.x - end.x, to.y - end.y) < arrived;
+  const bool there = level_distance(to, end) < arrived;
   if (!there || trial.stance().footing != Footing::disc || trial.stance().unknown) return std::nullopt;
   return trial;
 }
@@ -102,19 +102,9 @@ bool wishes(const Vec3& wish) { return glm::dot(wish, wish) > 0.0; }
 
 }  // namespace
 
-SizeLearner::SizeLearner(Profile known, const LearnLimits& limits) : profile_(std::move(known)), limits_(limits) {
+SizeLearner::SizeLearner(Profile known) : profile_(std::move(known)) {
   const DefaultFloatingPoint guard;
   check(apply(profile_, WalkerSettings()));
-  if (!(limits.radius_min > 0.0 && limits.radius_min <= Space::reach_limit))
-    throw Error(
-        fmt::format("the smallest radius that may be learned is {:g} m; it must be greater than 0 and at most {:g} m",
-                    limits.radius_min, Space::reach_limit));
-  if (!(limits.support_max > 0.0 && limits.support_max <= 0.25 * Space::reach_limit))
-    throw Error(
-        fmt::format("the largest foot that may be learned is {:g} m; it must be greater than 0 and at most {:g} m",
-                    limits.support_max, 0.25 * Space::reach_limit));
-  if (!(limits.patience >= 0.0 && std::isfinite(limits.patience)))
-    throw Error(fmt::format("the patience of learning is {:g} s; it must be a number of at least 0", limits.patience));
 }
 
 std::optional<Lesson> SizeLearner::watch(const Walker& walker, const Vec3& wish, double seconds) {
@@ -141,7 +131,7 @@ std::optional<Lesson> SizeLearner::watch(const Walker& walker, const Vec3& wish,
   }
   const bool fell = on_foot && (report.has(EventKind::fell) || report.put_back);
   pushed_ = report.blocked && wishes(wish) ? pushed_ + seconds : 0.0;
-  const bool stuck = pushed_ >= limits_.patience;
+  const bool stuck = pushed_ >= patience;
   if (!fell && !stuck) {
     if (!report.blocked) offered_ = false;
     return std::nullopt;
@@ -165,7 +155,7 @@ std::optional<Lesson> SizeLearner::narrower(const Walker& walker, const Vec3& wi
   // Low openings are left to crouching.
   if (!opening || opening->kind == Opening::Kind::lintel) return std::nullopt;
   const double fits = room_part * 0.5 * opening->width;
-  if (fits >= radius || fits < limits_.radius_min) return std::nullopt;
+  if (fits >= radius || fits < radius_min) return std::nullopt;
   const Placed small = resized(walker, fits);
   const std::optional<Vec3> end = way_through(walker, small, opening->point, ahead);
   if (!end) return std::nullopt;
@@ -187,20 +177,20 @@ std::optional<Lesson> SizeLearner::narrower(const Walker& walker, const Vec3& wi
 
 std::optional<Lesson> SizeLearner::support(const Walker& walker) const {
   if (!firm_ || !lost_) return std::nullopt;
-  double low = std::max(walker.body().radius, walker.settings().support_radius), high = limits_.support_max;
+  double low = std::max(walker.body().radius, walker.settings().support_radius), high = support_max;
   if (high <= low) return std::nullopt;
   // If not even the largest disc carries, this is a pit or a cliff. Otherwise the trial walker knows the plane of the
   // floor and stands where footing was lost.
   const std::optional<Walker> largest = carried_at(walker, high, firm_at_, lost_at_);
   if (!largest) return std::nullopt;
   while (high - low > disc_precision) {
-    const double foot = 0.5 * (low + high);
-    (carrying(*largest, foot) == Carrying::yes ? high : low) = foot;
+    const double support = 0.5 * (low + high);
+    (carrying(*largest, support) == Carrying::yes ? high : low) = support;
   }
   Lesson lesson;
   lesson.kind = Lesson::Kind::support;
   lesson.at = walker.position();
-  lesson.support_radius = std::min(high + support_margin, limits_.support_max);
+  lesson.support_radius = std::min(high + support_margin, support_max);
   if (!carried_at(walker, lesson.support_radius, firm_at_, lost_at_)) return std::nullopt;
   lesson.width = 2.0 * high;
   return lesson;

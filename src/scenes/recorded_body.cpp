@@ -93,8 +93,7 @@ std::optional<SceneFrame> recorded_frame(const std::string& text, const std::str
   std::optional<SceneFrame> frame;
   for (const MarkedLine& line : marked_lines(text, name_of_file, frame_mark)) {
     const auto refuse = [&](const std::string& why) {
-      throw Error(line.place,
-                  fmt::format("'{}' {}; correct or remove the line", printable(line.text, longest_excerpt), why));
+      throw Error(line.place, fmt::format("'{}' {}; correct or remove the line", excerpt(line.text), why));
     };
     std::istringstream words(line.words);
     std::string up, axis, unit, length, more;

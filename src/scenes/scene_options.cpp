@@ -50,7 +50,7 @@ void SceneOptions::add_to(CLI::App& verb) {
   verb.option_defaults()->group(other_group);
 }
 
-void SceneOptions::add_reading_to(CLI::App& verb) {
+void SceneOptions::add_files_to(CLI::App& verb) {
   verb.option_defaults()->group(scene_group);
   verb.add_option("--up", up,
                   "Axis of the file that points up: x, y, z, -x, -y or -z, e.g. --up=-y (default: z; y for glTF)")
@@ -71,13 +71,19 @@ void SceneOptions::add_reading_to(CLI::App& verb) {
                 "Ignore SCENE.roam.json: the trained body, the axis that is up and the unit");
   // For the child process of roam view.
   verb.add_flag("--no-scene-link{false}", through_link)->group("");
-  verb.add_option("--threads", threads, "Threads for indexing and queries (default: one per core)")
-      ->check(thread_count())
-      ->type_name("N");
   verb.add_option("--memory", memory,
                   "Memory for a store's collision (default: 64M), or for reading a scene (default: 8G), e.g. 1G")
       ->transform(bytes())
       ->type_name("SIZE");
+  verb.option_defaults()->group(other_group);
+}
+
+void SceneOptions::add_reading_to(CLI::App& verb) {
+  add_files_to(verb);
+  verb.option_defaults()->group(scene_group);
+  verb.add_option("--threads", threads, "Threads for indexing and queries (default: one per core)")
+      ->check(thread_count())
+      ->type_name("N");
   verb.option_defaults()->group(other_group);
 }
 

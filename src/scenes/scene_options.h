@@ -38,7 +38,9 @@ struct SceneOptions {
 
   /// Adds SCENE..., --up, --unit, --ignore, --allow, --no-profile, --lossless, --threads and --memory.
   void add_to(CLI::App& verb);
-  /// Adds --up, --unit, --ignore, --allow, --no-profile, --threads and --memory.
+  /// Adds --up, --unit, --ignore, --allow, --no-profile and --memory.
+  void add_files_to(CLI::App& verb);
+  /// Adds the same and --threads.
   void add_reading_to(CLI::App& verb);
   /// The command line that add_to() reads as these options, SCENE last.
   [[nodiscard]] std::vector<std::string> arguments() const;

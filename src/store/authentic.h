@@ -11,7 +11,7 @@
 #include <string>
 #include <string_view>
 
-#include "roam/store.h"
+#include "store/bytes.h"
 #include "store/folder.h"
 
 namespace roam::store {

@@ -16,7 +16,7 @@
 #include <utility>
 
 #include "files/whole_file.h"
-#include "roam/store.h"
+#include "store/bytes.h"
 #include "store/folder.h"
 #include "store/sha256.h"
 

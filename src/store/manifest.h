@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "roam/math.h"
-#include "roam/store.h"
+#include "store/bytes.h"
 #include "store/folder.h"
 
 namespace roam::store {

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "roam/store.h"
+#include "store/bytes.h"
 #include "store/manifest.h"
 
 namespace roam {
@@ -23,11 +24,11 @@ struct Store::State {
   };
 
   std::string name;
-  std::shared_ptr<StoreBytes> bytes;
+  std::shared_ptr<store::StoreBytes> bytes;
   store::Manifest manifest;
   StoreInfo info;
   std::vector<Page> pages;
-  std::vector<std::string> packs;                  ///< file of each shard, as StoreBytes names it
+  std::vector<std::string> packs;                  ///< file of each shard, as store::StoreBytes names it
   std::map<std::uint64_t, std::uint32_t> part_of;  ///< number of the part for each part hash, see SourceNumber
   std::uint64_t memory = 0;                        ///< greatest number of bytes of all of this, including `recent`
   std::vector<std::uint64_t> first;                ///< for each part, the number of its first triangle in the scene

@@ -23,7 +23,7 @@ Store::~Store() = default;
 std::shared_ptr<const Store> store::open_store(const Folder& folder, std::uint64_t memory) {
   if (!is_file(folder, current_file)) refuse_to_open(folder);
   try {
-    return Store::open(files_of(folder), folder.string(), memory);
+    return open_store(files_of(folder), folder.string(), memory);
   } catch (const RootDamage& damage) {
     // Other programs also have files called CURRENT.
     if (holds_store(folder) || damage.what_is_damaged != current_file) throw;
@@ -36,16 +36,16 @@ std::shared_ptr<const Store> Store::open(const std::filesystem::path& folder, st
   return store::open_store(folder, memory);
 }
 
-std::shared_ptr<const Store> Store::open(std::shared_ptr<StoreBytes> bytes, const std::string& name,
-                                         std::uint64_t memory) {
+std::shared_ptr<const Store> store::open_store(std::shared_ptr<StoreBytes> bytes, const std::string& name,
+                                               std::uint64_t memory) {
   const DefaultFloatingPoint guard;
-  auto state = std::make_unique<State>();
-  State& s = *state;
+  auto state = std::make_unique<Store::State>();
+  Store::State& s = *state;
   s.name = name;
   s.bytes = std::move(bytes);
   std::uint64_t manifest_bytes = 0;
   s.manifest = store::read_manifest(*s.bytes, name, &s.info.hash, &manifest_bytes, memory, &s.memory);
-  s.memory += State::Recent::most;
+  s.memory += Store::State::Recent::most;
   const store::Manifest& m = s.manifest;
   s.info.format = m.format;
   s.info.lossless = m.lossless;
@@ -79,8 +79,8 @@ std::shared_ptr<const Store> Store::open(std::shared_ptr<StoreBytes> bytes, cons
     s.info.largest_error = std::max(s.info.largest_error, shard.largest_error);
   }
   s.info.pages = s.pages.size();
-  s.recent = std::make_unique<State::Recent>(s);
-  return std::shared_ptr<const Store>(new Store(std::move(state)));
+  s.recent = std::make_unique<Store::State::Recent>(s);
+  return std::make_shared<const Store>(std::move(state));
 }
 
 bool Store::is_store(const std::filesystem::path& folder) { return store::is_file(folder, store::current_file); }

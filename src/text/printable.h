@@ -11,8 +11,6 @@ namespace roam {
 
 /// Most characters of a name in a sentence.
 inline constexpr std::size_t longest_name = 120;
-/// Most characters of an excerpt from a malformed file. It is short because a link may lead to a secret.
-inline constexpr std::size_t longest_excerpt = 24;
 /// Most characters of a sentence from another process.
 inline constexpr std::size_t longest_sentence = 600;
 
@@ -32,5 +30,7 @@ struct Character {
 /// and invalid bytes become U+FFFD. If the text has more than `most` characters, an ellipsis replaces those in the
 /// middle.
 [[nodiscard]] std::string printable(std::string_view text, std::size_t most = longest_name);
+/// The same for an excerpt from a malformed file: 24 characters, because a link may lead to a secret.
+[[nodiscard]] inline std::string excerpt(std::string_view text) { return printable(text, 24); }
 
 }  // namespace roam

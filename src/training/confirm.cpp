@@ -12,6 +12,7 @@
 #include <set>
 #include <utility>
 
+#include "math/level_distance.h"
 #include "training/crossings.h"
 #include "training/judgement.h"
 #include "training/over_gap.h"
@@ -31,7 +32,7 @@ constexpr double climbs = 0.1;
 constexpr double growth = 1.6;
 constexpr double most_shut = 2.0;
 
-/// A body that is stopped at a crack grows by this factor, most_larger times; then it gets a foot.
+/// A body that is stopped at a crack grows by this factor, most_larger times; then it gets a support disc.
 constexpr double larger = 1.08;
 constexpr int most_larger = 2;
 /// A body larger than the radius that the rims carry by this factor is not stopped by them.
@@ -45,7 +46,7 @@ struct Shut {
   double reach = 0.0;
   double level = 0.0;  ///< m above and below
   [[nodiscard]] bool holds(const Vec3& p) const {
-    return std::hypot(p.x - place.x, p.y - place.y) <= reach && std::abs(p.z - place.z) <= level;
+    return level_distance(p, place) <= reach && std::abs(p.z - place.z) <= level;
   }
 };
 
@@ -114,8 +115,8 @@ class Confirmation {
     return std::any_of(tries.begin(), tries.end(), [](const Tries& t) { return t.stop.has_value(); });
   }
 
-  /// For each crack that stopped a walker, raises its Evidence::carried_radius, or demands a foot, a limited number of
-  /// times. If nothing helps, restores the old value. Returns whether there is another body to send.
+  /// For each crack that stopped a walker, raises its Evidence::carried_radius, or demands a support disc, a limited
+  /// number of times. If nothing helps, restores the old value. Returns whether there is another body to send.
   bool try_other_bodies(std::vector<Tries>& tries) {
     std::set<std::size_t> cracks;
     for (const Tries& t : tries)
@@ -209,7 +210,7 @@ class Confirmation {
     return stop;
   }
 
-  /// No foot bridges such a trench; the result reports it.
+  /// No support disc bridges such a trench; the result reports it.
   [[nodiscard]] bool sinks_into_shallow(const std::vector<Vec3>& way, double radius) const {
     const std::vector<Crossing> on = crossings_.on(way);
     return std::any_of(on.begin(), on.end(), [&](const Crossing& crossing) {
@@ -252,7 +253,7 @@ class Confirmation {
               up ? climbs : layout_.measure.step};
     const double most = up ? most_shut : 3.0 * spacing;
     for (const Shut& other : t.shut) {
-      if (std::hypot(other.place.x - shut.place.x, other.place.y - shut.place.y) <= other.reach + 2.0 * spacing &&
+      if (level_distance(other.place, shut.place) <= other.reach + 2.0 * spacing &&
           std::abs(other.place.z - shut.place.z) <= shut.level)
         shut.reach = std::max(shut.reach, std::min(most, growth * other.reach));
     }

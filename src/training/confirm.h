@@ -11,7 +11,7 @@
 namespace roam::training {
 
 /// On foot, for the interval. Sends the body that body_of_paths() gives along each path, and back over gaps whose far
-/// rim is lower. If it is stopped or falls at a crack, a larger body or one on a foot is tried first;
+/// rim is lower. If it is stopped or falls at a crack, a larger body, or one with a support disc, is tried first;
 /// Evidence::carried_radius keeps the radius needed. If that fails, the lattice is closed at that place and the way is
 /// planned again. If no way is left, the path moves to Layout::unwalked, and other paths are drawn instead, once.
 void confirm_paths(const Survey& survey, const TrainOptions& options, const ways::BodyKind& kind, Evidence& evidence,

@@ -35,7 +35,7 @@ class Crossings {
   std::vector<Place> places_;  ///< sorted by x
 };
 
-/// Whether floor lies under a foot, or so near that the foot stands on it.
+/// Whether floor lies under feet at `foot`, or so near that they stand on it.
 [[nodiscard]] bool stands_on_floor(const Survey& survey, const Vec3& foot);
 
 /// The part of a way within `reach` (m, along it) of a place on it, at least two points.

@@ -7,7 +7,7 @@
 #include <iterator>
 #include <limits>
 
-#include "roam/support.h"
+#include "motion/carrying.h"
 #include "training/detour.h"
 #include "training/neck_ways.h"
 #include "training/over_gap.h"
@@ -20,8 +20,8 @@ namespace {
 
 /// m, of a grown person: the default body.
 constexpr double person = 0.3;
-/// m: precision of FoundCrack::foot, which is for the thinnest body of the search.
-constexpr double foot_precision = 0.03;
+/// m: precision of FoundCrack::support_radius, which is for the thinnest body of the search.
+constexpr double support_precision = 0.03;
 /// Components searched for cracks, at most. None is smaller than least_searched of the largest one.
 constexpr std::size_t most_searched = 8;
 constexpr double least_searched = 0.01;
@@ -78,12 +78,12 @@ std::vector<cracks::FoundCrack> cracks_of(const Survey& survey, const TrainOptio
 }
 
 void note_width(const cracks::FoundCrack& crack, const TrainOptions& options, double narrowest, Evidence& evidence) {
-  // Beside a wall a foot's disc finds room where no body fits. Elsewhere the largest foot bridges everything but open
+  // Beside a wall a disc finds room where no body fits. Elsewhere the largest support disc bridges everything but open
   // drops.
-  const bool is_beside_wall = crack.foot_radius > crack.radius + foot_precision;
-  const double foot = is_beside_wall ? crack.foot_radius + foot_precision + narrowest + foot_margin
-                                     : std::min(crack.radius + foot_margin, options.support_max);
-  evidence.least_foot = std::max(evidence.least_foot, foot);
+  const bool is_beside_wall = crack.support_radius > crack.radius + support_precision;
+  const double support = is_beside_wall ? crack.support_radius + support_precision + narrowest + support_margin
+                                        : std::min(crack.radius + support_margin, options.support_max);
+  evidence.least_support = std::max(evidence.least_support, support);
 }
 
 /// Fills in the results for each path.
@@ -182,10 +182,11 @@ void choose(const ways::BodyKind& kind, const TrainOptions& options, const Evide
   training.support_radius = 0.0;
   const auto widest = std::max_element(evidence.carried_radius.begin(), evidence.carried_radius.end());
   if (widest != evidence.carried_radius.end() && training.radius < *widest)
-    training.support_radius = std::min(options.support_max, evidence.least_foot);
-  // Only a larger body rolls up over uneven rims. Here the foot must still exceed the body, or it would be no foot.
+    training.support_radius = std::min(options.support_max, evidence.least_support);
+  // Only a larger body rolls up over uneven rims. Here the support disc must still exceed the body, or it would be no
+  // support disc.
   if (training.support_radius > 0.0 && training.support_radius <= training.radius)
-    training.support_radius = std::min(options.support_max, training.radius + foot_margin);
+    training.support_radius = std::min(options.support_max, training.radius + support_margin);
   if (training.support_radius <= training.radius) training.support_radius = 0.0;
 }
 
@@ -223,7 +224,7 @@ Evidence find_cracks(const Survey& survey, const TrainOptions& options, const La
     if (crack.shallow_depth == 0.0) {
       note_width(crack, options, layout.measure.narrowest, evidence);
       const double rise = rise_of(survey, crack, layout.measure.step);
-      // No foot carries a body above its band; a body climbs higher rims by its step.
+      // No support disc carries a body above its band; a body climbs higher rims by its step.
       evidence.carried_radius[i] =
           carried_from(crack.radius, rise > carrying_band ? 0.0 : rise, survey.slope_degrees());
     } else if (!evidence.shallow || crack.radius > evidence.cracks[*evidence.shallow].radius) {

@@ -19,8 +19,9 @@ namespace roam::training {
 inline constexpr double inside_share = 0.97;
 /// Part of the upper end with which certainly no body passes.
 inline constexpr double outside_share = 1.02;
-/// m. A foot exceeds a crack's half width by this. In a trial that must fall, the foot is smaller by this.
-inline constexpr double foot_margin = 0.02;
+/// m. A support disc exceeds a crack's half width by this. In a trial that must fall, the support disc is smaller by
+/// this.
+inline constexpr double support_margin = 0.02;
 
 /// Half widths of a crack: the least radius that both rims carry is 1 / sin(70 degrees) (docs/walking.md). The rest is
 /// for rims that are not straight.
@@ -42,8 +43,8 @@ struct Evidence {
   std::optional<std::size_t> limiting_path;   ///< the path that decides the upper end
   std::optional<std::size_t> limiting_crack;  ///< the crack that decides the lower end
   std::optional<std::size_t> hardest;  ///< the crack on a path that needs the largest body, because its rims are uneven
-  std::optional<std::size_t> shallow;  ///< the widest crack that no foot bridges, because it is shallow
-  double least_foot = 0.0;             ///< m, the least foot that bridges all cracks; 0: there are none
+  std::optional<std::size_t> shallow;  ///< the widest crack that no support disc bridges, because it is shallow
+  double least_support = 0.0;          ///< m, the least support disc that bridges all cracks; 0: there are none
   bool complete = true;                ///< false: ended before all cracks were found
 };
 
@@ -54,7 +55,7 @@ struct Evidence {
 [[nodiscard]] Evidence find_cracks(const Survey& survey, const TrainOptions& options, const Layout& layout,
                                    cracks::RimEdges& ahead, Stages& stages);
 
-/// A body and its foot, m.
+/// A body and its support disc, m.
 struct BodySize {
   double radius = 0.0, support_radius = 0.0;
   bool operator==(const BodySize&) const = default;
@@ -86,8 +87,9 @@ void find_ends(const Survey& survey, const TrainOptions& options, Layout& layout
 /// - the radius of a person, 0.3 m, if it lies in the interval; else the nearest one that does. The margin is 3 % to
 ///   the upper end. To the lower end it is 8 %, so that the rims carry the body, and more if one rim is higher;
 /// - if the upper end is too small for any use: as above, from the paths that let a useful size through;
-/// - if no radius is in the interval: the person's radius, or the largest that passes, and a foot;
-/// - the foot, if any crack of the floor is too wide for the body: its disc and 2 cm; beside a wall, the largest disc
+/// - if no radius is in the interval: the person's radius, or the largest that passes, and a support disc;
+/// - the support disc, if any crack of the floor is too wide for the body: its disc and 2 cm; beside a wall, the
+/// largest disc
 ///   whose centre is in the gap.
 void choose_body(const ways::BodyKind& kind, const TrainOptions& options, const Evidence& evidence, Training& training);
 

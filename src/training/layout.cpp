@@ -12,6 +12,7 @@
 
 #include "cracks/cracks.h"
 #include "cracks/voids.h"
+#include "math/level_distance.h"
 #include "training/places/inside.h"
 #include "ways/flight/way.h"
 #include "ways/refine/refine.h"
@@ -238,7 +239,7 @@ ways::NodeId ReachedFloor::nearest(const Vec3& foot, bool in_sight) const {
         [](const Cell& c, const auto& key) { return std::tie(c.x, c.y) < std::tie(key.first, key.second); });
     for (; at != cells_.end() && at->x == x + dx && at->y <= y + 1; ++at) {
       const ways::Node& node = tree_->node(at->node);
-      const double apart = std::hypot(foot.x - node.place.x, foot.y - node.place.y);
+      const double apart = level_distance(foot, node.place);
       // Within a node's clearance there is no wall.
       const bool has_room = apart <= static_cast<double>(node.clearance);
       if (!(has_room || apart <= beside_) || std::abs(foot.z - node.place.z) > level_) continue;

@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "cracks/floor_plan.h"
-#include "roam/support.h"
+#include "motion/carrying.h"
 #include "training/crossings.h"
 #include "training/interval.h"
 

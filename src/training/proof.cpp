@@ -8,10 +8,11 @@
 #include <optional>
 
 #include "cracks/floor_plan.h"
-#include "roam/support.h"
+#include "motion/carrying.h"
 #include "training/interval.h"
 #include "training/judgement.h"
 #include "training/over_gap.h"
+#include "ways/refine/refine.h"
 #include "ways/trials/on_way.h"
 
 namespace roam::training {
@@ -25,16 +26,19 @@ constexpr double longest_run_up = 12.0;
 
 /// m: a path must continue beyond an opening by this and a body's radius, or the opening stops no body.
 constexpr double past_opening = 0.1;
+/// Radii: sides of an opening are at most this far from the body that just passes. An opening that was measured too
+/// narrow by less is still tried.
+constexpr double side_reach = 0.25;
 /// m, seen from above, between two points of a way on both sides of an edge.
 constexpr double edge = 0.1;
 
 /// m/s. A body that must fall moves slowly: at walking pace it would hop across the last centimetres of a narrow crack.
 constexpr double slow = 0.4;
 
-/// m along a way between two samples of the floor near a foot.
+/// m along a way between two samples of the floor near a support disc.
 constexpr double look_every = 0.0025;
-/// m: a body that must fall finds no floor for at least this length. Straight over a gap it is 2 foot_margin.
-constexpr double long_enough = 1.7 * foot_margin;
+/// m: a body that must fall finds no floor for at least this length. Straight over a gap it is 2 support_margin.
+constexpr double long_enough = 1.7 * support_margin;
 
 /// m: sides of a crack that differ by less are level.
 constexpr double same_level = 0.02;
@@ -54,12 +58,12 @@ Judgement expected_of(TriedBody body) {
   switch (body) {
     case TriedBody::outside_opening:
       return Judgement::cannot_enter;
-    case TriedBody::small_foot:
+    case TriedBody::small_disc:
       return Judgement::flies_off;
     case TriedBody::chosen:
     case TriedBody::chosen_back:
     case TriedBody::inside_opening:
-    case TriedBody::wide_foot:
+    case TriedBody::wide_disc:
       break;
   }
   return Judgement::passed;
@@ -78,7 +82,7 @@ class Proof {
         evidence_(evidence),
         training_(training),
         floor_(survey, layout.measure.step),
-        foot_(evidence.least_foot) {}
+        support_(evidence.least_support) {}
 
   /// The chosen body on every path, then the sizes beside the ends.
   std::vector<Attempt> attempts() {
@@ -119,17 +123,29 @@ class Proof {
     const double largest = *training_.paths[path].largest, outside = outside_share * largest;
     const double place = ways::nearest_on(passage.way, passage.opening->point, kind_.mode).along;
     all.push_back(
-        {path, inside_share * largest, foot_, stretch(passage.way, place, run_up), TriedBody::inside_opening});
+        {path, inside_share * largest, support_, stretch(passage.way, place, run_up), TriedBody::inside_opening});
     // A way planned around something has a wider one beside it, which a larger body may find.
     if (!layout_.paths[path].is_widest) return;
     if (drops_off(stretch(passage.way, place, outside + layout_.measure.step))) return;
+    if (!has_two_sides(passage, place)) return;
     std::vector<Vec3> through = stretch(passage.way, place, run_up);
     const auto has_room = [&] { return fits(through.front(), outside) && fits(through.back(), outside); };
     for (double reach = run_up; reach <= longest_run_up && !has_room(); reach += 0.5 * run_up)
       through = stretch(passage.way, place, reach);
     // If the path begins or ends in a narrow place, or within a radius of one, the opening need not stop the body.
     if (!has_room() || place < outside + past_opening || passage.length - place < outside + past_opening) return;
-    all.push_back({path, outside, foot_, std::move(through), TriedBody::outside_opening});
+    all.push_back({path, outside, support_, std::move(through), TriedBody::outside_opening});
+  }
+
+  /// Whether the opening of a way has two sides. A larger body passes farther from a single side, where it may stand
+  /// higher or lower than the lattice's foot.
+  [[nodiscard]] bool has_two_sides(const Passage& passage, double place) const {
+    bool found = false;
+    // The place itself may lie beside a straight piece of the way.
+    ways::for_each_station(stretch(passage.way, place, edge), 0.2 * edge, [&](const Vec3& at, const Vec3&, double) {
+      found = found || ways::is_between(survey_, layout_.measure, at, *passage.opening, side_reach * passage.radius);
+    });
+    return found;
   }
 
   /// Whether a way leads over an edge higher than a step. A body of any width drops down there, and none comes up.
@@ -155,47 +171,47 @@ class Proof {
     if (crack.shallow_depth > 0.0) return;
     const TrainedPath& path = training_.paths[crossing.path];
     const double passes = path.largest ? inside_share * *path.largest : training_.radius;
-    const double small = crack.radius - foot_margin, body = std::min(passes, small);
+    const double small = crack.radius - support_margin, body = std::min(passes, small);
     if (!(body > 0.0)) return;
-    const double foot = crack.radius + foot_margin;
+    const double support = crack.radius + support_margin;
     std::vector<Vec3> way = stretch(path.way, crossing.crossing.at, 2.0 * crack.radius + run_up);
     if (!stands_on_floor(survey_, way.front()) || !stands_on_floor(survey_, way.back()) || !over_gap(way, small) ||
-        !is_carried(way, foot)) {
+        !is_carried(way, support)) {
       // The path begins or ends over the crack, or crosses it near its rim or where it is narrower. A body there need
       // not fall.
       way = way_over(survey_, crack, body + 0.5 * run_up);
-      if (way.empty() || !fits(way.front(), body) || !fits(way.back(), body) || !is_carried(way, foot)) return;
+      if (way.empty() || !fits(way.front(), body) || !fits(way.back(), body) || !is_carried(way, support)) return;
     }
     if (comes_from_above(way, small)) {
       if (ends_at_rim(way, crack, body)) {
         way = way_over(survey_, crack, body + 0.5 * run_up);
-        if (way.empty() || !fits(way.front(), body) || !fits(way.back(), body) || !is_carried(way, foot)) return;
+        if (way.empty() || !fits(way.front(), body) || !fits(way.back(), body) || !is_carried(way, support)) return;
       }
       if (comes_from_above(way, small)) std::reverse(way.begin(), way.end());
     }
-    // No foot carries a body above its band. A sphere climbs at most its radius, so one that passes below the crack's
-    // width may fail at its higher rim.
+    // No support disc carries a body above its band. A sphere climbs at most its radius, so one that passes below the
+    // crack's width may fail at its higher rim.
     const double climbed = kind_.height > 0.0 ? carrying_band : std::min(body, carrying_band);
     if (rise_of(survey_, crack, layout_.measure.step) <= climbed)
-      all.push_back({crossing.path, body, foot, way, TriedBody::wide_foot});
-    all.push_back({crossing.path, body, small > body ? small : 0.0, std::move(way), TriedBody::small_foot});
+      all.push_back({crossing.path, body, support, way, TriedBody::wide_disc});
+    all.push_back({crossing.path, body, small > body ? small : 0.0, std::move(way), TriedBody::small_disc});
   }
 
   /// Whether a body that begins at the end of a way stands on a crack's rim there, not on floor.
   [[nodiscard]] bool ends_at_rim(const std::vector<Vec3>& way, const cracks::FoundCrack& crack, double body) const {
-    const double over = over_gap(way, crack.radius - foot_margin).value_or(0.0);
+    const double over = over_gap(way, crack.radius - support_margin).value_or(0.0);
     const auto gap = gap_on(survey_, way, over - crack.radius, crack.radius, layout_.measure.step);
     return !gap || gap->beyond < body;
   }
 
-  /// m along a way: the place where a foot of that radius is free of floor and stays so until it falls.
-  [[nodiscard]] std::optional<double> over_gap(const std::vector<Vec3>& way, double foot) const {
+  /// m along a way: the place where a support disc of that radius is free of floor and stays so until it falls.
+  [[nodiscard]] std::optional<double> over_gap(const std::vector<Vec3>& way, double support) const {
     double over = 0.0, gone = 0.0;
     for (std::size_t i = 1; i < way.size(); ++i) {
       const Vec3 along = way[i] - way[i - 1];
       const double level = std::hypot(along.x, along.y), looks = std::max(1.0, std::ceil(level / look_every));
       for (double k = 0.0; k < looks; k += 1.0) {
-        const bool is_over = floor_.nearest(way[i - 1] + (k / looks) * along, foot).distance >= foot;
+        const bool is_over = floor_.nearest(way[i - 1] + (k / looks) * along, support).distance >= support;
         over = is_over ? over + level / looks : 0.0;
         if (over >= long_enough) return gone + (k / looks) * glm::length(along);
       }
@@ -205,8 +221,8 @@ class Proof {
   }
 
   /// Whether a way leads down over a gap. A body may then drop onto its lower side before it sinks.
-  [[nodiscard]] bool comes_from_above(const std::vector<Vec3>& way, double foot) const {
-    const double at = over_gap(way, foot).value_or(0.0), beside = foot + layout_.measure.step;
+  [[nodiscard]] bool comes_from_above(const std::vector<Vec3>& way, double support) const {
+    const double at = over_gap(way, support).value_or(0.0), beside = support + layout_.measure.step;
     const auto highest = [&](double middle) {
       constexpr double apart = 0.02;  // m along the way
       const double step = layout_.measure.step;
@@ -226,10 +242,11 @@ class Proof {
     return highest(at - beside) > highest(at + beside) + same_level;
   }
 
-  /// Whether gaps along a way carry a foot. Beside an open drop the foot may find a free disc in the drop.
-  [[nodiscard]] bool is_carried(const std::vector<Vec3>& way, double foot) const {
+  /// Whether gaps along a way carry a support disc. Beside an open drop the support disc may find a free disc in the
+  /// drop.
+  [[nodiscard]] bool is_carried(const std::vector<Vec3>& way, double support) const {
     constexpr double apart = 0.05;  // m along the way
-    const SupportDisc disc{foot, survey_.slope_degrees(), cracks::knee_height(layout_.measure.step)};
+    const SupportDisc disc{support, survey_.slope_degrees(), cracks::knee_height(layout_.measure.step)};
     for (std::size_t i = 1; i < way.size(); ++i) {
       const Vec3 along = way[i] - way[i - 1];
       const double looks = std::max(1.0, std::ceil(std::hypot(along.x, along.y) / apart));
@@ -252,7 +269,7 @@ class Proof {
   const Evidence& evidence_;
   Training& training_;
   cracks::FloorPlan floor_;
-  double foot_ = 0.0;
+  double support_ = 0.0;
 };
 
 /// The trial of the same body on the same path, made while confirming it.

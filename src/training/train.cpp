@@ -85,7 +85,7 @@ void describe_paths(const Layout& layout, Training& training) {
 void describe_cracks(const Evidence& evidence, Training& training) {
   training.least = least_on_paths(evidence, training);
   training.carried = carried_on_paths(evidence, training);
-  training.least_foot = evidence.least_foot;
+  training.least_support = evidence.least_support;
   training.all_cracks = evidence.complete;
   if (evidence.hardest && training.least > training.smallest) training.hardest = evidence.cracks[*evidence.hardest];
   if (!evidence.shallow) return;

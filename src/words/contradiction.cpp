@@ -8,7 +8,7 @@ namespace {
 
 const char* expected_words(Contradiction::Body body) {
   using Body = Contradiction::Body;
-  return body == Body::outside_opening ? "be stopped" : body == Body::small_foot ? "fall" : "come through";
+  return body == Body::outside_opening ? "be stopped" : body == Body::small_disc ? "fall" : "come through";
 }
 
 const char* body_kind(Contradiction::Body body) {
@@ -22,9 +22,9 @@ const char* body_kind(Contradiction::Body body) {
       return "just inside the opening";
     case Body::outside_opening:
       return "just outside the opening";
-    case Body::wide_foot:
+    case Body::wide_disc:
       return "a support disc just wide enough";
-    case Body::small_foot:
+    case Body::small_disc:
       return "a support disc just too small";
   }
   return "";

@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 
 #include "math/floating_point.h"
+#include "math/level_distance.h"
 #include "words/lines.h"
 #include "words/measures.h"
 
@@ -198,7 +199,7 @@ std::string end_line(const Vec3& asked, const Vec3& stands, Mode mode) {
   const std::string place = at(stands);
   if (mode == Mode::fly)
     return glm::distance(asked, stands) > moved_aside ? place + ", moved: there is no room at " + at(asked) : place;
-  const double aside = std::hypot(stands.x - asked.x, stands.y - asked.y), down = asked.z - stands.z;
+  const double aside = level_distance(stands, asked), down = asked.z - stands.z;
   if (aside > moved_aside) return fmt::format("on the floor at {}, moved: there is no room at {}", place, at(asked));
   if (down > tall) return fmt::format("on the floor at {}, {:.2f} m below {}", place, down, at(asked));
   return "on the floor at " + place;

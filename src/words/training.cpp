@@ -238,10 +238,10 @@ std::string trench_words(const Trench& trench) {
 
 std::string interval_answer(const Training& training, const TrainOptions& options) {
   std::string text = ends_words(training, !training.complete);
-  if (training.least_foot > options.support_max && training.support_radius > 0.0)
+  if (training.least_support > options.support_max && training.support_radius > 0.0)
     text += fmt::format(
         " A crack beside a wall needs a support disc of {:.2f} m, more than --support-max allows: it is not bridged.",
-        training.least_foot);
+        training.least_support);
   return training.trench ? text + trench_words(*training.trench) : text;
 }
 

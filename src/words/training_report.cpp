@@ -28,11 +28,11 @@ std::string headline(const Training& t) {
   if (t.nowhere || t.places == 0) return "NO PLACE: no body can be anywhere in this scene.";
   if (!t.complete) return "INTERRUPTED: this is the best known so far.";
   if (t.paths.empty()) return fmt::format("NO ROUTE: there is room for {}, but no way to go.", body_of(t));
-  const bool has_foot = t.support_radius > t.radius;
+  const bool has_disc = t.support_radius > t.radius;
   const std::string all = t.paths.size() == 1 ? "the route" : fmt::format("all {}", routes(t.paths.size()));
   const std::string wider =
       t.largest && *t.largest > t.radius ? fmt::format(" Up to {:.2f} m wide would.", 2.0 * *t.largest) : std::string();
-  if (t.paper || (!t.feasible && t.contradictions.empty() && has_foot && served(t) == t.paths.size())) {
+  if (t.paper || (!t.feasible && t.contradictions.empty() && has_disc && served(t) == t.paths.size())) {
     if (!t.paper) return fmt::format("PASSES WITH A SUPPORT DISC: {} passes {}.{}", body_of(t), all, wider);
     return fmt::format("{}: {}.", t.feasible ? "PASSES" : "DOES NOT PASS", body_of(t));
   }

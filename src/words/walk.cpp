@@ -144,7 +144,7 @@ std::string headline(const EndedWalk& walk) {
   return text;
 }
 
-std::string tightest(const EndedWalk& walk) {
+std::string narrowest_place(const EndedWalk& walk) {
   if (walk.mode == Mode::ghost || walk.reach <= 0.0 || walk.result.length <= 0.0) return {};
   if (!walk.narrowest) return fmt::format("none: nowhere was there a wall within {:.1f} m on both sides", walk.reach);
   const measure::NarrowPlace& n = *walk.narrowest;
@@ -178,9 +178,9 @@ std::string explain(const EndedWalk& walk) {
     case Outcome::fell: {
       const Vec3 from = first(result, EventKind::fell).value_or(result.end);
       const WalkerSettings& s = walk.settings;
-      const bool foot = s.support_radius > s.radius;
+      const bool disc = s.support_radius > s.radius;
       return fmt::format("at {} the ground ends, or has a crack that a {} of {:g} m does not bridge; a larger one may",
-                         exactly_at(from), foot ? "support radius" : "radius", foot ? s.support_radius : s.radius);
+                         exactly_at(from), disc ? "support radius" : "radius", disc ? s.support_radius : s.radius);
     }
     case Outcome::held:
       return explain_held(walk);

@@ -44,7 +44,7 @@ struct EndedWalk {
 [[nodiscard]] std::string headline(const EndedWalk& walk);
 
 /// "0.750 m clear at 24.0 m, (1.00, 2.00, 3.00): 75 mm to spare on each side"; empty if nothing was measured.
-[[nodiscard]] std::string tightest(const EndedWalk& walk);
+[[nodiscard]] std::string narrowest_place(const EndedWalk& walk);
 
 /// "ducked twice; 1.24 m at the lowest, at 26.0 m, (1.00, 2.00, 3.00)"; empty if nothing was measured, and for flights.
 [[nodiscard]] std::string headroom(const EndedWalk& walk);

@@ -164,6 +164,11 @@ TEST_F(Interrupt, Verify) {
   interrupt({"verify", folder_.file("s")}, 0.05, SIGINT);
 }
 
+TEST_F(Interrupt, Check) {
+  (void)run_program(ROAM_PROGRAM, {"walk", scene(), "--wander", "1", "--certify", folder_.file("certificate")});
+  interrupt({"check", folder_.file("certificate"), scene()}, 0.4, SIGINT);
+}
+
 #ifdef ROAM_HAS_BENCH
 TEST_F(Interrupt, Bench) { interrupt({"bench", "engines", "--queries", "1000000"}); }
 #endif

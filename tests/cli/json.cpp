@@ -29,10 +29,11 @@ TEST(Json, EveryReportHasVersionAndSchema) {
   const TestFolder folder;
   const std::string scene = folder.write("room.obj", room_obj());
   const std::string path = folder.write("way.path", "2 0 0.9\n18 0 0.9\n");
-  const std::string store = folder.file("room.roam");
+  const std::string store = folder.file("room.roam"), certificate = folder.file("certificate");
   for (const Arguments& arguments :
        std::vector<Arguments>{{"info", scene},
-                              {"walk", scene, "--path", path, "--height", "1.8"},
+                              {"walk", scene, "--path", path, "--height", "1.8", "--certify", certificate},
+                              {"check", certificate, scene},
                               {"probe", scene, "--from", "2,0,1", "--to", "8,0,1", "--radius", "0.3"},
                               {"train", scene, "--height", "1.8", "--no-profile"},
                               {"make", "city", "-o", folder.file("city.ply"), "--triangles", "10k"},

@@ -102,6 +102,8 @@ TEST_F(Names, OfWhatIsRefused) {
     EXPECT_NE(run({verb, gone}).status, 0);
     EXPECT_NE(run({verb, empty}).status, 0);
   }
+  EXPECT_NE(run({"check", gone, empty}).status, 0);
+  EXPECT_NE(run({"check", empty, gone}).status, 0);
   EXPECT_EQ(run({"info", "--no-such\x1B[2J\noption"}).status, 2);
   EXPECT_EQ(run({"info\x1B[2J\n"}).status, 2);
   EXPECT_EQ(run({"walk", empty, "--mode", "fl\x1B[2J\ny"}).status, 2);

@@ -1,4 +1,6 @@
 // The profile beside a scene, taken by roam walk and roam view on their own, and refused where it is not of the scene.
+#include "roam/profile.h"
+
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -6,7 +8,6 @@
 
 #include "door_rooms.h"
 #include "program.h"
-#include "roam/profile.h"
 
 namespace {
 
@@ -166,9 +167,13 @@ TEST(ProfileOfWalk, MakesTheBodySmallerInItsRegions) {
   EXPECT_EQ(parsed(trained.walk())["outcome"], "blocked");
   trained.profile.regions = {{{{9.0, -2.0, -0.1}, {11.0, 2.0, 3.0}}, 0.2, 0.0, "door 0.5 m wide"}};
   trained.save();
-  const ProgramResult result = trained.walk({"--verify"});
+  const std::string certificate = trained.folder.file("certificate");
+  const ProgramResult result = trained.walk({"--verify", "--certify", certificate});
   EXPECT_EQ(parsed(result)["outcome"], "reached") << result.out;
   EXPECT_EQ(parsed(result)["violations"], 0);
+  const ProgramResult checked = run_program(ROAM_PROGRAM, {"check", certificate, trained.scene, "--json"});
+  EXPECT_EQ(checked.status, 0) << checked.out;
+  EXPECT_EQ(parsed(checked)["sizes"].size(), 2U) << checked.out;
 }
 
 TEST(ProfileOfWalk, SaysWhatTheBodyNeedsAsItIsInARegion) {

@@ -6,6 +6,7 @@
 #include <span>
 #include <sstream>
 
+#include "environment_variable.h"
 #include "store_builds.h"
 
 namespace {
@@ -62,10 +63,10 @@ TEST(StoreBuildProgram, BuildsInSteps) {
   EXPECT_EQ(Json::parse(plan.out)["shards_to_build"], 1);
   const auto early = roam({"build", "-o", folder.file("s"), "--merge"});
   EXPECT_EQ(early.status, 1);
-  EXPECT_NE(early.err.find("shard 0 is missing"), std::string::npos) << early.err;
+  EXPECT_NE(early.err.find("missing shards: 1, damaged shards: 0, in tasks 0 of 1;"), std::string::npos) << early.err;
   const auto shard = roam({"build", "-o", folder.file("s"), "--shard", "0"});
   EXPECT_EQ(shard.status, 0);
-  EXPECT_NE(shard.out.find("shard 0"), std::string::npos) << shard.out;
+  EXPECT_EQ(shard.out.rfind("task 0 of 1: shards built: 1, there already: 0, in ", 0), 0U) << shard.out;
   const auto merge = roam({"build", "-o", folder.file("s"), "--merge"});
   EXPECT_EQ(merge.status, 0) << merge.err;
   EXPECT_NE(merge.out.find("7200 triangles"), std::string::npos) << merge.out;
@@ -77,7 +78,7 @@ TEST(StoreBuildProgram, SaysWhichShardsThereAre) {
   const std::string scene = write_ply(folder.file("a.ply"), field(60, 0.5, {0.0, 0.0, 0.0}));
   const std::string store = folder.file("s");
   const auto one = roam({"build", scene, "-o", store, "--plan"});
-  EXPECT_EQ(one.out.rfind("1 shard to build: --shard 0, on", 0), 0U) << one.out;
+  EXPECT_EQ(one.out.rfind("1 task: --shard 0, on", 0), 0U) << one.out;
   EXPECT_EQ(roam({"build", "-o", store, "--shard", "-1"}).status, 2);
   EXPECT_EQ(roam({"build", "-o", store, "--shard", "0"}).status, 0);
   EXPECT_EQ(roam({"build", "-o", store, "--merge"}).status, 0);
@@ -88,6 +89,53 @@ TEST(StoreBuildProgram, SaysWhichShardsThereAre) {
   EXPECT_EQ(none.out.find("--shard 0"), std::string::npos) << none.out;
   EXPECT_NE(none.out.find("--merge"), std::string::npos) << none.out;
   EXPECT_EQ(roam({"build", "-o", store, "--merge"}).status, 0);
+}
+
+TEST(StoreBuildProgram, TakesTheNumberOfItsTaskFromABatchEngine) {
+  const TestFolder folder;
+  const std::string scene = write_ply(folder.file("a.ply"), field(20, 0.5, {0.0, 0.0, 0.0}));
+  const std::string store = folder.file("s");
+  const auto task = [&] { return roam({"build", "-o", store, "--shard", "auto"}); };
+  // Before SCENE, --plan without a number is --plan.
+  ASSERT_EQ(roam({"build", "--plan", scene, "-o", store}).status, 0);
+  const auto outside = task();
+  EXPECT_EQ(outside.status, 2);
+  EXPECT_NE(outside.err.find("this is no job of an array"), std::string::npos) << outside.err;
+  const std::vector<std::vector<std::string>> engines = {{"Slurm", "SLURM_ARRAY_TASK_ID", "0"},
+                                                         {"Grid Engine", "SGE_TASK_ID", "1"},
+                                                         {"PBS", "PBS_ARRAY_INDEX", "0"},
+                                                         {"Torque", "PBS_ARRAYID", "0"},
+                                                         {"LSF", "LSB_JOBINDEX", "1"},
+                                                         {"AWS Batch", "AWS_BATCH_JOB_ARRAY_INDEX", "0"},
+                                                         {"Kubernetes", "JOB_COMPLETION_INDEX", "0"},
+                                                         {"GNU parallel", "PARALLEL_SEQ", "1"}};
+  for (const auto& engine : engines) {
+    const EnvironmentVariable first(engine[1].c_str(), engine[2]);
+    const auto built = task();
+    const std::string start = "task 0 of 1 (" + engine[0] + ", " + engine[1] + "=" + engine[2] + "): shards built: ";
+    EXPECT_EQ(built.out.rfind(start, 0), 0U) << built.out << built.err;
+  }
+  {
+    // Jobs outside of arrays have these values. The first variable that counts wins.
+    const EnvironmentVariable grid("SGE_TASK_ID", "undefined"), lsf("LSB_JOBINDEX", "0"), parallel("PARALLEL_SEQ", "1");
+    EXPECT_NE(task().out.find("GNU parallel"), std::string::npos);
+    const EnvironmentVariable slurm("SLURM_ARRAY_TASK_ID", "7");
+    const auto beyond = task();
+    EXPECT_EQ(beyond.status, 0) << beyond.err;
+    EXPECT_NE(beyond.out.find("no task 7 in the plan: they go from 0 to 0 (SLURM_ARRAY_TASK_ID=7)"), std::string::npos)
+        << beyond.out;
+    EXPECT_EQ(roam({"build", "-o", store, "--shard", "7"}).status, 1) << "named, and not there";
+  }
+  for (const char* wrong : {"x", "-1", "1e3", "99999999999999999999999"}) {
+    const EnvironmentVariable slurm("SLURM_ARRAY_TASK_ID", wrong);
+    EXPECT_EQ(task().status, 2) << wrong;
+  }
+  ASSERT_EQ(roam({"build", "-o", store, "--merge"}).status, 0);
+  const EnvironmentVariable late("AWS_BATCH_JOB_ARRAY_INDEX", "0");
+  for (const auto& repeated : {task(), roam({"build", "-o", store, "--merge"})}) {
+    EXPECT_EQ(repeated.status, 0) << repeated.err;
+    EXPECT_EQ(repeated.out, "nothing to do: " + store + " is complete, and no build of it is planned\n");
+  }
 }
 
 TEST(StoreBuildProgram, IsStoppedByCtrlCAndGoesOn) {

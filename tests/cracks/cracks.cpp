@@ -1,5 +1,7 @@
 // The lower end: what is a crack of a floor and how wide, and what only looks like one.
 
+#include "cracks/cracks.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -10,7 +12,6 @@
 #include <utility>
 #include <vector>
 
-#include "cracks/cracks.h"
 #include "floor_cases.h"
 #include "seeded_gallery.h"
 
@@ -173,21 +174,21 @@ TEST(Cracks, AreOneHoweverLong) {
   EXPECT_EQ(found[0].rim.size(), 2u * 300u);
 }
 
-TEST(Cracks, KnowTheFootThatThinBodiesNeedBesideAWall) {
+TEST(Cracks, KnowTheDiscThatThinBodiesNeedBesideAWall) {
   const double lattice = 0.035, nearest = 0.045;  // m: spacing, and how near to a wall the smallest body comes
   for (const FloorCase& c : floor_cases()) {
     SCOPED_TRACE(c.name);
     for (const FoundCrack& crack : find_cracks(survey_of(c.mesh), {}, c.is_reached))
-      EXPECT_GE(crack.foot_radius, crack.radius);
+      EXPECT_GE(crack.support_radius, crack.radius);
   }
   const Survey along = survey_of(holed({rectangle(0.0, 0.0, long_side, 0.5)}));
   const auto beside = find_cracks(along, {}, [](const Vec3& foot) { return foot.z > -0.35; });
   ASSERT_EQ(beside.size(), 1u);
-  EXPECT_NEAR(beside[0].foot_radius, 0.5 - nearest, lattice);
+  EXPECT_NEAR(beside[0].support_radius, 0.5 - nearest, lattice);
   const auto across = find_cracks(survey_of(straight_split("", 0.5, 2.0, 0.0).mesh), {},
                                   [](const Vec3& foot) { return foot.z > -0.35; });
   ASSERT_EQ(across.size(), 1u);
-  EXPECT_NEAR(across[0].foot_radius, 0.25, 2e-5);
+  EXPECT_NEAR(across[0].support_radius, 0.25, 2e-5);
 }
 
 TEST(Cracks, NarrowerThanTheSmallestBodyAreNotLookedFor) {
@@ -196,7 +197,7 @@ TEST(Cracks, NarrowerThanTheSmallestBodyAreNotLookedFor) {
   EXPECT_TRUE(find_cracks(survey_of(c.mesh), {.smallest = 0.095}, c.is_reached).empty());
 }
 
-TEST(Cracks, AreOpenDropsFromTheLargestFootOn) {
+TEST(Cracks, AreOpenDropsFromTheLargestDiscOn) {
   const FloorCase c = straight_split("", 1.0, 2.0, 0.0);
   const Survey survey = survey_of(c.mesh);
   const auto wide = find_cracks(survey, {.support_max = 0.51}, c.is_reached);

@@ -98,7 +98,7 @@ TEST(OpeningPicture, StandsTheBodyOnTheFloorOfTheSection) {
   EXPECT_NEAR(body.upper.y, scene.upper.y, 1.0);  // the sheet's y points down: the feet are on the floor
 }
 
-TEST(OpeningPicture, ShowsFallingAndTheFootOverACrack) {
+TEST(OpeningPicture, ShowsFallingAndTheSupportDiscOverACrack) {
   Mesh mesh;
   scenes::add_floor(mesh, -10.0, -2.0, -0.4, 2.0, 0.0);
   scenes::add_floor(mesh, 0.4, -2.0, 10.0, 2.0, 0.0);
@@ -109,14 +109,14 @@ TEST(OpeningPicture, ShowsFallingAndTheFootOverACrack) {
   view.fits = false;
   const Sheet falls = opening_sheet("scene.obj", std::vector{view}, meshes);
   EXPECT_EQ(all<Lines>(falls, "fall").size(), 1u);
-  EXPECT_TRUE(all<Disc>(falls, "plan foot").empty());
+  EXPECT_TRUE(all<Disc>(falls, "plan disc").empty());
   expect_readable(falls);
   view.fits = true;
   view.support_radius = 0.45;
   const Sheet carried = opening_sheet("scene.obj", std::vector{view}, meshes);
   EXPECT_TRUE(all<Lines>(carried, "fall").empty());
-  ASSERT_EQ(all<Disc>(carried, "plan foot").size(), 1u);
-  EXPECT_NEAR(all<Disc>(carried, "plan foot")[0].radius, 0.45 * pixels_per_metre(carried), 0.5);
+  ASSERT_EQ(all<Disc>(carried, "plan disc").size(), 1u);
+  EXPECT_NEAR(all<Disc>(carried, "plan disc")[0].radius, 0.45 * pixels_per_metre(carried), 0.5);
   expect_readable(carried);
 }
 

@@ -11,10 +11,6 @@ namespace {
 using graphics::FrameSettings;
 using graphics::Quality;
 
-const osg::Vec3d x_axis(1, 0, 0), y_axis(0, 1, 0), z_axis(0, 0, 1);
-const FrameSettings full{.samples = 1, .quality = Quality::full};
-const FrameSettings light{.samples = 1, .quality = Quality::light};
-
 /// A wall of the photogrammetric kind: textured, without normals.
 osg::ref_ptr<osg::Geometry> photograph(osg::ref_ptr<osg::Geometry> geometry) {
   osg::ref_ptr<osg::Image> image = new osg::Image;
@@ -47,7 +43,7 @@ int foot_row(const Stage& stage) {
 }
 
 TEST(GraphicsEffects, OcclusionDarkensACornerAndLeavesAFreePlaneAlone) {
-  for (const FrameSettings& settings : {full, light}) {
+  for (const FrameSettings& settings : {with_full, with_light}) {
     Corner with(settings), without(plain);
     with.stage.frame.set_edges(false);
     const auto dark = with.stage.picture(), bright = without.stage.picture();
@@ -62,7 +58,7 @@ TEST(GraphicsEffects, OcclusionDarkensACornerAndLeavesAFreePlaneAlone) {
 }
 
 TEST(GraphicsEffects, AFreePlaneIsLeftAloneAtEveryAngleAndDistance) {
-  for (const FrameSettings& settings : {full, light}) {
+  for (const FrameSettings& settings : {with_full, with_light}) {
     for (const double height : {0.1, 1.6, 40.0, 900.0}) {
       Stage with(160, 90, settings), without(160, 90);
       for (Stage* stage : {&with, &without}) {
@@ -84,7 +80,7 @@ TEST(GraphicsEffects, AFreePlaneIsLeftAloneAtEveryAngleAndDistance) {
 }
 
 TEST(GraphicsEffects, PhotographsAreShownAsTheyAre) {
-  for (const FrameSettings& settings : {full, light}) {
+  for (const FrameSettings& settings : {with_full, with_light}) {
     Corner corner(settings, true);
     const auto picture = corner.stage.picture();
     for (int y = 0; y < 180; ++y) {
@@ -100,7 +96,7 @@ void add_board(Stage& stage) {
 }
 
 TEST(GraphicsEffects, EdgesAreDrawnAtAStepAndVanishWhenSwitchedOff) {
-  for (const FrameSettings& settings : {full, light}) {
+  for (const FrameSettings& settings : {with_full, with_light}) {
     Stage stage(320, 180, settings);
     add_board(stage);
     const auto least = [](const osg::Image& picture) {
@@ -118,7 +114,7 @@ TEST(GraphicsEffects, EdgesAreDrawnAtAStepAndVanishWhenSwitchedOff) {
 }
 
 TEST(GraphicsEffects, APlaneOfManyTrianglesHasNoEdges) {
-  for (const FrameSettings& settings : {full, light}) {
+  for (const FrameSettings& settings : {with_full, with_light}) {
     Stage stage(320, 180, settings);
     for (int i = -20; i < 20; ++i) {
       stage.add(quad({0.5 * i, 2.0 + 0.4 * i, 0}, osg::Vec3d(0.25, 0.2, 0), z_axis * 9));

@@ -14,7 +14,6 @@ namespace {
 using graphics::FrameSettings;
 
 const osg::Vec4 red(1, 0, 0, 1), blue(0, 0, 1, 1), white(1, 1, 1, 1);
-const osg::Vec3d x_axis(1, 0, 0), z_axis(0, 0, 1);
 
 bool reddish(const Pixel& p) { return p.r > p.b + 40; }
 

@@ -15,7 +15,6 @@ namespace {
 
 using graphics::TileLimits;
 
-const osg::Vec3d x_axis(1, 0, 0), y_axis(0, 1, 0), z_axis(0, 0, 1);
 /// Several tiles of a small picture.
 const TileLimits small{.pixels = 1000, .side = 100, .tile_side = 248};
 const TileLimits whole{.pixels = 100'000'000, .side = 16384, .tile_side = 16384};

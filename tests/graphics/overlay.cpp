@@ -2,6 +2,8 @@
 
 #include "graphics/overlay.h"
 
+#include <tuple>
+
 #include "graphics_stage.h"
 
 namespace roam::test {
@@ -46,6 +48,17 @@ Extent extent(const osg::Image& a, const osg::Image& b) {
 
 osg::ref_ptr<osg::Geometry> grey_wall(double distance) {
   return paint(quad({0, distance, 0}, {30, 0, 0}, {0, 0, 30}), {0.5f, 0.5f, 0.5f, 1});
+}
+
+TEST(GraphicsOverlay, LinesGetWiderWithTheWindow) {
+  for (const auto& [width, height, line] : {std::tuple{640, 360, 2}, std::tuple{1920, 2160, 4}}) {
+    Stage stage(width, height);
+    stage.add(grey_wall(20));
+    const auto without = stage.picture();
+    Overlay overlay(stage.frame);
+    overlay.set_marks({.lines = {{Vec3(-3, 10, 0), Vec3(3, 10, 0)}}});
+    EXPECT_NEAR(extent(*without, *stage.picture()).height, line, 1) << height;
+  }
 }
 
 TEST(GraphicsOverlay, TheBodyIsAsLargeAsItIs) {

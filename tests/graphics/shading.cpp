@@ -7,8 +7,6 @@
 namespace roam::test {
 namespace {
 
-const osg::Vec3d x_axis(1, 0, 0), y_axis(0, 1, 0), z_axis(0, 0, 1);
-
 /// The middle of a picture of `geometry` alone.
 Pixel middle_of(const osg::ref_ptr<osg::Node>& node) {
   Stage stage(64, 64);

@@ -10,10 +10,6 @@ namespace roam::test {
 namespace {
 
 using graphics::FrameSettings;
-using graphics::Quality;
-
-const osg::Vec3d x_axis(1, 0, 0), y_axis(0, 1, 0), z_axis(0, 0, 1);
-const FrameSettings full{.samples = 1, .quality = Quality::full};
 
 /// Where a point at height `z` throws its shadow on the ground.
 osg::Vec3d shadow_of(const osg::Vec3d& p) {
@@ -32,7 +28,7 @@ struct Counter : osg::Drawable::DrawCallback {
 
 /// Ground with a board of 2 x 2 m, 3 m above it.
 struct Yard {
-  explicit Yard(const FrameSettings& settings = full, const osg::Vec3d& where = {})
+  explicit Yard(const FrameSettings& settings = with_full, const osg::Vec3d& where = {})
       : stage(320, 180, settings), at(where) {
     stage.frame.set_edges(false);
     osg::ref_ptr<osg::MatrixTransform> cell = new osg::MatrixTransform(osg::Matrixd::translate(where));
@@ -149,7 +145,7 @@ TEST(GraphicsSun, AShadowStaysWhereItIsWhenTheEyeMoves) {
 
 TEST(GraphicsSun, ShadowsAreRightFarFromTheOrigin) {
   for (const osg::Vec3d& at : {osg::Vec3d(20'000, -7000, 300), osg::Vec3d(-3, 50'000, -2000)}) {
-    Yard yard(full, at);
+    Yard yard(with_full, at);
     EXPECT_LT(yard.share(), 80);
     const auto picture = yard.stage.picture();
     for (int x = -3; x < 4; ++x) {
@@ -172,7 +168,7 @@ TEST(GraphicsSun, GlassAndWhatASectionHidesThrowNoShadow) {
 }
 
 TEST(GraphicsSun, UnderARoofTheLampShines) {
-  Stage stage(320, 180, full);
+  Stage stage(320, 180, with_full);
   stage.add(quad({0, 0, 3}, x_axis * 9, y_axis * 9));
   stage.add(quad({0, 0, 0}, x_axis * 9, y_axis * 9));
   graphics::Sun sun(stage.frame, *stage.scene);

@@ -2,6 +2,7 @@
 
 #include <sys/wait.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <glm/geometric.hpp>
 #include <string>
@@ -43,9 +44,8 @@ TEST(ImportDisplay, ShowsTheTrianglesThatAreWalkedOn) {
   const TemporaryFolder folder;
   for (const auto& [name, content] : scenes_at("12")) {
     const auto file = folder.write(name, content);
-    for (const ImportOptions& options :
-         {ImportOptions{}, ImportOptions{.up = UpAxis::y, .unit = LengthUnit::ft}, ImportOptions{.up = UpAxis::x},
-          ImportOptions{.up = UpAxis::minus_y}}) {
+    for (const ImportOptions& options : {ImportOptions{}, ImportOptions{.up = UpAxis::y, .unit = LengthUnit::ft},
+                                         ImportOptions{.up = UpAxis::x}, ImportOptions{.up = UpAxis::minus_y}}) {
       const ImportedScene scene = import_scene(file, options);
       const Shown shown = show({file}, options);
       EXPECT_GT(shown.triangles.size(), 0u) << name;
@@ -115,6 +115,45 @@ std::string plane(std::uint32_t n) {
     }
   }
   return text;
+}
+
+/// "Wall 1" of each object: its names, with > between them, and its triangles.
+std::string objects_of(const Shown& shown) {
+  std::map<std::string, std::uint32_t> counts;
+  for (const auto& part : shown.parts) {
+    for (const DisplayGeometry& geometry : part->geometries) {
+      std::uint32_t all = 0;
+      for (const DisplayRun& run : geometry.runs) {
+        std::string name = part->objects.at(run.object);
+        std::replace(name.begin(), name.end(), DisplayPart::name_separator, '>');
+        counts[name] += run.triangles;
+        all += run.triangles;
+      }
+      EXPECT_EQ(3 * all, geometry.indices.size());
+    }
+  }
+  std::string text;
+  for (const auto& [name, count] : counts) text += (text.empty() ? "" : "; ") + name + " " + std::to_string(count);
+  return text;
+}
+
+TEST(ImportDisplay, SaysWhichObjectATriangleIsOf) {
+  const TemporaryFolder folder;
+  EXPECT_EQ(objects_of(show({folder.write("scene.obj", scenes_at("1")["scene.obj"])})), "Wall 1; Wall>Door 2");
+  EXPECT_EQ(objects_of(show({folder.write("house.ply", scenes_at("1")["scene.ply"])})), "house 2");
+  const auto named = [](const std::string& name, const std::string& child) {
+    return "Group {\nname \"" + name + "\"\nnum_children 1\n" + child + "}\n";
+  };
+  const std::string geode =
+      "Geode {\nname \"Table\"\nnum_drawables 1\nGeometry {\nPrimitives 1\n{\nDrawArrays TRIANGLES 0 "
+      "3\n}\nVertexArray Vec3dArray 3\n{\n0 0 0\n0 1 0\n0 0 1\n}\n}\n}\n";
+  EXPECT_EQ(objects_of(show({folder.write("house.osg", named("House", named("Kitchen", geode)))})),
+            "House>Kitchen>Table 1");
+  // Triangles of one object follow each other, however many there are of them.
+  const Shown many = show({folder.write("plane.ply", plane(300))});
+  for (const DisplayGeometry* geometry : many.geometries()) {
+    EXPECT_EQ(geometry->runs.size(), 1u);
+  }
 }
 
 TEST(ImportDisplay, CutsLargeGeometryIntoChunksAndParts) {

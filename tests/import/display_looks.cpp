@@ -242,6 +242,79 @@ TEST(ImportDisplayLooks, ReadsMaterialsOfGltf) {
   EXPECT_EQ(air.triangles.at(0).colours[0][3], 255);
 }
 
+/// The look of the triangle, and the images of its part.
+struct GltfLook {
+  DisplayLook look;
+  std::vector<DisplayTexture> images;
+};
+GltfLook look_of(const TemporaryFolder& folder, const std::string& material, const std::string& image = "wood.bmp") {
+  const Shown shown = show({folder.write("a.gltf", gltf(material, image))});
+  return {shown.triangles.at(0).look, shown.parts.at(0)->textures};
+}
+
+TEST(ImportDisplayLooks, ReadsRoughnessAndMetalnessOfGltf) {
+  const TemporaryFolder folder;
+  folder.write("wood.bmp", bmp({{10, 20, 30}, {40, 50, 60}}));
+  const auto gloss = [&](const std::string& members) {
+    return look_of(folder, R"({"pbrMetallicRoughness":{)" + members + "}}");
+  };
+  EXPECT_EQ(look_of(folder, "{}").look.roughness, 1.0f);
+  EXPECT_EQ(gloss("").look.roughness, 1.0f) << "glTF's default: the roughest metal, which looks dull";
+  const DisplayLook brass = gloss(R"("metallicFactor":0.75,"roughnessFactor":0.25)").look;
+  EXPECT_EQ(brass.metalness, 0.75f);
+  EXPECT_EQ(brass.roughness, 0.25f);
+  EXPECT_EQ(gloss(R"("roughnessFactor":0.26)").look.roughness, 0.25f) << "to 1/16, so that few looks differ";
+  const DisplayLook odd = gloss(R"("metallicFactor":-7,"roughnessFactor":-1e300)").look;
+  EXPECT_EQ(odd.metalness, 0.0f);
+  EXPECT_EQ(odd.roughness, 0.0f);
+  EXPECT_EQ(gloss(R"("roughnessFactor":1e30)").look.roughness, 1.0f);
+
+  const GltfLook patchy = gloss(R"("roughnessFactor":0.5,"metallicRoughnessTexture":{"index":0})");
+  EXPECT_EQ(patchy.look.texture, DisplayLook::no_texture);
+  ASSERT_EQ(patchy.look.gloss_texture, 0u);
+  EXPECT_EQ(patchy.images.at(0).texels, DisplayTexels::grey_alpha);
+  EXPECT_EQ(patchy.images[0].bytes, (std::vector<std::uint8_t>{20, 30, 50, 60})) << "green and blue";
+  EXPECT_EQ(patchy.look.roughness, 0.5f);
+  // The same image with two meanings is two.
+  const GltfLook both =
+      gloss(R"("baseColorTexture":{"index":0},"metallicRoughnessTexture":{"index":0},"roughnessFactor":0.5)");
+  EXPECT_EQ(both.images.size(), 2u);
+  EXPECT_NE(both.look.texture, both.look.gloss_texture);
+}
+
+TEST(ImportDisplayLooks, WithoutItsImageASurfaceOfGltfIsDull) {
+  const TemporaryFolder folder;
+  folder.write("wood.bmp", bmp({{10, 20, 30}}));
+  const std::string mirror = R"({"pbrMetallicRoughness":{"baseColorTexture":{"index":0},"roughnessFactor":0,)"
+                             R"("metallicRoughnessTexture":{"index":0)";
+  EXPECT_EQ(look_of(folder, mirror + "}}}").look.roughness, 0.0f);
+  EXPECT_EQ(look_of(folder, mirror + "}}}", "gone.bmp").look.roughness, 1.0f);
+  EXPECT_EQ(look_of(folder, mirror + R"(,"texCoord":1}}})").look.roughness, 1.0f) << "it lies otherwise";
+  const DisplayLook moved =
+      look_of(folder, mirror + R"(,"extensions":{"KHR_texture_transform":{"scale":[2,2]}}}}})").look;
+  EXPECT_EQ(moved.roughness, 1.0f);
+  EXPECT_EQ(moved.texture, 0u);
+}
+
+TEST(ImportDisplayLooks, ReadsEmissionOfGltf) {
+  const TemporaryFolder folder;
+  folder.write("wood.bmp", bmp({{10, 20, 30}}));
+  using Emission = std::array<std::uint8_t, 3>;
+  const DisplayLook lamp = look_of(folder, R"({"emissiveFactor":[1,0.2158605,0]})").look;
+  EXPECT_EQ(lamp.emission, (Emission{255, 128, 0}));
+  EXPECT_EQ(lamp.emission_texture, DisplayLook::no_texture);
+  EXPECT_EQ(look_of(folder, R"({"emissiveFactor":[0.1,0,0],"extensions":{"KHR_materials_emissive_strength":
+                                {"emissiveStrength":2.158605}}})")
+                .look.emission,
+            (Emission{128, 0, 0}));
+  const DisplayLook screen = look_of(folder, R"({"emissiveFactor":[1,1,1],"emissiveTexture":{"index":0}})").look;
+  EXPECT_EQ(screen.emission_texture, 0u);
+  EXPECT_EQ(screen.emission, (Emission{255, 255, 255}));
+  EXPECT_EQ(look_of(folder, R"({"emissiveTexture":{"index":0}})").images.size(), 0u) << "times 0";
+  EXPECT_EQ(look_of(folder, R"({"emissiveFactor":[1,1,1],"emissiveTexture":{"index":0}})", "gone.bmp").look.emission,
+            Emission{});
+}
+
 /// A square in OpenSceneGraph's text format with a state, colours and coordinates.
 std::string square(const std::string& state, const std::string& colours) {
   return "Geode {\nnum_drawables 1\nGeometry {\n" + state +

@@ -27,7 +27,10 @@ DisplayPart full_part() {
       {2, 3, DisplayTexels::rgb, DisplayWrap::repeat, DisplayWrap::clamp, 1, std::vector<std::uint8_t>(18, 7)});
   part.textures.push_back({8, 4, DisplayTexels::dxt5, DisplayWrap::mirror, DisplayWrap::repeat, 4,
                            std::vector<std::uint8_t>(DisplayTexture::bytes_of(DisplayTexels::dxt5, 8, 4, 4), 9)});
-  part.looks = {{}, {0, DisplayCover::cut, 0.25f}, {1, DisplayCover::blended, 0.5f}};
+  constexpr std::uint32_t none = DisplayLook::no_texture;
+  part.looks = {{none, DisplayCover::opaque, 0.5f, 0.25f, 1.0f, none, {255, 128, 0}, none},
+                {0, DisplayCover::cut, 0.25f},
+                {none, DisplayCover::blended, 0.5f, 1.0f, 1.0f, 1, {1, 1, 1}, 0}};
   part.groups = 3;
   for (std::uint32_t i = 0; i < 3; ++i) {
     DisplayGeometry geometry;
@@ -39,8 +42,10 @@ DisplayPart full_part() {
     if (i == 1) geometry.normals.assign(4, {0, 0, 1});
     if (i > 0) geometry.coordinates.assign(4, {0.5f, 0.25f});
     geometry.indices = {0, 1, 2, 0, 2, 3};
+    if (i == 1) geometry.runs = {{1, 1}, {0, 1}};
     part.geometries.push_back(geometry);
   }
+  part.objects = {"wall", "door"};
   part.triangles = 6;
   part.pages.push_back({0, {1, 2, 3}, 5.0f, true, {{0, 100, 1, {}}, {100, 1e30f, 0, "a page"}}});
   part.pages.push_back({1, {1, 2, 3}, 2.0f, false, {{0, 50, 2, {}}, {0, 10, 0, "one"}, {5, 20, 0, "two"}}});
@@ -60,7 +65,12 @@ bool is_valid(const DisplayPart& part) {
     }
   }
   for (const DisplayLook& look : part.looks) {
-    valid = valid && (look.texture == DisplayLook::no_texture || look.texture < part.textures.size());
+    for (const std::uint32_t image : {look.texture, look.gloss_texture, look.emission_texture}) {
+      valid = valid && (image == DisplayLook::no_texture || image < part.textures.size());
+    }
+    for (const float share : {look.cutoff, look.roughness, look.metalness}) {
+      valid = valid && share >= 0.0f && share <= 1.0f;
+    }
   }
   std::uint64_t triangles = 0;
   for (const DisplayGeometry& g : part.geometries) {
@@ -68,13 +78,19 @@ bool is_valid(const DisplayPart& part) {
     valid = valid && g.colours.size() == g.positions.size();
     valid = valid && (g.normals.empty() || g.normals.size() == g.positions.size());
     if (!valid) return false;
-    const bool textured = part.looks[g.look].texture != DisplayLook::no_texture;
+    const bool textured = part.looks[g.look].has_image();
     valid = valid && g.coordinates.size() == (textured ? g.positions.size() : 0);
     for (const std::uint16_t i : g.indices) valid = valid && i < g.positions.size();
     for (const glm::vec3& p : g.positions) {
       for (int k = 0; k < 3; ++k) valid = valid && std::abs(g.cell[k] + double(p[k])) <= 4e9;
     }
     for (const glm::vec3& n : g.normals) valid = valid && std::isfinite(n.x) && std::isfinite(n.y);
+    std::size_t in_runs = 0;
+    for (const DisplayRun& run : g.runs) {
+      valid = valid && run.object < part.objects.size();
+      in_runs += run.triangles;
+    }
+    valid = valid && (g.runs.empty() || in_runs == g.indices.size() / 3);
     triangles += g.indices.size() / 3;
   }
   std::vector<int> shown(part.groups, 0);
@@ -112,6 +128,8 @@ TEST(ImportDisplayStream, BringsEveryValue) {
   EXPECT_TRUE(is_valid(part));
   EXPECT_EQ(encode(part), encode(sent));
   EXPECT_EQ(part.pages[1].levels[2].page, "two");
+  EXPECT_EQ(part.objects[1], "door");
+  EXPECT_EQ(part.geometries[1].runs[0].object, 1u);
   EXPECT_EQ(part.textures[1].bytes.size(), 16u * (2 + 1 + 1 + 1));
   EXPECT_EQ(part.geometries[1].normals[3], glm::vec3(0, 0, 1));
 }
@@ -132,11 +150,20 @@ TEST(ImportDisplayStream, RefusesWhatIsNoValue) {
   EXPECT_EQ(with([](DisplayPart& p) { p.textures[0].up = DisplayWrap(3); }), "a value of no meaning");
   EXPECT_EQ(with([](DisplayPart& p) { p.textures[0].texels = DisplayTexels(8); }), "a value of no meaning");
   EXPECT_EQ(with([](DisplayPart& p) { p.looks[1].texture = 2; }), "a look without its image");
+  EXPECT_EQ(with([](DisplayPart& p) { p.looks[2].gloss_texture = 2; }), "a look without its image");
+  EXPECT_EQ(with([](DisplayPart& p) { p.looks[2].emission_texture = 7; }), "a look without its image");
   EXPECT_EQ(with([&](DisplayPart& p) { p.looks[1].cutoff = nan; }), "a value of no meaning");
+  EXPECT_EQ(with([&](DisplayPart& p) { p.looks[1].roughness = nan; }), "a value of no meaning");
+  EXPECT_EQ(with([](DisplayPart& p) { p.looks[0].metalness = 1.5f; }), "a value of no meaning");
   EXPECT_EQ(with([](DisplayPart& p) { p.geometries[0].look = 3; }), "a geometry without a place");
   EXPECT_EQ(with([](DisplayPart& p) { p.geometries[0].group = 3; }), "a geometry without a place");
   EXPECT_EQ(with([](DisplayPart& p) { p.geometries[0].indices[5] = 4; }), "a triangle of vertices that are not there");
   EXPECT_EQ(with([](DisplayPart& p) { p.geometries[0].indices.pop_back(); }), "a geometry that is not whole");
+  EXPECT_EQ(with([](DisplayPart& p) { p.geometries[1].runs[0].object = 2; }), "triangles of no object");
+  EXPECT_EQ(with([](DisplayPart& p) { p.geometries[1].runs[0].triangles = 2; }), "triangles of no object");
+  EXPECT_EQ(with([](DisplayPart& p) { p.geometries[1].runs.pop_back(); }), "triangles of no object");
+  EXPECT_EQ(with([](DisplayPart& p) { p.objects[0].assign(DisplayPart::name_limit + 1, 'x'); }),
+            "a list that is too long");
   EXPECT_EQ(with([](DisplayPart& p) { p.geometries[0].colours.pop_back(); }), "a geometry that is not whole");
   EXPECT_EQ(with([](DisplayPart& p) { p.geometries[1].normals.pop_back(); }), "a geometry that is not whole");
   EXPECT_EQ(with([](DisplayPart& p) { p.geometries[1].coordinates.clear(); }), "a geometry that is not whole");

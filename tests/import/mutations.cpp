@@ -13,7 +13,9 @@
 #include <iterator>
 #include <random>
 #include <string>
+#include <vector>
 
+#include "gltf_made.h"
 #include "import_files.h"
 #include "roam/import.h"
 
@@ -55,8 +57,34 @@ std::string exported(const fs::path& scene, const char* format, const fs::path& 
   return content_of(file);
 }
 
+/// A composite tile of a glTF grid and of two instances of it.
+std::string composite_tile() {
+  const std::string glb = MadeGrid(3).gltf().glb();
+  const std::string places = packed(std::vector<float>{0, 0, 0, 9, 0, 0});
+  return made_composite({made_tile("b3dm", glb),
+                         made_tile("i3dm", glb, R"({"INSTANCES_LENGTH":2,"POSITION":{"byteOffset":0}})", places)});
+}
+
+/// A tileset with an implicit tree, and the files that it names in `folder`.
+std::string tileset_of_trees(const fs::path& folder) {
+  const Json everywhere{{"constant", 1}}, nowhere{{"constant", 0}};
+  std::ofstream(folder / "0.cmpt", std::ios::binary) << composite_tile();
+  std::ofstream(folder / "s.json") << Json{
+      {"tileAvailability", everywhere}, {"contentAvailability", everywhere}, {"childSubtreeAvailability", nowhere}};
+  Json trees = made_node("0.cmpt");
+  trees["implicitTiling"] = {{"subdivisionScheme", "QUADTREE"},
+                             {"subtreeLevels", 3},
+                             {"availableLevels", 3},
+                             {"subtrees", {{"uri", "s.json"}}}};
+  Json root = made_node("", Json::array({made_node("0.cmpt"), trees}));
+  root["transform"] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 100, 0, 0, 1};
+  return made_tileset(root);
+}
+
 /// A scene to damage: a file of the folder of test data, or the name of a format.
 std::string good_file(const std::string& name, const fs::path& folder) {
+  if (name == ".cmpt") return composite_tile();
+  if (name == ".json") return tileset_of_trees(folder);
   if (name == ".off") return tetrahedron_off;
   if (name == ".ac") return tetrahedron_ac;
   if (name == ".dxf") return triangles_dxf;
@@ -142,7 +170,7 @@ INSTANTIATE_TEST_SUITE_P(
                     "formats/pittsburgh_mine.osg", "formats/pittsburgh_mine.osgt", "formats/pittsburgh_mine.flt",
                     "underground/subt_tunnel_practice_1.ive", "contextcapture_tiles/fanvanzh_test.osgb",
                     "underground/subt_tiles/tunnel_tile_2/meshes/tunnel_tile_2.dae", "building/small_house.glb",
-                    "bim/Duplex_A_20110907.ifc", ".off", ".ac", ".dxf", ".3ds", ".fbx", ".gltf"));
+                    "bim/Duplex_A_20110907.ifc", ".off", ".ac", ".dxf", ".3ds", ".fbx", ".gltf", ".cmpt", ".json"));
 
 }  // namespace
 }  // namespace roam::test

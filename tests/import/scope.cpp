@@ -8,10 +8,10 @@
 #include <iterator>
 #include <string>
 
+#include "import/parts.h"
 #include "import/processor_budget.h"
 #include "import/scene_scope.h"
 #include "import_files.h"
-#include "roam/import.h"
 
 namespace roam::test {
 namespace {

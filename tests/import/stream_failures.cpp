@@ -157,7 +157,7 @@ TEST_F(ImportStreamFailures, RefuseADamagedStream) {
           "a path that is too long");
 }
 
-TEST_F(ImportStreamFailures, EndAReaderThatNamesFilesOverAndOver) {
+TEST_F(ImportStreamFailures, CostLittleWhereAReaderNamesDeepFilesOverAndOver) {
   std::string path = folder_.path().string();
   while (path.size() < 4090) path += "/a";
   std::string bytes;
@@ -166,8 +166,42 @@ TEST_F(ImportStreamFailures, EndAReaderThatNamesFilesOverAndOver) {
     for (int i = 0; i < 20'000; ++i) stream.frame(FrameKind::opened, PayloadWriter().add_text(path));
     bytes = stream.object(0).vertices(3).triangles(1).end(3, 1).bytes;
   }
-  const std::string error = error_of_stream(bytes);
-  EXPECT_TRUE(contains(error, "names files over and over")) << error;
+  EXPECT_EQ(error_of_stream(bytes), "");
+}
+
+TEST_F(ImportStreamFailures, EndAReaderThatLeavesOutMoreTrianglesThanItsFileMayHave) {
+  const auto left_out = [](std::uint64_t triangles) {
+    Stream stream;
+    for (const auto reason : {reader::LeftOutReason::bad_vertices, reader::LeftOutReason::ignored}) {
+      stream.frame(FrameKind::left_out, PayloadWriter().add(reason).add_text("a").add(std::uint64_t{0}).add(triangles));
+    }
+    return stream.object(0).vertices(3).triangles(1).end(3, 1).bytes;
+  };
+  EXPECT_EQ(error_of_stream(left_out(9'000'000)), "");
+  EXPECT_TRUE(contains(error_of_stream(left_out(11'000'000)), "it repeats itself over and over"));
+}
+
+TEST_F(ImportStreamFailures, KeepTheStartsOfLongNamesOnly) {
+  Stream stream;
+  const std::string start = std::string(1023, 'a');
+  // The second name's last byte that fits is half of a character.
+  for (const std::string end : {"b", "\u00e4", "c"}) {
+    const std::string name = start + end + std::string(60'000, 'd');
+    stream.frame(FrameKind::left_out, PayloadWriter()
+                                          .add(reader::LeftOutReason::bad_vertices)
+                                          .add_text(name)
+                                          .add(std::uint64_t{1})
+                                          .add(std::uint64_t{2}));
+    stream.object(0, name).vertices(3).triangles(1);
+  }
+  const auto data = folder_.write("stream", stream.end(9, 3).bytes);
+  ImportOptions options;
+  options.reader = folder_.write_script("reader.sh", "cat '" + data.string() + "' >&3\n");
+  std::vector<std::string> names;
+  const ImportReport report = this->stream([&](const Mesh& piece, bool) { names.push_back(piece.name); }, options);
+  EXPECT_EQ(names, (std::vector<std::string>{start + "b", start, start + "c"}));
+  ASSERT_EQ(report.bad_objects.size(), 3u);
+  EXPECT_EQ(report.bad_objects[1].name, start);
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "import/parts.h"
 #include "import_pieces.h"
 
 namespace roam::test {

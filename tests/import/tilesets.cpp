@@ -12,9 +12,9 @@
 #include <vector>
 
 #include "gltf_made.h"
+#include "import/parts.h"
 #include "import_files.h"
 #include "roam/error.h"
-#include "roam/import.h"
 
 namespace roam::test {
 namespace {

@@ -86,8 +86,12 @@ struct Completion : osg::NodeVisitor {
   }
 };
 
-/// One sample a pixel, without effects, so that pixels are exact.
+inline const osg::Vec3d x_axis(1, 0, 0), y_axis(0, 1, 0), z_axis(0, 0, 1);
+
+/// One sample a pixel; `plain` without effects, so that pixels are exact.
 inline const graphics::FrameSettings plain{.samples = 1, .quality = graphics::Quality::plain};
+inline const graphics::FrameSettings with_light{.samples = 1, .quality = graphics::Quality::light};
+inline const graphics::FrameSettings with_full{.samples = 1, .quality = graphics::Quality::full};
 
 /// A viewer without a screen. By default nothing is smoothed, so that pixels are exact.
 struct Stage {

@@ -37,7 +37,7 @@ inline void load_all(roam::Pager& pager) {
 }
 
 /// The files of a store, with adjustable faults.
-class TroubledBytes : public roam::StoreBytes {
+class TroubledBytes : public roam::store::StoreBytes {
  public:
   explicit TroubledBytes(const std::filesystem::path& folder) : files_(roam::store::files_of(folder)) {}
 
@@ -86,7 +86,7 @@ class TroubledBytes : public roam::StoreBytes {
   }
 
  private:
-  std::shared_ptr<roam::StoreBytes> files_;
+  std::shared_ptr<roam::store::StoreBytes> files_;
   std::mutex mutex_;
   std::condition_variable changed_;
   bool held_ = false;

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "roam/support.h"
+#include "motion/carrying.h"
 #include "walker_scenes.h"
 
 namespace {

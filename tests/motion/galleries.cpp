@@ -94,7 +94,7 @@ roam::RouteResult walk(const Gallery& gallery, const World& world, double radius
   return roam::follow(walker, gallery.path, {.speed = 1.4, .dt = 1.0 / 60.0});
 }
 
-TEST(Galleries, AreWalkedByASlimBodyWithAWideFootAndByNoOther) {
+TEST(Galleries, AreWalkedByASlimBodyWithAWideDiscAndByNoOther) {
   int fallen = 0;
   for (std::uint64_t seed = 0; seed < 50; ++seed) {
     const Gallery gallery(seed);

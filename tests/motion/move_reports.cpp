@@ -136,7 +136,7 @@ TEST(MoveReports, TellNoFallOfAHopOnALiftThatGoesDown) {
   EXPECT_EQ(walker.stance().object, lift);
 }
 
-TEST(MoveReports, ForgetATrainWhenTheFootCarries) {
+TEST(MoveReports, ForgetATrainWhenTheDiscCarries) {
   Mesh m;  // slats, which carry a foot and no body
   for (int i = 0; i < 40; ++i) scenes::add_floor(m, 4.0 + 0.5 * i, -5.0, 4.02 + 0.5 * i, 5.0, 0.0);
   scenes::add_floor(m, -50.0, -50.0, 50.0, 50.0, -9.0);

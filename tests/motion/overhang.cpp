@@ -40,7 +40,7 @@ TEST(Overhang, NeverOverhangsACliffAPitOrTheEndOfTheFloor) {
   }
 }
 
-TEST(Overhang, NeverOverhangsALedgeThatIsAFootHigh) {
+TEST(Overhang, NeverOverhangsALedgeThatIsADiscHigh) {
   Mesh m;
   add_floor(m, -20.0, -10.0, 0.0, 10.0, 0.0);
   add_wall(m, 0.0, -10.0, 0.0, 10.0, -0.4, 0.0);

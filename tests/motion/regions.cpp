@@ -133,7 +133,7 @@ TEST(Regions, ThatEndTooEarlyLeaveTheBodySmallUntilItFits) {
   }
 }
 
-TEST(Regions, OverlapToTheSmallestBodyAndTheLargestFoot) {
+TEST(Regions, OverlapToTheSmallestBodyAndTheLargestDisc) {
   const Mesh m = floor_mesh();
   const std::array<SizeRegion, 3> regions{SizeRegion{{Vec3(-2.0), Vec3(2.0)}, 0.25, 0.6, ""},
                                           SizeRegion{{Vec3(-1.0), Vec3(3.0)}, 0.2, 0.4, ""},
@@ -217,7 +217,7 @@ TEST(Regions, WaitForACrouchedBodyToStand) {
   EXPECT_FALSE(r.walker.crouched());
 }
 
-TEST(Regions, BringAFootAndKeepItOverACrack) {
+TEST(Regions, BringADiscAndKeepItOverACrack) {
   Mesh m;
   add_floor(m, -20.0, -10.0, 0.0, 10.0, 0.0);
   add_floor(m, 1.0, -10.0, 20.0, 10.0, 0.0);

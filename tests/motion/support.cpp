@@ -1,7 +1,5 @@
 // The foot that carries a body over cracks, at any speed.
 
-#include "roam/support.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -9,6 +7,7 @@
 #include <limits>
 #include <numbers>
 
+#include "motion/carrying.h"
 #include "roam/error.h"
 #include "support_scenes.h"
 
@@ -34,7 +33,7 @@ TEST(Support, CarriesASlimBodyOverASplitAtAnySpeed) {
   }
 }
 
-TEST(Support, LetsABodyFallWhereTheFootIsTooSmallAtAnySpeed) {
+TEST(Support, LetsABodyFallWhereTheDiscIsTooSmallAtAnySpeed) {
   for (const double width : {0.8, 1.0, 1.25}) {
     const Mesh m = split(width);
     for (const double less : {0.002, 0.02}) {
@@ -221,7 +220,7 @@ TEST(Support, CrossesCrossingsAndTJointsByTheirOwnMeasure) {
   }
 }
 
-TEST(Support, CrossesAManholeThatIsSmallerThanTheFoot) {
+TEST(Support, CrossesAManholeThatIsSmallerThanTheDisc) {
   Mesh m;  // a square hole of 0.8 m
   add_floor(m, -10.0, -10.0, -0.4, 10.0, 0.0);
   add_floor(m, 0.4, -10.0, 10.0, 10.0, 0.0);

@@ -123,21 +123,53 @@ TEST(ManipulatorMouse, EscapeLeavesTheGrab) {
 
 TEST(ManipulatorMouse, TheWheelChangesTheSpeed) {
   Standing r;
-  for (int i = 0; i < 3; ++i) r.wheel(Adapter::SCROLL_UP);
+  const auto turn = [&](int notches, Adapter::ScrollingMotion motion) {
+    for (int i = 0; i < notches; ++i) {
+      r.time += 0.05;
+      r.wheel(motion);
+    }
+  };
+  turn(3, Adapter::SCROLL_UP);
   EXPECT_NEAR(r->speed(), 1.4 * 1.25 * 1.25 * 1.25, 1e-9);
-  for (int i = 0; i < 3; ++i) r.wheel(Adapter::SCROLL_DOWN);
+  turn(3, Adapter::SCROLL_DOWN);
   EXPECT_NEAR(r->speed(), 1.4, 1e-9);
+  r.time += 0.05;
   r.queue->mouseScroll2D(0.0f, 0.5f, r.time);
   r.deliver();
   EXPECT_GT(r->speed(), 1.5);
-  for (int i = 0; i < 200; ++i) r.wheel(Adapter::SCROLL_UP);
+  turn(200, Adapter::SCROLL_UP);
   EXPECT_DOUBLE_EQ(r->speed(), osgRoam::Manipulator::greatest_speed);
-  for (int i = 0; i < 200; ++i) r.wheel(Adapter::SCROLL_DOWN);
+  turn(200, Adapter::SCROLL_DOWN);
   EXPECT_DOUBLE_EQ(r->speed(), osgRoam::Manipulator::least_speed);
   r->setSpeed(2.0);
   r.down('d');
   r.frames(1.0);
   EXPECT_NEAR(r.at().y, -2.0, 1e-3);
+}
+
+TEST(ManipulatorMouse, TwoFingersChangeTheSpeedNoFasterThanAWheel) {
+  Standing r;
+  r.time += 1.0;
+  // A swipe on a touchpad: 60 notches in half a second.
+  for (int i = 0; i < 60; ++i) {
+    r.time += 0.5 / 60;
+    r.wheel(Adapter::SCROLL_UP);
+  }
+  EXPECT_LT(r->speed(), 1.4 * std::pow(1.25, 14.0));
+  EXPECT_GT(r->speed(), 1.4 * std::pow(1.25, 8.0));
+}
+
+TEST(ManipulatorMouse, TwoFingersSidewaysDragNothing) {
+  Standing r;
+  r.frame(frame);
+  const double yaw = r->yaw();
+  constexpr unsigned sideways = 6;  // a button of X11
+  r.queue->mouseButtonPress(100.0f, 100.0f, sideways, r.time);
+  r.deliver();
+  EXPECT_FALSE(r.taken);
+  r.queue->mouseMotion(300.0f, 100.0f, r.time);
+  r.deliver();
+  EXPECT_EQ(r->yaw(), yaw);
 }
 
 /// The pixel in which a point of the scene is seen.

@@ -33,8 +33,8 @@ Profile known(const WalkerSettings& settings) {
 
 /// A walk through the corridor by a body that takes whatever it learns.
 struct Walk {
-  Walk(const World& world, const WalkerSettings& settings, const roam::LearnLimits& limits = {})
-      : learner(known(settings), limits), walker(world, settings, Mode::walk, centre(settings, 1.0)) {
+  Walk(const World& world, const WalkerSettings& settings)
+      : learner(known(settings)), walker(world, settings, Mode::walk, centre(settings, 1.0)) {
     const Vec3 wish(1.4, 0.0, 0.0);
     for (int i = 0; i < 60 * 20 && walker.position().x < 9.0; ++i) {
       const roam::StepReport& report = walker.step({.velocity = wish}, 1.0 / 60.0);
@@ -97,8 +97,8 @@ TEST(SizeLearner, WhatWasLearnedServesTheNextWalk) {
 }
 
 TEST(SizeLearner, OffersNothingThatIsSmallerThanItMayBe) {
-  const World world = corridor({.door = 0.6});
-  const Walk walk(world, person(0.4), {.radius_min = 0.3});
+  const World world = corridor({.door = 1.9 * SizeLearner::radius_min});
+  const Walk walk(world, person(0.4));
   EXPECT_TRUE(walk.lessons.empty());
   EXPECT_FALSE(walk.arrived());
   EXPECT_FALSE(walk.learner.changed());
@@ -111,7 +111,7 @@ TEST(SizeLearner, OffersNothingAtAClosedWall) {
   EXPECT_FALSE(walk.arrived());
 }
 
-TEST(SizeLearner, TakesALargerFootWhereTheBodyFellAndGoesOnFromWhereItStood) {
+TEST(SizeLearner, TakesALargerDiscWhereTheBodyFellAndGoesOnFromWhereItStood) {
   const World world = corridor({.split = 0.8});
   for (const WalkerSettings& settings : {person(0.25), WalkerSettings::sphere(0.25)}) {
     const Walk walk(world, settings);
@@ -149,7 +149,7 @@ struct Crossing {
   bool arrived = false;
 };
 
-TEST(SizeLearner, AFootThatIsOfferedCarriesOnRampsToo) {
+TEST(SizeLearner, ADiscThatIsOfferedCarriesOnRampsToo) {
   for (const double degrees : {-25.0, -10.0, 15.0, 25.0}) {
     for (const double width : {0.7, 1.1}) {
       for (const double speed : {0.7, 1.4, 7.0}) {
@@ -192,7 +192,7 @@ TEST(SizeLearner, LearnsOfAFallOutOfTheScene) {
   EXPECT_TRUE(c.arrived);
 }
 
-TEST(SizeLearner, OffersNoFootForTheEndOfTheFloorNorForAStepDown) {
+TEST(SizeLearner, OffersNoDiscForTheEndOfTheFloorNorForAStepDown) {
   roam::Mesh edge;
   scenes::add_floor(edge, -20.0, -10.0, 0.0, 10.0, 0.0);
   roam::Mesh ledge = edge;
@@ -204,7 +204,7 @@ TEST(SizeLearner, OffersNoFootForTheEndOfTheFloorNorForAStepDown) {
   }
 }
 
-TEST(SizeLearner, NoFootCarriesOverAPit) {
+TEST(SizeLearner, NoDiscCarriesOverAPit) {
   const World world = corridor({.split = 3.0});
   const Walk walk(world, person(0.25));
   EXPECT_TRUE(walk.lessons.empty());
@@ -232,20 +232,17 @@ TEST(SizeLearner, SaysEachThingOnceWhileItLasts) {
   EXPECT_EQ(offers, 2) << "it came again";
 }
 
-TEST(SizeLearner, RefusesLimitsThatAreNone) {
-  EXPECT_THROW(SizeLearner(Profile(), {}), roam::Error) << "a profile without a radius";
+TEST(SizeLearner, RefusesAProfileOutOfRange) {
+  EXPECT_THROW(SizeLearner{Profile()}, roam::Error) << "a profile without a radius";
   Profile profile = known(person(0.3));
   for (const double wrong : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
     Profile bad = profile;
     bad.support_radius = wrong;
-    EXPECT_THROW(SizeLearner(bad, {}), roam::Error);
+    EXPECT_THROW(SizeLearner{bad}, roam::Error);
     bad = profile;
     bad.radius = wrong;
-    EXPECT_THROW(SizeLearner(bad, {}), roam::Error);
+    EXPECT_THROW(SizeLearner{bad}, roam::Error);
   }
-  EXPECT_THROW(SizeLearner(profile, {.radius_min = 0.0}), roam::Error);
-  EXPECT_THROW(SizeLearner(profile, {.support_max = -1.0}), roam::Error);
-  EXPECT_THROW(SizeLearner(profile, {.patience = -1.0}), roam::Error);
 }
 
 }  // namespace

@@ -20,7 +20,7 @@ TEST(StoreBuildHostile, FilesOfABuilderAreReadWithinLimits) {
   const auto o = options({scene}, store);
   roam::StoreBuildReport report;
   ASSERT_EQ(roam::plan_store(o, report), 1U);
-  roam::build_shard(o, 0, report);
+  roam::build_task(o, 0, report);
   // All that a builder writes as JSON, and finds there the next time.
   std::vector<fs::path> files{store + "/sources.json"};
   for (const auto& entry : fs::recursive_directory_iterator(store + "/scratch")) {
@@ -49,7 +49,7 @@ TEST(StoreBuildHostile, FilesOfABuilderAreReadWithinLimits) {
         // As it was: planned, and built.
         fs::remove_all(store);
         ASSERT_EQ(roam::plan_store(o, report), 1U);
-        roam::build_shard(o, 0, report);
+        roam::build_task(o, 0, report);
       }
     }
     std::ofstream(file) << good;
@@ -68,7 +68,7 @@ TEST(StoreBuildHostile, ShardsAndScenesOfMoreTrianglesThanThereCanBeAreRefused) 
   plan.shards[0].stretch.triangles = 1ULL << 34;
   plan.shards[0].key = roam::store::key_of(plan.shards[0].stretch, plan);
   roam::store::write_plan(work, plan);
-  const Cost cost = cost_of([&] { roam::build_shard(o, 0, report); });
+  const Cost cost = cost_of([&] { roam::build_task(o, 0, report); });
   EXPECT_NE(cost.said.find("too large"), std::string::npos) << cost.said;
   EXPECT_LT(cost.mebibytes, 16U);
   // The part of a published store, which is what the builder takes for the scene's.

@@ -4,6 +4,7 @@
 
 #include <functional>
 
+#include "import/parts.h"
 #include "store/build/fingerprint.h"
 #include "store/build/same_scene.h"
 #include "store/files.h"

@@ -44,4 +44,46 @@ TEST(StoreTilesets, AreReadAgainTileByTile) {
   EXPECT_NE(notes.find("3.b3dm"), std::string::npos) << notes;
 }
 
+TEST(StoreTilesets, ReadAFileOnceThoughManyTilesNameIt) {
+  const TestFolder folder;
+  using roam::test::Json;
+  const Json everywhere{{"constant", 1}}, nowhere{{"constant", 0}};
+  (void)folder.write(
+      "s.json",
+      Json{{"tileAvailability", everywhere}, {"contentAvailability", everywhere}, {"childSubtreeAvailability", nowhere}}
+          .dump());
+  (void)folder.write("a.glb", MadeGrid(8).gltf().glb());
+  Json root = made_node("a.glb");
+  root["implicitTiling"] = {{"subdivisionScheme", "QUADTREE"},
+                            {"subtreeLevels", 4},
+                            {"availableLevels", 4},
+                            {"subtrees", {{"uri", "s.json"}}}};
+  const std::string tileset = folder.write("tileset.json", made_tileset(root));
+  EXPECT_EQ(roam::build_store(options({tileset}, folder.file("s"))).parts_read, 2U);  // not 65
+}
+
+TEST(StoreTilesets, RefuseNamesThatTakeMostOfTheMemory) {
+  const TestFolder folder;
+  roam::test::MadeGltf gltf = MadeGrid(1).gltf();
+  gltf.json["meshes"].push_back(gltf.json["meshes"][0]);
+  for (int i : {0, 1}) gltf.json["meshes"][i]["name"] = std::string(60'000, static_cast<char>('a' + i));
+  const auto read = [&](int objects) {
+    gltf.json["nodes"] = roam::test::Json::array();
+    for (int i = 0; i < objects; ++i) {
+      gltf.json["nodes"].push_back({{"mesh", i % 2}});
+      gltf.json["scenes"][0]["nodes"][i] = i;
+    }
+    auto o = options({folder.write("scene.glb", gltf.glb())}, folder.file("s"));
+    o.memory = roam::StoreBuildOptions::least_memory;
+    return roam::build_store(o).parts_read;
+  };
+  EXPECT_EQ(read(10'000), 1U);
+  try {
+    (void)read(40'000);
+    ADD_FAILURE() << "names of 2.4 GB in the file's words";
+  } catch (const roam::Error& error) {
+    EXPECT_NE(std::string(error.what()).find("the names of its "), std::string::npos) << error.what();
+  }
+}
+
 }  // namespace

@@ -26,7 +26,7 @@ using Bytes = std::vector<std::byte>;
 using Files = std::map<std::string, Bytes>;
 
 /// A store in memory.
-class MemoryBytes : public roam::StoreBytes {
+class MemoryBytes : public roam::store::StoreBytes {
  public:
   explicit MemoryBytes(Files files) : files_(std::move(files)) {}
 
@@ -94,7 +94,7 @@ class StoreDamageBits : public testing::Test {
   }
 
   static std::shared_ptr<const roam::Store> open(const Files& files) {
-    return roam::Store::open(std::make_shared<MemoryBytes>(files), "damaged");
+    return roam::store::open_store(std::make_shared<MemoryBytes>(files), "damaged");
   }
   /// Until everything is there, or something failed and no more has come for a while.
   static void load(Pager& pager) {

@@ -126,7 +126,7 @@ TEST_F(HostileStore, ALongNameIsCutAndNotKept) {
 }
 
 /// Reads of part files wait until they are let go.
-class SlowParts : public StoreBytes {
+class SlowParts : public store::StoreBytes {
  public:
   explicit SlowParts(const std::filesystem::path& folder) : files_(store::files_of(folder)) {}
   std::promise<void> begun, go;
@@ -142,12 +142,12 @@ class SlowParts : public StoreBytes {
   }
 
  private:
-  std::shared_ptr<StoreBytes> files_;
+  std::shared_ptr<store::StoreBytes> files_;
 };
 
 TEST_F(HostileStore, APartThatTakesLongHoldsNothingElseUp) {
   const auto bytes = std::make_shared<SlowParts>(folder_.path());
-  const auto opened = Store::open(bytes, "slow");
+  const auto opened = store::open_store(bytes, "slow");
   TriangleId some = 0;
   opened->for_each_triangle(opened->info().bounds, [&](auto, auto ids) { some = ids[0]; });
   auto name = std::async(std::launch::async, [&] { return opened->source(some).object; });

@@ -240,7 +240,7 @@ TEST_F(StoreLinks, AFileOfAPlanLiesInTheStore) {
     std::string hostile = text;
     hostile.replace(text.find(field) + field.size(), 9, "../../../");
     std::ofstream(plan) << hostile;
-    EXPECT_NE(refusal([&] { roam::build_shard(o, 0, report); }).find("plan again"), std::string::npos) << field;
+    EXPECT_NE(refusal([&] { roam::build_task(o, 0, report); }).find("plan again"), std::string::npos) << field;
   }
 }
 

@@ -41,7 +41,7 @@ struct Yard {
   explicit Yard(const char* name, std::uint64_t seed = 1) : folder(name), mesh(yard_mesh(seed)), judge(mesh) {
     made::store(folder.path(), {&mesh, 1}, {.page_tiles = 8, .tile_triangles = 100});
     bytes = std::make_shared<made::TroubledBytes>(folder.path());
-    store = roam::Store::open(bytes, "yard");
+    store = roam::store::open_store(bytes, "yard");
   }
   made::Folder folder;
   Mesh mesh;

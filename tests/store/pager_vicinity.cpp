@@ -142,7 +142,7 @@ struct Stored {
       : folder(std::string("pager_vicinity_") + name), mesh(scene) {
     made::store(folder.path(), {&mesh, 1}, options);
     bytes = std::make_shared<made::TroubledBytes>(folder.path());
-    store = roam::Store::open(bytes, name);
+    store = roam::store::open_store(bytes, name);
   }
   made::Folder folder;
   Mesh mesh;

@@ -60,7 +60,7 @@ struct Maze {
   explicit Maze(const char* name, std::uint64_t seed) : folder(name), mesh(maze(seed)), judge(mesh) {
     made::store(folder.path(), {&mesh, 1}, {.page_tiles = 12, .tile_triangles = 1500});
     bytes = std::make_shared<made::TroubledBytes>(folder.path());
-    store = roam::Store::open(bytes, "maze");
+    store = roam::store::open_store(bytes, "maze");
   }
   made::Folder folder;
   Mesh mesh;

@@ -20,7 +20,7 @@ using roam::ways::try_way;
 using roam::words::answer;
 
 constexpr double height = 1.9;
-constexpr double foot_margin = 0.02;
+constexpr double support_margin = 0.02;
 
 struct Trained {
   seeded::Gallery gallery;
@@ -50,11 +50,11 @@ TEST_P(TrainedGallery, HasBothEndsAndBodiesProveThem) {
   EXPECT_TRUE(g.training.complete);
   EXPECT_TRUE(g.training.contradictions.empty()) << answer(g.training);
 
-  EXPECT_EQ(g.tried(0.97 * upper, lower + foot_margin), Outcome::reached);
-  EXPECT_EQ(g.tried(1.02 * upper, lower + foot_margin), Outcome::blocked);
+  EXPECT_EQ(g.tried(0.97 * upper, lower + support_margin), Outcome::reached);
+  EXPECT_EQ(g.tried(1.02 * upper, lower + support_margin), Outcome::blocked);
   // A body that is wide enough itself, or is carried by the rims, needs no foot.
-  if (0.97 * upper < lower - foot_margin) {
-    EXPECT_EQ(g.tried(0.97 * upper, lower - foot_margin), Outcome::fell);
+  if (0.97 * upper < lower - support_margin) {
+    EXPECT_EQ(g.tried(0.97 * upper, lower - support_margin), Outcome::fell);
   }
   EXPECT_EQ(g.tried(g.training.radius, g.training.support_radius), Outcome::reached);
 }

@@ -284,7 +284,7 @@ TEST(TrainedRegions, AreNoneWhereADoorLetsTheBodyThrough) {
   }
 }
 
-TEST(TrainedFoot, IsSaidToCarryWhereTheLargestJustDoes) {
+TEST(TrainedDisc, IsSaidToCarryWhereTheLargestJustDoes) {
   using namespace scenes;
   constexpr double gap = 1.994;
   Mesh mesh;
@@ -294,10 +294,10 @@ TEST(TrainedFoot, IsSaidToCarryWhereTheLargestJustDoes) {
   const Training t = roam::train(survey_of({mesh}), {.support_max = 1.0, .height = 1.8});
   EXPECT_NEAR(t.smallest, 0.5 * gap, 1e-3) << answer(t);
   EXPECT_DOUBLE_EQ(t.support_radius, 1.0);
-  EXPECT_LE(t.least_foot, 1.0) << answer(t);
+  EXPECT_LE(t.least_support, 1.0) << answer(t);
 }
 
-TEST(TrainedFoot, IsSaidToBeForTheCrackOnThePathThatItCarriesOver) {
+TEST(TrainedDisc, IsSaidToBeForTheCrackOnThePathThatItCarriesOver) {
   const Training t = roam::train(corridor({.door = 0.9, .split = 0.86}), {.height = 1.8});
   EXPECT_GT(t.support_radius, t.radius) << answer(t);
   EXPECT_TRUE(t.feasible) << answer(t);

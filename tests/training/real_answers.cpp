@@ -43,7 +43,7 @@ TEST(RealAnswers, DoorsOfAnOfficeAreAsWideAsMeasuredByHand) {
   }
 }
 
-TEST(RealAnswers, AnOfficeWithAPorchNeedsNoFoot) {
+TEST(RealAnswers, AnOfficeWithAPorchNeedsNoDisc) {
   ROAM_NEEDS_TEST_DATA();
   const Training t = train(survey_of("building/willowgarage_visual.dae", {.unit = LengthUnit::in}), {.height = 1.8});
   EXPECT_TRUE(t.feasible) << answer(t);
@@ -52,7 +52,7 @@ TEST(RealAnswers, AnOfficeWithAPorchNeedsNoFoot) {
   EXPECT_NEAR(*t.largest, 12 * 0.0254, 1e-3) << answer(t);
 }
 
-TEST(RealAnswers, TheFootForTheGapInAScannedFloorCarriesOverItAndASmallerOneFalls) {
+TEST(RealAnswers, TheDiscForTheGapInAScannedFloorCarriesOverItAndASmallerOneFalls) {
   ROAM_NEEDS_TEST_DATA();
   const Survey room = survey_of("scan/icl_nuim_living_room_kt2.ply", {.up = UpAxis::y});
   const Training t = train(room, {.height = 1.8});

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <string>
 #include <utility>
 #include <vector>
@@ -20,8 +21,8 @@ using words::answer;
 
 constexpr double same = 2e-4;  ///< m, of both ends
 
-Training trained(std::vector<Mesh> meshes, double height = 1.8) {
-  return train(Survey::build(std::move(meshes), {.lossless = true, .progress = {}}), {.height = height});
+Training trained(std::vector<Mesh> meshes) {
+  return train(Survey::build(std::move(meshes), {.lossless = true, .progress = {}}), {.height = 1.8});
 }
 
 Mesh joined(const std::vector<Mesh>& meshes) {
@@ -105,21 +106,20 @@ TEST(TrainRealScenes, WaysInADungeonKeepOutOfAGrooveThatHoldsTheWalker) {
   EXPECT_FALSE(t.unwalked.empty()) << answer(t);
 }
 
-TEST(TrainRealScenes, WaysInAHouseLeadOverNoFurnitureThatNobodyClimbs) {
+/// Between furniture higher than a step and lower than the middle of a wide body. And on a bench, where a wall on one
+/// side and the edge are the narrowest of a way: a body of any size drops off it, or passes farther from the wall.
+TEST(TrainRealScenes, NoTrialInAHouseContradictsItsOpenings) {
   ROAM_NEEDS_TEST_DATA();
-  const Training t = trained(import_scene(test_data() / "building/small_house.glb").meshes);
-  EXPECT_TRUE(t.feasible) << answer(t);
-  ASSERT_TRUE(t.largest.has_value()) << answer(t);
-  EXPECT_NEAR(*t.largest, 0.240, 1e-3);
-}
-
-// A bit lower, a path begins on a bench, whose edge is the narrowest of its way: a body of any size drops off it.
-TEST(TrainRealScenes, NobodyIsExpectedToBeStoppedByAnEdgeThatAllDropOff) {
-  ROAM_NEEDS_TEST_DATA();
-  const Training t = trained(import_scene(test_data() / "building/small_house.glb").meshes, 1.7);
-  EXPECT_TRUE(t.feasible) << answer(t);
-  for (const Contradiction& c : t.contradictions) {
-    EXPECT_NE(c.body, Contradiction::Body::outside_opening) << answer(t);
+  const Survey house =
+      Survey::build(import_scene(test_data() / "building/small_house.glb").meshes, {.lossless = true, .progress = {}});
+  struct Case {
+    double height;
+    std::uint64_t seed;
+  };
+  for (const Case& c : {Case{1.7, 2}, Case{1.7, 3}, Case{1.8, 1}, Case{1.8, 2}, Case{1.8, 4}}) {
+    const Training t = train(house, {.seed = c.seed, .height = c.height});
+    EXPECT_TRUE(t.feasible && t.largest.has_value()) << answer(t);
+    EXPECT_TRUE(t.contradictions.empty()) << "height " << c.height << ", seed " << c.seed << ": " << answer(t);
   }
 }
 

@@ -103,7 +103,7 @@ TEST(Training, TakesARadiusOfTheIntervalWhereAPersonIsTooWideOrTooSlim) {
   EXPECT_TRUE(wide.contradictions.empty()) << answer(wide);
 }
 
-TEST(Training, GivesAFootWhereNoOneRadiusServes) {
+TEST(Training, GivesADiscWhereNoOneRadiusServes) {
   const Training t = roam::train(corridor({.door = 0.8, .split = 1.25}), {.height = 1.8});
   EXPECT_FALSE(t.feasible);
   EXPECT_DOUBLE_EQ(t.radius, 0.3);
@@ -180,7 +180,7 @@ TEST(Training, IsNotDecidedByTheWallBesideTheEndOfAPath) {
   }
 }
 
-TEST(Training, TakesAFootThatCarriesBesideAWall) {
+TEST(Training, TakesADiscThatCarriesBesideAWall) {
   using namespace scenes;
   Mesh mesh;
   constexpr double gap = 0.6;
@@ -212,7 +212,7 @@ TEST(Training, LooksForCracksWithTheStepThatItsPathsAreOf) {
 }
 
 /// The walker's foot takes what is at most 0.25 m deep for floor, and is carried over a gap that is deeper.
-TEST(Training, RecommendsNoFootForATrenchThatNoneHelpsOver) {
+TEST(Training, RecommendsNoDiscForATrenchThatNoneHelpsOver) {
   for (const double depth : {0.23, 0.25, 0.4}) {
     const Training t = roam::train(corridor({.door = 0.8, .split = 1.2, .depth = depth}), {.height = 1.8, .step = 0.2});
     const bool helps = depth > 0.25;

@@ -11,7 +11,7 @@ set -euo pipefail
 source=$(realpath "$1") work=$2
 export PATH=$3:$PATH LIBGL_ALWAYS_SOFTWARE=1
 shift 3
-verbs='view|walk|probe|sweep|info|train|make|verify|build|bench'
+verbs='view|walk|probe|sweep|info|train|make|verify|build|cluster|bench'
 
 # code DOCUMENT: lines `block COMMAND` and `span COMMAND`, in their order.
 code() {
@@ -43,10 +43,10 @@ with_stand_ins() {
     s#\b(mine\.dae|house\.(obj|glb)|small_house\.glb|[a-z_]+_visual\.dae|pipes\.ply|Data/|SCENE|[a-z_0-9]+_kt2\.ply)( |\$)#room.obj\3#g
     s#\b(STORE|(X|SCENE)\.roam)\b#room.obj.roam#g; s#\bhelp VERB\b#help walk#; s#your/own/gallery\.ive|gallery103\.ply#gallery.ply#g
     s#--from A --to B#--from 1,2,1 --to 8,3,1#; s#--path (P|FILE)\b#--path tour.path#
-    s#--wasm-engines( DIR)?|--scratch /big/disk##; s#\bDIR\b#.#g
+    s#--wasm-engines( DIR)?|--scratch /big/disk|--submit##; s#\bDIR\b#.#g
     s#\btrain gallery\.ply#train room.obj#;
     s#--unit in --from [^ ]+ --to [^ ]+#--from 1,2,1 --to 8,3,1#; s#--radius R\b#--radius 0.3#
-    s#--triangles (2M|100M)#--triangles 50k#; s#--gallery 500000#--gallery 20000#; s#--least 100k#--least 20k#
+    s#--triangles (600k|2M|100M)#--triangles 50k#; s#--gallery 500000#--gallery 20000#; s#--least 100k#--least 20k#
     s#--quality Q\b#--quality light#; s#--size [0-9]+x[0-9]+#--size 160x120#
     s#--queries 10000#--queries 100#; s#(roam bench engines) --picture\$#\1#; s# +# #g; s# \$##" <<< "$1")
   case $command in
@@ -70,7 +70,7 @@ is_complete() {
     "roam make "*) [[ $1 == *" -o "* ]] ;;
     "roam help "* | "roam --version") true ;;
     "roam bench "* | bench_*" "*) true ;;
-    roam\ *) [[ $1 =~ ^roam\ ($verbs)\ [^-] ]] ;;
+    roam\ *) [[ $1 =~ ^roam\ ($verbs)\ ([^-]|-o\ ) ]] ;;
     *) false ;;
   esac
 }
@@ -88,7 +88,7 @@ options_of() {
   read -ra words <<< "$1"
   local -a program=("${words[0]}")
   [[ ${words[1]:-} =~ ^($verbs)$ ]] && program+=("${words[1]}")
-  [[ ${words[1]:-} =~ ^(bench|make)$ && ${words[2]:-} =~ ^[a-z]+$ ]] && program+=("${words[2]}")
+  [[ ${words[1]:-} =~ ^(bench|make|cluster)$ && ${words[2]:-} =~ ^[a-z]+$ ]] && program+=("${words[2]}")
   [[ ${program[*]} == roam\ bench ]] && return
   help_of "${program[@]}"
   local option
@@ -104,6 +104,7 @@ has_option() {
   if [[ ! $all_helps ]]; then
     for verb in ${verbs//|/ }; do help_of roam "$verb"; all_helps+=$help; done
     for verb in gallery terrain city; do help_of roam make "$verb"; all_helps+=$help; done
+    help_of roam cluster slurm; all_helps+=$help
     [[ ${ROAM_NO_BENCH:-} ]] || for verb in engines paper scale; do help_of roam bench "$verb"; all_helps+=$help; done
   fi
   grep -qE -- "(^|[ ,])$1\b" <<< "$all_helps"

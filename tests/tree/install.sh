@@ -6,6 +6,8 @@
 #   install.sh python  SOURCE PREFIX WORK CXX   imports the installed Python module and reads a file with it
 #   install.sh example SOURCE PREFIX WORK CXX   builds examples/sweep_a_sphere outside the tree and runs it
 #   install.sh moving  SOURCE PREFIX WORK CXX   builds examples/swinging_door and moving_platform and runs them
+#   install.sh loading SOURCE PREFIX WORK CXX   builds examples/walk_while_loading outside the tree and runs it
+#   install.sh way     SOURCE PREFIX WORK CXX   builds examples/find_a_way outside the tree and finds one through a door
 #   install.sh import  SOURCE PREFIX WORK CXX   builds examples/walk_a_path outside the tree and walks with it
 #   install.sh store   SOURCE PREFIX WORK CXX   builds examples/walk_a_store outside the tree, makes a store and walks in it
 #   install.sh training SOURCE PREFIX WORK CXX   builds examples/train_a_scene outside the tree and trains a room with it
@@ -112,6 +114,20 @@ print(f'{world.triangles} triangles, {3 * world.sweep(0.3, [1, 1, 3], [0, 0, -3]
     build moving_platform
     expect 'carried to x = 18.' "$work/build/moving_platform"
     ;;
+  loading)
+    build walk_while_loading
+    expect 'reached after 18.0 m, over 4 of 4 tiles' "$work/build/walk_while_loading"
+    ;;
+  way)
+    build find_a_way
+    # A floor, and across it a wall with a door 0.9 m wide.
+    printf 'v %s\n' '0 0 0' '9 0 0' '9 9 0' '0 9 0' > "$work/door.obj"
+    printf 'v 5 %s\n' '0 0' '4 0' '4 3' '0 3' '4.9 0' '9 0' '9 3' '4.9 3' >> "$work/door.obj"
+    printf 'f 1 2 3 4\nf 5 6 7 8\nf 9 10 11 12\n' >> "$work/door.obj"
+    said=$("$work/build/find_a_way" "$work/door.obj" 1 1 0 8 1 0)
+    echo "$said"
+    [[ $said == *'radius of at most 0.45'*'because of a door 0.90'*'reached after'* ]] || exit 1
+    ;;
   import)
     build walk_a_path
     printf 'v 0 0 0\nv 9 0 0\nv 9 9 0\nv 0 9 0\nf 1 2 3 4\n' > "$work/floor.obj"
@@ -211,6 +227,7 @@ END
   osg_intersector)
     build osg_intersector
     expect 'door open 60 degrees: stops at y = 0.639 m, before the face of "leaf"' "$work/build/osg_intersector"
+    expect 'door open 90 degrees: stops at y = 2.8' "$work/build/osg_intersector"
     ;;
   package)
     # configure REQUEST [LINES]: a project that asks for nothing else.

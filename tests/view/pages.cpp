@@ -13,6 +13,7 @@
 #include "graphics/shading.h"
 #include "hostile_scene.h"
 #include "view/page_source.h"
+#include "view/shown_objects.h"
 #include "view_scenes.h"
 
 namespace {
@@ -83,8 +84,9 @@ roam::DisplayPart small_part() {
 }
 
 TEST(ViewPages, AreNodesAsThePictureWantsThem) {
-  const osg::ref_ptr<osg::Group> node =
-      roam::app::make_node(small_part(), {4.0f}, [](const std::string&) { return std::string("page-1"); });
+  roam::app::SceneObjects objects;
+  const osg::ref_ptr<osg::Group> node = roam::app::make_node(
+      small_part(), {4.0f}, [](const std::string&) { return std::string("page-1"); }, objects);
   ASSERT_EQ(node->getNumChildren(), 2u);
   const auto* cell = dynamic_cast<osg::MatrixTransform*>(node->getChild(0));
   ASSERT_TRUE(cell && cell->getNumChildren() == 1);
@@ -111,10 +113,64 @@ TEST(ViewPages, AreNodesAsThePictureWantsThem) {
   EXPECT_EQ(pages->getCenter(), osg::LOD::vec_type(1, 2, 3));
 }
 
+TEST(ViewPages, MaterialsOfTheirSurfacesAreDrawn) {
+  roam::DisplayPart part = small_part();
+  roam::DisplayLook& look = part.looks[0];
+  look = {};
+  roam::app::SceneObjects objects(std::vector<std::string>{});
+  const auto state_of = [&] {
+    const auto node = roam::app::make_node(
+        part, {}, [](const std::string&) { return std::string("page-1"); }, objects);
+    const osg::ref_ptr<osg::Node> drawn = node->getChild(0)->asGroup()->getChild(0);
+    return osg::ref_ptr<const osg::StateSet>(drawn->getStateSet());
+  };
+  part.geometries[0].coordinates.clear();
+  EXPECT_FALSE(state_of()) << "nothing to set for a dull surface";
+  look.roughness = 0.5f;
+  ASSERT_TRUE(state_of());
+  EXPECT_TRUE(state_of()->getUniform("roam_gloss"));
+  look.emission = {255, 0, 0};
+  EXPECT_TRUE(state_of()->getUniform("roam_emission"));
+  part.geometries[0].coordinates.assign(3, {0.5f, 0.25f});
+  look.gloss_texture = look.emission_texture = 0;
+  for (const unsigned unit : {roam::graphics::gloss_unit, roam::graphics::emission_unit}) {
+    EXPECT_TRUE(state_of()->getTextureAttribute(unit, osg::StateAttribute::TEXTURE));
+  }
+  EXPECT_FALSE(state_of()->getDefinePair(roam::graphics::textured_define));
+}
+
+TEST(ViewPages, ShowTheObjectsThatAreNotHidden) {
+  roam::DisplayPart part = small_part();
+  part.geometries[0].indices = {0, 1, 2, 2, 1, 0, 1, 0, 2};
+  part.geometries[0].runs = {{1, 1}, {0, 2}};
+  part.objects = {"wall", "door"};
+  part.triangles = 3;
+  roam::app::SceneObjects objects({"door"});
+  const osg::ref_ptr<osg::Group> node = roam::app::make_node(
+      part, {}, [](const std::string&) { return std::string("page"); }, objects);
+  osg::Geometry& geometry = *node->getChild(0)->asGroup()->getChild(0)->asGeometry();
+  const auto indices = [&] {
+    std::vector<unsigned> all;
+    for (unsigned i = 0; i < geometry.getPrimitiveSet(0)->getNumIndices(); ++i) {
+      all.push_back(geometry.getPrimitiveSet(0)->index(i));
+    }
+    return all;
+  };
+  EXPECT_EQ(indices(), (std::vector<unsigned>{2, 1, 0, 1, 0, 2})) << "hidden from the start";
+  objects.set_hidden(0, true);
+  roam::app::show_objects(*node, *objects.flags());
+  EXPECT_EQ(geometry.getNodeMask(), 0u);
+  objects.show_all();
+  roam::app::show_objects(*node, *objects.flags());
+  EXPECT_NE(geometry.getNodeMask(), 0u);
+  EXPECT_EQ(indices().size(), 9u);
+}
+
 TEST(ViewPages, AreReadByMadeUpNamesAndNothingElseIs) {
   const TestFolder folder;
   const std::string image = folder.write("a.png", "");
-  const osg::ref_ptr<roam::app::PageSource> source = new roam::app::PageSource({folder.file("gone.osg")}, {}, {});
+  const osg::ref_ptr<roam::app::PageSource> source =
+      new roam::app::PageSource({folder.file("gone.osg")}, {}, {}, std::make_shared<roam::app::SceneObjects>());
   const osg::ref_ptr<osg::Group> node = source->make(small_part());
   const std::string name = dynamic_cast<osg::PagedLOD&>(*node->getChild(1)).getFileName(1);
   EXPECT_FALSE(contains(name, "secret"));

@@ -250,7 +250,7 @@ TEST(Session, NamesABookmarkByTyping) {
   d.tap('b');
   const Vec3 before = d.place();
   d.session->run("name_bookmark");
-  EXPECT_TRUE(contains(d.hud(), "Name of the bookmark: 1_")) << d.hud();
+  EXPECT_TRUE(contains(d.hud(), "Name of the bookmark: _")) << "no name is proposed: " << d.hud();
   d.tap(osgGA::GUIEventAdapter::KEY_BackSpace);
   for (const int key : {int{'w'}, int{'x'}, 0xfc, 0x01000416, int{' '}, int{'2'}}) d.tap(key);
   EXPECT_TRUE(contains(d.hud(), "Name of the bookmark: wx\u00fc\u0416 2_")) << d.hud();
@@ -261,6 +261,7 @@ TEST(Session, NamesABookmarkByTyping) {
   EXPECT_TRUE(contains(d.hud(), "bookmark wx\u00fc")) << d.hud();
   EXPECT_LT(glm::distance(d.place(), before), 1e-6) << "the typed keys moved nobody";
   d.session->run("name_bookmark");
+  EXPECT_TRUE(contains(d.hud(), "Name of the bookmark: wx\u00fc_")) << "a name of its own can be mended: " << d.hud();
   d.tap('z');
   d.tap(osgGA::GUIEventAdapter::KEY_Escape);
   EXPECT_FALSE(contains(d.hud(), "Name of the bookmark"))

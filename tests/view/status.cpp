@@ -4,10 +4,14 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
+#include <future>
+#include <thread>
 
 #include "cli/histogram.h"
 #include "messages.h"
 #include "view/commands.h"
+#include "view/loading.h"
 #include "view/store_choice.h"
 #include "view/twice.h"
 
@@ -37,6 +41,35 @@ TEST(Status, TellsHowLoadingGoesOn) {
   EXPECT_EQ(load_text("collision", state), "collision failed: mine.dae: is no Collada");
   state.phase = LoadState::Phase::done;
   EXPECT_EQ(load_text("collision", state), "");
+}
+
+TEST(Loading, TellsATimeOnlyOfTheLastLongPhaseAndByItsOwnRate) {
+  using Phase = LoadState::Phase;
+  std::vector<double> left;
+  {
+    std::promise<Loading*> made;
+    Loading loading([&] {
+      Loading& self = *made.get_future().get();
+      const auto tell = [&](Phase phase, double share) {
+        self.tell(phase, share, 10);
+        left.push_back(self.state().seconds_left);
+      };
+      const auto wait = [] { std::this_thread::sleep_for(std::chrono::milliseconds(1200)); };
+      tell(Phase::reading, 0.1);
+      wait();
+      tell(Phase::reading, 0.9);   // indexing follows
+      tell(Phase::indexing, 0.0);  // a plan
+      tell(Phase::indexing, 0.5);  // what an earlier build has done
+      wait();
+      tell(Phase::indexing, 0.6);
+      tell(Phase::indexing, 1.0);  // something else follows
+    });
+    made.set_value(&loading);
+  }
+  ASSERT_EQ(left.size(), 6u);
+  for (const std::size_t i : {0, 1, 2, 3, 5}) EXPECT_LT(left[i], 0.0) << i;
+  EXPECT_GT(left[4], 4.0) << "a tenth took 1.2 s, and four are left";
+  EXPECT_LT(left[4], 20.0);
 }
 
 TEST(Status, HoldsTheBodyUntilThereIsSomethingToCollideWith) {

@@ -1,11 +1,12 @@
 // What a blocked body does not fit through, and what would carry it.
+#include "roam/opening.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <string>
 
-#include "roam/opening.h"
-#include "roam/support.h"
+#include "motion/carrying.h"
 #include "roam/walker.h"
 #include "train_scenes.h"
 
@@ -72,7 +73,7 @@ TEST(MeasuredOpening, IsNoneBeforeAClosedWallAndAlongNoLevelWay) {
   EXPECT_FALSE(roam::measure_opening(door.walker, {0.0, 0.0, -1.0}));
 }
 
-TEST(Carrying, IsOfAFootThatIsLargerThanHalfTheGap) {
+TEST(Carrying, IsOfADiscThatIsLargerThanHalfTheGap) {
   CorridorOptions options;
   options.split = 0.9;
   Person person(options);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <utility>
 
 #include "roam/passage.h"
 #include "walker_scenes.h"
@@ -46,7 +47,7 @@ Mesh room() {
 }
 constexpr Vec3 one_end{1.0, 0.0, 0.0}, other_end{9.0, 0.0, 0.0};
 
-TEST(PassageSteps, CrossTheWidestGapThatTheLargestFootSpansAndNoWider) {
+TEST(PassageSteps, CrossTheWidestGapThatTheLargestDiscSpansAndNoWider) {
   constexpr double foot = 1.0;
   for (const double gap : {1.994, 2.006}) {
     SCOPED_TRACE(gap);
@@ -61,7 +62,7 @@ TEST(PassageSteps, CrossTheWidestGapThatTheLargestFootSpansAndNoWider) {
   }
 }
 
-TEST(PassageSteps, CrossNoGapThatTheLargestFootSpansByAHairsBreadth) {
+TEST(PassageSteps, CrossNoGapThatTheLargestDiscSpansByAHairsBreadth) {
   // To be sure of such gaps every walker that is sent over one would look at all of their rims.
   for (const double foot : {1.0, 0.4}) {
     for (const double share : {0.997, 0.999, 0.9998}) {
@@ -118,6 +119,52 @@ TEST(PassageSteps, LeadOverASplitAndOverNoOpenDrop) {
     add_floor(m, 5.0 + 0.5 * gap, -2.0, 10.0, 2.0, 0.0);
     EXPECT_EQ(widest(m, one_end, other_end).found, gap < 2.0) << gap;
   }
+}
+
+/// A room with two benches along the way, from x = 3 to 7.
+Mesh benches(double apart, double high) {
+  Mesh m = room();
+  add_box(m, {3.0, -2.0, 0.0}, {7.0, -0.5 * apart, high});
+  add_box(m, {3.0, 0.5 * apart, 0.0}, {7.0, 2.0, high});
+  return m;
+}
+
+TEST(PassageSteps, BetweenBenchesTooHighToStepOnAreAsWideAsAWalkerIsThere) {
+  constexpr double aside = 0.4;
+  using Case = std::pair<double, double>;  // heights of benches and body
+  for (const auto& [high, tall] : {Case(0.32, height), Case(0.36, height), Case(0.5, height), Case(0.36, 0.0)}) {
+    SCOPED_TRACE(testing::Message() << high << " " << tall);
+    const Survey survey = survey_of(benches(2.0 * aside, high));
+    const Passage p = roam::widest_way(survey, one_end, other_end, {.height = tall});
+    ASSERT_TRUE(p.found && p.limited && p.opening);
+    // A round body touches the edge of a low bench with its lower half ball.
+    const double touches = high < aside ? (aside * aside + high * high) / (2.0 * high) : aside;
+    EXPECT_NEAR(p.radius, touches, 1e-3);
+    EXPECT_NEAR(std::abs(p.opening->direction.y), 1.0, 1e-3);
+    EXPECT_EQ(try_way(survey, {.height = tall}, 0.98 * touches, 0.0, p.way).outcome, Outcome::reached);
+    EXPECT_EQ(try_way(survey, {.height = tall}, 1.02 * touches, 0.0, p.way).outcome, Outcome::blocked);
+  }
+}
+
+TEST(PassageSteps, BetweenWallsThatLeanAreAsWideAsAtTheFeet) {
+  constexpr double aside = 0.5, lean = 0.01;
+  Mesh m = room();
+  for (const double side : {-1.0, 1.0}) {
+    const double low = side * aside, high = side * (aside + 3.0 * lean);
+    add_quad(m, {3.0, low, 0.0}, {7.0, low, 0.0}, {7.0, high, 3.0}, {3.0, high, 3.0});
+    for (const double x : {3.0, 7.0})
+      add_quad(m, {x, low, 0.0}, {x, side * 2.0, 0.0}, {x, side * 2.0, 3.0}, {x, high, 3.0});
+  }
+  const Passage p = widest(m, one_end, other_end);
+  ASSERT_TRUE(p.found && p.limited);
+  EXPECT_NEAR(p.radius, aside, 0.02);
+  EXPECT_EQ(walked(m, p.way), Outcome::reached);
+}
+
+TEST(PassageSteps, BetweenKerbsThatOneStepsOnAreNotNarrow) {
+  const Passage p = widest(benches(0.8, 0.2), one_end, other_end);
+  ASSERT_TRUE(p.found);
+  EXPECT_FALSE(p.limited) << p.radius;
 }
 
 TEST(PassageSteps, EndWhereTheFloorEnds) {

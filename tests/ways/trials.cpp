@@ -1,4 +1,6 @@
 // The trials that prove the lower end: who is to fall is sent to where nothing carries him.
+#include "ways/trials/trials.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -12,7 +14,6 @@
 #include "train_shells.h"
 #include "training/interval.h"
 #include "training/over_gap.h"
-#include "ways/trials/trials.h"
 #include "words/training.h"
 
 namespace {
@@ -211,7 +212,7 @@ TEST(UnevenCracks, AskForMoreWhereTheirRimsPartElsewhereThanWhereTheyAreWidest) 
   EXPECT_EQ(up, roam::Outcome::reached) << answer(t);
 }
 
-TEST(UnevenCracks, AskForAFootWhereWhatRollsUpOverThemIsTooWide) {
+TEST(UnevenCracks, AskForADiscWhereWhatRollsUpOverThemIsTooWide) {
   constexpr double rise = 0.2;
   Mesh mesh = uneven_ends(0.8, rise);
   add_wall(mesh, 9, 0, 9, 0.55, 0, high);

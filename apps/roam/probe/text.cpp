@@ -40,12 +40,10 @@ std::vector<ProbedSize> parse_sizes(const std::string& text, const std::string& 
     bool good = is_number(item.substr(0, cross), size.radius);
     size.height = default_height(size.radius, spheres);
     if (spheres && cross != std::string::npos)
-      throw UsageError(where, fmt::format("'{}' has a height, and --sphere excludes it: leave one out",
-                                          printable(item, longest_excerpt)));
+      throw UsageError(where, fmt::format("'{}' has a height, and --sphere excludes it: leave one out", excerpt(item)));
     if (good && cross != std::string::npos) good = is_number(item.substr(cross + 1), size.height);
     if (!good)
-      throw UsageError(
-          where, fmt::format("'{}' is no size: R or RxH, in metres, e.g. 0.3x1.9", printable(item, longest_excerpt)));
+      throw UsageError(where, fmt::format("'{}' is no size: R or RxH, in metres, e.g. 0.3x1.9", excerpt(item)));
     sizes.push_back(size);
     i = end;
   }

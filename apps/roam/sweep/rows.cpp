@@ -41,8 +41,6 @@ Fields split(std::string_view row) {
   }
 }
 
-std::string excerpt(std::string_view field) { return printable(field, longest_excerpt); }
-
 double number(std::string_view field, std::string_view column) {
   double value = 0.0;
   const std::string_view digits = field.starts_with('+') ? field.substr(1) : field;

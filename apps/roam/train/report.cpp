@@ -3,13 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
 
 #include "cli/progress.h"
 #include "cli/tell.h"
+#include "math/level_distance.h"
 #include "scenes/frame.h"
 #include "words/measures.h"
 #include "words/training.h"
@@ -64,7 +64,7 @@ double floor_under(const Training& training, const Vec3& point) {
       const Vec3 to = point - from;
       const double part = squared > 0.0 ? std::clamp((to.x * along.x + to.y * along.y) / squared, 0.0, 1.0) : 0.0;
       const Vec3 foot = from + part * along;
-      const double apart = std::hypot(point.x - foot.x, point.y - foot.y);
+      const double apart = level_distance(point, foot);
       if (apart < least && foot.z <= point.z + 1.0) {
         least = apart;
         z = foot.z;
@@ -183,7 +183,7 @@ std::vector<draw::OpeningView> views_of(const TrainReport& report) {
     const bool split = d.split;
     view.kind = split ? draw::OpeningView::Kind::crack : draw::OpeningView::Kind::passage;
     view.heading = fmt::format("{} {:.3f} m wide", split ? "Crack" : "Opening", d.width);
-    view.text = split ? fmt::format("Carries no body or foot below a radius of {:.3f} m.", t.smallest)
+    view.text = split ? fmt::format("Carries no body or support disc below a radius of {:.3f} m.", t.smallest)
                       : fmt::format("Lets a radius of {:.3f} m through, at most.", t.largest.value_or(0.0));
     view.point = d.point;
     view.direction = d.direction;

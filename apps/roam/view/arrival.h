@@ -51,6 +51,10 @@ class Arrival {
   [[nodiscard]] const SceneIdentity* identity() const { return loaded_ ? &loaded_->identity : nullptr; }
   /// The axis that is likely to be up instead of z; none without reason to doubt, or before the scene is loaded.
   [[nodiscard]] std::optional<UpAxis> likely_up() const { return loaded_ ? loaded_->likely_up : std::nullopt; }
+  /// The scene that the body collides with; null before it is loaded, for a ghost, and with a store.
+  [[nodiscard]] std::shared_ptr<const World> world() const { return loaded_ ? loaded_->world : nullptr; }
+  /// The names of its objects, by their numbers. Only with a world().
+  [[nodiscard]] const std::vector<std::string>& object_names() const { return loaded_->objects; }
   /// The pager of the store that the body collides with; null if it collides with a scene.
   [[nodiscard]] const Pager* pager() const { return pager_.get(); }
 

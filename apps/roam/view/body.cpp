@@ -40,11 +40,12 @@ Vec3 wish_of(const osgRoam::Manipulator& roamer) {
   const double pitch = roamer.mode() == Mode::walk ? 0.0 : roamer.pitch();
   const Vec3 ahead = gaze(yaw, pitch);
   const Vec3 right(std::sin(yaw), -std::cos(yaw), 0.0);
-  const auto sign = [&](const char* plus, const char* minus) {
-    return (roamer.down(plus) ? 1.0 : 0.0) - (roamer.down(minus) ? 1.0 : 0.0);
+  const auto sign = [&](const char* plus, const char* minus, double axis) {
+    return (roamer.down(plus) ? 1.0 : 0.0) - (roamer.down(minus) ? 1.0 : 0.0) + axis;
   };
-  Vec3 direction = sign("forward", "back") * ahead + sign("right", "left") * right;
-  if (roamer.mode() != Mode::walk) direction.z += sign("up", "down");
+  const osgRoam::Manipulator::Axes& axes = roamer.axes();
+  Vec3 direction = sign("forward", "back", axes.forward) * ahead + sign("right", "left", axes.right) * right;
+  if (roamer.mode() != Mode::walk) direction.z += sign("up", "down", axes.up);
   if (roamer.going()) direction = ahead;
   const double length = glm::length(direction);
   return length > 0.0 ? roamer.speed() / length * direction : Vec3(0.0);

@@ -107,6 +107,7 @@ void CollisionLoader::load_scene() {
   Collision loaded;
   loaded.world = std::make_shared<const World>(World::build(scene.meshes, build));
   loaded.triangles = loaded.world->stats().triangles;
+  for (const Mesh& mesh : scene.meshes) loaded.objects.push_back(mesh.name);
   loaded.report = std::move(scene.report);
   loaded.likely_up = doubted_up(options, scene.meshes);
   loaded.identity = identity_of(scene.meshes);

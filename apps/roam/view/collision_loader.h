@@ -6,6 +6,7 @@
 #include <future>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "roam/import.h"
@@ -23,8 +24,9 @@ struct Collision {
   std::shared_ptr<const World> world;  ///< of a scene that is read whole; else null
   std::shared_ptr<Pager> pager;        ///< of a store; else null
   std::uint64_t triangles = 0;
-  std::vector<Mesh> meshes;  ///< the triangles as read, if the wish keeps them
-  SceneIdentity identity;    ///< of the scene or the store
+  std::vector<std::string> objects;  ///< names of the world's objects, by their numbers
+  std::vector<Mesh> meshes;          ///< the triangles as read, if the wish keeps them
+  SceneIdentity identity;            ///< of the scene or the store
   ImportReport report;
   std::optional<UpAxis> likely_up;  ///< see doubted_up
   std::optional<StartPlace> start;  ///< set if the wish has no position

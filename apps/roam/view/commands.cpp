@@ -6,6 +6,7 @@
 #include <iterator>
 
 #include "roam/error.h"
+#include "view/gamepad.h"
 
 namespace roam::app {
 namespace {
@@ -25,6 +26,7 @@ constexpr Line lines[] = {
     {"measure", "T", "measures between clicked points"},
     {"probe", "I", "finds a way from A to B, the measured points"},
     {"section", "X", "hides the clicked surface and all before it; wheel: deeper"},
+    {"layers", "Ctrl+L", "lists objects and groups, to hide and show them"},
     {"plan", "L", "shows a plan: small, large, none; click: goes there"},
     {"marks", "V", "shows the body and what it touches"},
     {"edges", "K", "draws thin lines along edges, or not"},
@@ -116,6 +118,16 @@ std::string key_of(const osgRoam::Controls& controls, const char* command) {
   return found == nullptr ? std::string() : Controls::keyText(*found);
 }
 
+void press_key_of(const osgRoam::Controls& controls, const std::string& command, osgGA::EventQueue& events) {
+  const Controls::Command* const chosen = controls.find(command);
+  if (chosen == nullptr || chosen->keys.empty()) return;
+  const auto [symbol, ctrl] = chosen->keys.front();
+  if (ctrl) events.keyPress(osgGA::GUIEventAdapter::KEY_Control_L);
+  events.keyPress(symbol);
+  events.keyRelease(symbol);
+  if (ctrl) events.keyRelease(osgGA::GUIEventAdapter::KEY_Control_L);
+}
+
 std::string first_hint(const osgRoam::Controls& controls) {
   const auto first_key = [&](const char* command) {
     const Controls::Command* const found = controls.find(command);
@@ -131,7 +143,7 @@ std::string first_hint(const osgRoam::Controls& controls) {
   return text + "drag: look";
 }
 
-std::vector<graphics::HelpLine> key_lines(const osgRoam::Controls& controls) {
+std::vector<graphics::HelpLine> key_lines(const osgRoam::Controls& controls, bool gamepad) {
   std::vector<graphics::HelpLine> table;
   for (const auto& command : controls.commands()) {
     for (const auto& [first, heading] : headings) {
@@ -139,6 +151,10 @@ std::vector<graphics::HelpLine> key_lines(const osgRoam::Controls& controls) {
     }
     const std::string keys = osgRoam::Controls::keyText(command);
     if (!keys.empty()) table.push_back({keys, command.help, command.kind == Kind::pressed ? command.name : ""});
+  }
+  if (gamepad) {
+    table.push_back({"Gamepad", ""});
+    for (const auto& [part, effect] : gamepad_help()) table.push_back({part, effect, ""});
   }
   return table;
 }

@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <map>
+#include <osgGA/EventQueue>
 #include <string>
 #include <utility>
 #include <vector>
@@ -38,11 +39,15 @@ void set_up(osgRoam::Controls& controls, const ViewSettings& settings);
 /// The keys of a command, for display; empty if it has none.
 [[nodiscard]] std::string key_of(const osgRoam::Controls& controls, const char* command);
 
+/// Presses and releases the first key of a command; nothing if it has none.
+void press_key_of(const osgRoam::Controls& controls, const std::string& command, osgGA::EventQueue& events);
+
 /// The line that a window begins with: "H: help     W A S D: walk     drag: look".
 [[nodiscard]] std::string first_hint(const osgRoam::Controls& controls);
 
 /// The table of keys, for display. Lines of commands that a key press runs have the command's name.
-[[nodiscard]] std::vector<graphics::HelpLine> key_lines(const osgRoam::Controls& controls);
+/// `gamepad`: with the parts of a gamepad.
+[[nodiscard]] std::vector<graphics::HelpLine> key_lines(const osgRoam::Controls& controls, bool gamepad = false);
 /// The same as text: one line a command, with its name in the settings file.
 [[nodiscard]] std::string key_table(const osgRoam::Controls& controls);
 

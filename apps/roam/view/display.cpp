@@ -24,17 +24,17 @@ constexpr double marks_reach = 0.25;  // m from the body's surface: nearer trian
 constexpr std::size_t most_triangles = 2000;
 
 /// The graph's triangles near the body.
-std::vector<std::array<Vec3, 3>> triangles_near(osg::Node& graph, const Body& body, const Vec3& place) {
+std::vector<Triangle> triangles_near(osg::Node& graph, const Body& body, const Vec3& place) {
   const Body wider = Body::capsule(body.radius + marks_reach, body.height() + 2.0 * marks_reach);
   const osg::Vec3d at = osgRoam::to_osg(place);
   const osg::ref_ptr<osgRoam::BoxIntersector> box = new osgRoam::BoxIntersector(wider, at, at);
   box->setGatherCandidates(true);
   osgUtil::IntersectionVisitor visitor(box);
   graph.accept(visitor);
-  std::vector<std::array<Vec3, 3>> near;
-  for (const auto& candidate : box->getCandidates()) {
-    if (proximity(body, place, candidate.triangle).distance > marks_reach) continue;
-    near.push_back(candidate.triangle);
+  std::vector<Triangle> near;
+  for (const Triangle& candidate : box->getCandidates()) {
+    if (proximity(body, place, candidate).distance > marks_reach) continue;
+    near.push_back(candidate);
     if (near.size() == most_triangles) break;
   }
   return near;
@@ -99,7 +99,7 @@ Status Display::status(bool has_body) {
   s.size_reason = size_reason(walker);
   s.crouched = walker.crouched();
   s.grounded = walker.grounded();
-  s.around = surroundings(roamer_);
+  s.around = surroundings(roamer_, walker.space());
   s.yaw = at.yaw;
   s.pitch = at.pitch;
   s.pace = roamer_.speed();

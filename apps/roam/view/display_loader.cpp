@@ -9,13 +9,17 @@
 
 namespace roam::app {
 
-DisplayLoader::DisplayLoader(const SceneOptions& scene, const TextureQuality& quality)
+DisplayLoader::DisplayLoader(const SceneOptions& scene, const TextureQuality& quality,
+                             std::shared_ptr<SceneObjects> objects)
     : scene_(scene),
-      pages_(new PageSource(scene.scenes, scene.import_options(), quality)),
+      pages_(new PageSource(scene.scenes, scene.import_options(), quality, std::move(objects))),
       loading_([this] { load_scene(); }) {}
 
 DisplayLoader::DisplayLoader(const std::filesystem::path& store, std::future<Vec3> place)
-    : store_(store), place_(std::move(place)), pages_(new PageSource({}, {}, {})), loading_([this] { load_store(); }) {}
+    : store_(store),
+      place_(std::move(place)),
+      pages_(new PageSource({}, {}, {}, std::make_shared<SceneObjects>())),
+      loading_([this] { load_store(); }) {}
 
 std::optional<DisplayNode> DisplayLoader::take() {
   return loading_.with_state([this](const LoadState&) -> std::optional<DisplayNode> {

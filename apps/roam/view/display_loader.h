@@ -5,6 +5,7 @@
 #include <deque>
 #include <filesystem>
 #include <future>
+#include <memory>
 #include <optional>
 #include <osg/Node>
 #include <osg/ref_ptr>
@@ -28,7 +29,8 @@ struct DisplayNode {
 /// Reads in a thread and a reader process of its own, piece by piece.
 class DisplayLoader {
  public:
-  DisplayLoader(const SceneOptions& scene, const TextureQuality& quality);
+  /// `objects` receives the names of the scene's objects; not null.
+  DisplayLoader(const SceneOptions& scene, const TextureQuality& quality, std::shared_ptr<SceneObjects> objects);
   /// For a store without its scene: the triangles around `place`, once that is known. See show_store.
   DisplayLoader(const std::filesystem::path& store, std::future<Vec3> place);
 

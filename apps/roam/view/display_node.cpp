@@ -4,6 +4,7 @@
 #include <array>
 #include <cstring>
 #include <map>
+#include <memory>
 #include <osg/Array>
 #include <osg/Image>
 #include <osg/MatrixTransform>
@@ -14,6 +15,7 @@
 #include <vector>
 
 #include "graphics/shading.h"
+#include "view/shown_objects.h"
 
 namespace roam::app {
 namespace {
@@ -72,13 +74,29 @@ osg::ref_ptr<osg::Texture2D> texture_of(const DisplayTexture& from, const Textur
   return texture;
 }
 
-/// Null if the look is plain.
-osg::ref_ptr<osg::StateSet> state_of(const DisplayLook& look, osg::Texture2D* texture) {
-  if (texture == nullptr && look.cover == DisplayCover::opaque) return nullptr;
+/// Null if the look is plain. `textures`: those of its part.
+osg::ref_ptr<osg::StateSet> state_of(const DisplayLook& look,
+                                     const std::vector<osg::ref_ptr<osg::Texture2D>>& textures) {
+  const bool dull = look.roughness >= 1.0f && look.gloss_texture == DisplayLook::no_texture;
+  const bool emits = look.emission != std::array<std::uint8_t, 3>{};
+  if (!look.has_image() && look.cover == DisplayCover::opaque && dull && !emits) return nullptr;
   osg::ref_ptr<osg::StateSet> state = new osg::StateSet;
-  if (texture != nullptr) state->setTextureAttributeAndModes(0, texture);
-  graphics::Surface surface{.textured = texture != nullptr, .blended = look.cover == DisplayCover::blended};
+  const auto set_image = [&](unsigned unit, std::uint32_t texture) {
+    if (texture == DisplayLook::no_texture) return false;
+    state->setTextureAttribute(unit, textures[texture]);
+    return true;
+  };
+  graphics::Surface surface{.textured = set_image(graphics::picture_unit, look.texture),
+                            .blended = look.cover == DisplayCover::blended};
   if (look.cover == DisplayCover::cut) surface.cutoff = look.cutoff;
+  if (!dull) {
+    surface.gloss = {look.roughness, look.metalness, set_image(graphics::gloss_unit, look.gloss_texture)};
+  }
+  if (emits) {
+    const auto& [red, green, blue] = look.emission;
+    surface.emission = {{red / 255.0f, green / 255.0f, blue / 255.0f},
+                        set_image(graphics::emission_unit, look.emission_texture)};
+  }
   graphics::apply(surface, *state);
   return state;
 }
@@ -125,13 +143,15 @@ osg::ref_ptr<osg::Geometry> make_geometry(const DisplayGeometry& from) {
   return geometry;
 }
 
-osg::ref_ptr<osg::Group> make_node(const DisplayPart& part, const TextureQuality& quality, const NamePage& name_page) {
+osg::ref_ptr<osg::Group> make_node(const DisplayPart& part, const TextureQuality& quality, const NamePage& name_page,
+                                   SceneObjects& objects) {
+  const std::vector<SceneObjects::Number> numbers = objects.add(part.objects);
+  const std::shared_ptr<const SceneObjects::Flags> flags = objects.flags();
   std::vector<osg::ref_ptr<osg::Texture2D>> textures;
   for (const DisplayTexture& texture : part.textures) textures.push_back(texture_of(texture, quality));
   std::vector<osg::ref_ptr<osg::StateSet>> states;
   for (const DisplayLook& look : part.looks) {
-    const bool textured = look.texture != DisplayLook::no_texture;
-    states.push_back(state_of(look, textured ? textures[look.texture].get() : nullptr));
+    states.push_back(state_of(look, textures));
   }
   std::vector<osg::ref_ptr<osg::Group>> groups(part.groups);
   for (auto& group : groups) group = new osg::Group;
@@ -146,6 +166,9 @@ osg::ref_ptr<osg::Group> make_node(const DisplayPart& part, const TextureQuality
     }
     const osg::ref_ptr<osg::Geometry> geometry = make_geometry(from);
     geometry->setStateSet(states[from.look]);
+    std::vector<DisplayRun> runs = from.runs;
+    for (DisplayRun& run : runs) run.object = numbers[run.object];
+    keep_objects(*geometry, std::move(runs), *flags);
     cell->addChild(geometry);
   }
   for (const DisplayPages& pages : part.pages) groups[pages.group]->addChild(pages_of(pages, groups, name_page));

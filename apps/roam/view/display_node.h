@@ -9,6 +9,7 @@
 #include <string>
 
 #include "import/display_part.h"
+#include "view/scene_objects.h"
 
 namespace roam::app {
 
@@ -19,9 +20,10 @@ struct TextureQuality {
 /// Gives a page (DisplayLevel::page) its name for OpenSceneGraph's pager.
 using NamePage = std::function<std::string(const std::string& page)>;
 
-/// The nodes of a part, as the scene group of graphics expects them, in the part's frame: the scene's - origin.
+/// The nodes of a part, as the scene group of graphics expects them, in the part's frame: the scene's - origin. Its
+/// objects are added to `objects`, and those that are hidden there are not drawn; see show_objects.
 [[nodiscard]] osg::ref_ptr<osg::Group> make_node(const DisplayPart& part, const TextureQuality& quality,
-                                                 const NamePage& name_page);
+                                                 const NamePage& name_page, SceneObjects& objects);
 
 /// The triangles alone, in the frame of their cell.
 [[nodiscard]] osg::ref_ptr<osg::Geometry> make_geometry(const DisplayGeometry& geometry);

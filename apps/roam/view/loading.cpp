@@ -23,15 +23,21 @@ LoadState Loading::state() const {
 void Loading::tell(LoadState::Phase phase, double share, std::uint64_t triangles) {
   const auto now = std::chrono::steady_clock::now();
   const std::lock_guard lock(mutex_);
-  if (phase != state_.phase) phase_start_ = now;
+  if (phase != state_.phase || state_.share <= 0.0) {
+    phase_start_ = now;
+    share_start_ = share;
+  }
   state_.phase = phase;
   state_.share = share;
   state_.triangles = triangles;
   const double seconds = std::chrono::duration<double>(now - phase_start_).count();
-  // Earlier estimates are guesses that confuse.
+  // Earlier estimates are guesses that confuse, and what follows reading takes a time that reading does not tell.
   constexpr double least_seconds = 1.0;
-  constexpr double least_share = 0.01;
-  state_.seconds_left = seconds > least_seconds && share > least_share ? seconds * (1.0 / share - 1.0) : -1.0;
+  constexpr double least_share = 0.02;
+  // A build that goes on has not done its first share now.
+  const double done = share - share_start_;
+  const bool is_known = phase == LoadState::Phase::indexing && seconds > least_seconds && done > least_share;
+  state_.seconds_left = is_known && share < 1.0 ? seconds * (1.0 - share) / done : -1.0;
 }
 
 void Loading::run() {

@@ -28,7 +28,7 @@ class Loading {
   /// For `load` to poll: false after cancel().
   [[nodiscard]] bool wanted() const { return !cancelled_; }
   /// Sets the progress, from within `load`. `share`: of this phase, in [0, 1]. `triangles`: so far. Estimates the time
-  /// left from these.
+  /// left while indexing, the last phase that takes long, from the rate in this phase.
   void tell(LoadState::Phase phase, double share, std::uint64_t triangles);
   /// Progress; from any thread.
   [[nodiscard]] LoadState state() const;
@@ -47,6 +47,7 @@ class Loading {
   mutable std::mutex mutex_;
   LoadState state_;
   std::chrono::steady_clock::time_point phase_start_ = std::chrono::steady_clock::now();
+  double share_start_ = 0.0;  ///< of the phase
   std::thread thread_;
 };
 

@@ -13,7 +13,7 @@ bool Menu::handle(const Adapter& event, osgGA::GUIActionAdapter& /*action*/) {
   const std::string here = hud.help_at(event.getXnormalized(), event.getYnormalized());
   switch (event.getEventType()) {
     case Adapter::PUSH:
-      return push(event);
+      return event.getButton() != 0 && push(event);
     case Adapter::RELEASE:
       if (!is_down_) return false;
       is_down_ = event.getButtonMask() != 0;
@@ -40,19 +40,10 @@ bool Menu::push(const Adapter& event) {
   hud.set_help_focus({});
   hud.show_help(opens);
   is_down_ = true;
-  if (!command.empty() && command != "help") choose(command);
+  if (!command.empty() && command != "help") {
+    press_key_of(roamer_.controls(), command, *stage_.viewer().getEventQueue());
+  }
   return true;
-}
-
-void Menu::choose(const std::string& command) {
-  const osgRoam::Controls::Command* const chosen = roamer_.controls().find(command);
-  if (chosen == nullptr || chosen->keys.empty()) return;
-  osgGA::EventQueue& events = *stage_.viewer().getEventQueue();
-  const auto [symbol, ctrl] = chosen->keys.front();
-  if (ctrl) events.keyPress(Adapter::KEY_Control_L);
-  events.keyPress(symbol);
-  events.keyRelease(symbol);
-  if (ctrl) events.keyRelease(Adapter::KEY_Control_L);
 }
 
 }  // namespace roam::app

@@ -26,7 +26,6 @@ class Menu : public osgGA::GUIEventHandler {
 
  private:
   bool push(const osgGA::GUIEventAdapter& event);
-  void choose(const std::string& command);
 
   Stage& stage_;
   const osgRoam::Manipulator& roamer_;

@@ -225,6 +225,12 @@ void ViewOptions::add_to(CLI::App& verb) {
       ->type_name("PLANE")
       ->expected(1)
       ->take_all();
+  verb.add_option("--hide", hide,
+                  "Do not draw objects whose name, or an ancestor's, matches, e.g. 'Roof*'; may be repeated. The body "
+                  "still meets them: --ignore leaves them out for the body, too")
+      ->type_name("PATTERN")
+      ->expected(1)
+      ->take_all();
   verb.add_flag("--headless", headless, "Draw without a screen");
   verb.add_option("--time", time_limit, "End after S seconds of roaming")
       ->excludes(replay)

@@ -35,6 +35,7 @@ struct ViewOptions {
   std::vector<double> at;  ///< x, y, z, perhaps yaw, perhaps pitch
   std::string bookmark;
   std::vector<std::string> section;
+  std::vector<std::string> hide;  ///< patterns of names
   std::filesystem::path path;
   double dt = 1.0 / 60.0;
   std::filesystem::path screenshot, record, record_path, trace, settings;

@@ -33,9 +33,10 @@ class Counted : public osg::Referenced {
 }  // namespace
 
 PageSource::PageSource(std::vector<std::filesystem::path> paths, const ImportOptions& options,
-                       const TextureQuality& quality)
+                       const TextureQuality& quality, std::shared_ptr<SceneObjects> objects)
     : reader_(std::move(paths), options),
       quality_(quality),
+      objects_(std::move(objects)),
       memory_limit_(options.memory_limit),
       memory_(std::make_shared<std::atomic<std::uint64_t>>(0)) {}
 
@@ -50,7 +51,8 @@ std::string PageSource::problem() const {
 }
 
 osg::ref_ptr<osg::Group> PageSource::make(const DisplayPart& part, int depth) {
-  return make_node(part, quality_, [&](const std::string& token) { return name_of(part, token, depth); });
+  return make_node(
+      part, quality_, [&](const std::string& token) { return name_of(part, token, depth); }, *objects_);
 }
 
 std::string PageSource::name_of(const DisplayPart& part, const std::string& token, int depth) {

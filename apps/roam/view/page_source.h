@@ -22,7 +22,9 @@ namespace roam::app {
 /// OpenSceneGraph requests again in every frame. Thread-safe.
 class PageSource : public osgDB::ReadFileCallback {
  public:
-  PageSource(std::vector<std::filesystem::path> paths, const ImportOptions& options, const TextureQuality& quality);
+  /// `objects` receives the names of the scene's objects; not null.
+  PageSource(std::vector<std::filesystem::path> paths, const ImportOptions& options, const TextureQuality& quality,
+             std::shared_ptr<SceneObjects> objects);
 
   /// The nodes of a part; the pages that it names can be read from now on. Throws roam::Error if there are more pages
   /// than any scene has.
@@ -65,6 +67,7 @@ class PageSource : public osgDB::ReadFileCallback {
 
   PageReader reader_;
   TextureQuality quality_;
+  std::shared_ptr<SceneObjects> objects_;
   std::uint64_t memory_limit_;
   std::shared_ptr<std::atomic<std::uint64_t>> memory_;  ///< bytes of the pages in memory
   mutable std::mutex mutex_;

@@ -16,7 +16,7 @@ std::string option(const char* name, const Vec3& point) {
 
 /// The verb's arguments for a body: ways through the air are found for spheres.
 std::vector<std::string> arguments_of(const SceneAndStore& what, const WalkerSettings& body, Mode mode,
-                                      const Vec3& from, const Vec3& to) {
+                                      const Vec3& from, const Vec3& to, const std::vector<std::string>& ignored) {
   std::vector<std::string> arguments{"probe", "--json", option("from", from), option("to", to),
                                      fmt::format("--radius={}", body.radius)};
   if (mode == Mode::fly) {
@@ -29,6 +29,7 @@ std::vector<std::string> arguments_of(const SceneAndStore& what, const WalkerSet
   }
   SceneOptions scene = what.scene;
   if (!what.store.empty()) scene.scenes = {what.store};
+  scene.ignore.insert(scene.ignore.end(), ignored.begin(), ignored.end());
   for (std::string& argument : scene.arguments()) arguments.push_back(std::move(argument));
   return arguments;
 }
@@ -87,9 +88,10 @@ Probing::Probing(std::filesystem::path program, SceneAndStore what, const osgRoa
 
 Probing::~Probing() = default;
 
-void Probing::ask(const Vec3& from, const Vec3& to) {
+void Probing::ask(const Vec3& from, const Vec3& to, const std::vector<std::string>& ignored) {
   search_.reset();
-  search_ = std::make_unique<Search>(program_, arguments_of(what_, roamer_.settings(), roamer_.mode(), from, to));
+  search_ =
+      std::make_unique<Search>(program_, arguments_of(what_, roamer_.settings(), roamer_.mode(), from, to, ignored));
 }
 
 void Probing::clear() { search_.reset(); }

@@ -35,7 +35,7 @@ class Probing {
   ~Probing();  ///< ends the child
 
   /// Begins to search a way. Ends an earlier search.
-  void ask(const Vec3& from, const Vec3& to);
+  void ask(const Vec3& from, const Vec3& to, const std::vector<std::string>& ignored = {});
   /// Shows nothing any more, and ends the search. The report keeps the answers.
   void clear();
 

@@ -62,9 +62,21 @@ void Records::name_bookmark(const std::string& name) {
   news_.tell("bookmark " + bookmarks_->present()->name);
 }
 
-std::string Records::bookmark() const {
+void Records::ask_name(Prompt& prompt) {
   const Bookmark* const present = bookmarks_ ? bookmarks_->present() : nullptr;
-  return present == nullptr ? std::string() : present->name;
+  if (present == nullptr) {
+    news_.tell("there is no bookmark to name: keep one first");
+    return;
+  }
+  // The number that stands for a name is none to begin with.
+  const bool is_number = present->name.find_first_not_of("0123456789") == std::string::npos;
+  prompt.ask("Name of the bookmark", is_number ? "" : present->name, [this](const std::string& text) {
+    try {
+      name_bookmark(text);
+    } catch (const Error& error) {
+      news_.note(error.what());
+    }
+  });
 }
 
 std::vector<graphics::PlanPlace> Records::places() const {

@@ -16,6 +16,7 @@
 #include "view/commands.h"
 #include "view/news.h"
 #include "view/path_recorder.h"
+#include "view/prompt.h"
 #include "view/status.h"
 #include "view/view_report.h"
 
@@ -35,8 +36,8 @@ class Records {
   void add_bookmark();
   /// Gives the bookmark that was kept or visited last another name. Throws roam::Error on failure.
   void name_bookmark(const std::string& name);
-  /// That bookmark's name; empty: there is none.
-  [[nodiscard]] std::string bookmark() const;
+  /// The same with a name that the person types. Errors become news.
+  void ask_name(Prompt& prompt);
   /// All bookmarks, seen from above.
   [[nodiscard]] std::vector<graphics::PlanPlace> places() const;
   /// Puts the body at the next bookmark, or the previous one; at first, at the first or the last.

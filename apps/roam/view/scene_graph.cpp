@@ -2,8 +2,10 @@
 
 #include <osgDB/DatabasePager>
 #include <osgDB/Registry>
+#include <utility>
 
 #include "graphics/shading.h"
+#include "view/shown_objects.h"
 
 namespace roam::app {
 namespace {
@@ -11,12 +13,19 @@ namespace {
 /// Frames without a new or pending page until the pager has requested all that it needs. It requests one level a frame,
 /// and merges the results in the next.
 constexpr int quiet_frames_needed = 6;
+/// SceneObjects::version() before the first change.
+constexpr std::uint64_t first_version = 1;
 
 }  // namespace
 
 SceneGraph::SceneGraph(osgViewer::Viewer& viewer, osg::Group& parent, std::unique_ptr<DisplayLoader> loader,
-                       Arrival arrival)
-    : viewer_(viewer), group_(graphics::make_scene_group()), arrival_(arrival), loader_(std::move(loader)) {
+                       std::shared_ptr<SceneObjects> objects, Arrival arrival)
+    : viewer_(viewer),
+      group_(graphics::make_scene_group()),
+      arrival_(arrival),
+      objects_(std::move(objects)),
+      objects_version_(objects_->version()),
+      loader_(std::move(loader)) {
   parent.addChild(group_);
   osgDB::Registry::instance()->setReadFileCallback(&loader_->pages());
   if (arrival_ == Arrival::smooth) {
@@ -47,6 +56,18 @@ void SceneGraph::update() {
   state_ = loader_->state();
   while (std::optional<DisplayNode> piece = loader_->take()) attach(std::move(*piece));
   if (!report_) report_ = loader_->take_report();
+  hide_objects();
+}
+
+void SceneGraph::hide_objects() {
+  // A piece or page that was made before a change may arrive after it.
+  constexpr int check_frames = 15;
+  const std::uint64_t version = objects_->version();
+  const bool changed = version != std::exchange(objects_version_, version);
+  if (changed) frames_until_check_ = 0;
+  if (version == first_version || --frames_until_check_ > 0) return;
+  frames_until_check_ = check_frames;
+  if (changed || paged_ || !is_over(state_) || is_compiling()) show_objects(*group_, *objects_->flags());
 }
 
 bool SceneGraph::is_compiling() const {

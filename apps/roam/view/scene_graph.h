@@ -23,7 +23,9 @@ class SceneGraph {
   enum class Arrival : std::uint8_t { smooth, at_once };
 
   /// Adds a group below `parent`. From now on PageSource supplies everything that OpenSceneGraph reads in this process.
-  SceneGraph(osgViewer::Viewer& viewer, osg::Group& parent, std::unique_ptr<DisplayLoader> loader, Arrival arrival);
+  /// `objects`: those to which `loader` adds the scene's objects.
+  SceneGraph(osgViewer::Viewer& viewer, osg::Group& parent, std::unique_ptr<DisplayLoader> loader,
+             std::shared_ptr<SceneObjects> objects, Arrival arrival);
   ~SceneGraph();
   SceneGraph(const SceneGraph&) = delete;
   SceneGraph& operator=(const SceneGraph&) = delete;
@@ -40,6 +42,8 @@ class SceneGraph {
   /// The graph is scene - origin; zero before the first piece.
   [[nodiscard]] const Vec3& origin() const { return origin_; }
   [[nodiscard]] osg::Group& group() { return *group_; }
+  /// The objects with names. What is hidden there is not drawn from the next update() on.
+  [[nodiscard]] SceneObjects& objects() { return *objects_; }
   [[nodiscard]] bool has_pieces() const { return pieces_ > 0; }
   /// Whether the detail of some piece depends on the eye.
   [[nodiscard]] bool is_paged() const { return paged_; }
@@ -55,6 +59,7 @@ class SceneGraph {
 
  private:
   void attach(DisplayNode&& piece);
+  void hide_objects();
   [[nodiscard]] bool is_compiling() const;
 
   osgViewer::Viewer& viewer_;
@@ -69,6 +74,9 @@ class SceneGraph {
   std::uint64_t last_count_ = 0;  ///< count of page reads at the last is_complete()
   int quiet_frames_ = 0;
   std::optional<DisplayReport> report_;
+  std::shared_ptr<SceneObjects> objects_;
+  std::uint64_t objects_version_ = 0;  ///< that the graph shows
+  int frames_until_check_ = 0;
   std::unique_ptr<DisplayLoader> loader_;
 };
 

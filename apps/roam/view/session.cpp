@@ -1,14 +1,9 @@
 #include "view/session.h"
 
-#include <fmt/format.h>
-
 #include <memory>
 #include <utility>
 
 #include "cli/interrupt.h"
-#include "roam/error.h"
-#include "roam/profile.h"
-#include "roam/world.h"
 #include "scenes/frame.h"
 #include "view/body.h"
 #include "view/menu.h"
@@ -31,19 +26,10 @@ ViewPlan with_bookmark(ViewPlan plan, const std::string& bookmark, Records& reco
   return plan;
 }
 
-/// The pattern that matches this name alone.
-std::string pattern_of(const std::string& name) {
-  std::string pattern;
-  for (const char c : name) {
-    if (std::string("*?[]\\").find(c) != std::string::npos) pattern += '\\';
-    pattern += c;
-  }
-  return pattern;
-}
-
-std::unique_ptr<DisplayLoader> load_picture(const SceneAndStore& what, CollisionLoader& collision, const Stage& stage) {
+std::unique_ptr<DisplayLoader> load_picture(const SceneAndStore& what, CollisionLoader& collision, const Stage& stage,
+                                            std::shared_ptr<SceneObjects> objects) {
   return what.store_only ? std::make_unique<DisplayLoader>(what.store, collision.place())
-                         : std::make_unique<DisplayLoader>(what.scene, stage.texture_quality());
+                         : std::make_unique<DisplayLoader>(what.scene, stage.texture_quality(), std::move(objects));
 }
 
 }  // namespace
@@ -61,27 +47,31 @@ Session::Session(const ViewOptions& options, const ViewPlan& plan, const ViewSet
       stage_(options_, plan_),
       cameras_(new Cameras(*roamer_)),
       arrival_(options_, plan_, what_, *roamer_, news_),
-      scene_(stage_.viewer(), *stage_.frame().space(), load_picture(what_, arrival_.loader(), stage_),
-             stage_.headless() ? SceneGraph::Arrival::at_once : SceneGraph::Arrival::smooth),
+      objects_(std::make_shared<SceneObjects>(options.hide)),
+      scene_(stage_.viewer(), *stage_.frame().space(), load_picture(what_, arrival_.loader(), stage_, objects_),
+             objects_, stage_.headless() ? SceneGraph::Arrival::at_once : SceneGraph::Arrival::smooth),
       display_(stage_, scene_, *roamer_, news_, plan_.fov),
       prompt_(new Prompt(stage_)),
-      tools_(new Tools(stage_, scene_, *roamer_, what_, options.program, plan_.section)),
-      building_(what_, options.program, *roamer_, news_) {
+      layers_(new Layers(stage_, scene_, arrival_, *roamer_, *prompt_, news_, plan_.path.empty() && !options.verify)),
+      tools_(new Tools(stage_, scene_, *roamer_, *layers_, what_, options.program, plan_.section)),
+      controllers_(stage_, *roamer_, plan_.sensitivity),
+      building_(what_, options.program, *roamer_, news_),
+      rereading_(what_, options_, arrival_, *roamer_, display_, news_) {
   for (const std::string& note : {plan_.note, link_beside(what_)}) {
     if (!note.empty()) news_.note(note);
   }
   stage_.add_to(commands_);
   display_.add_to(commands_);
+  layers_->add_to(commands_);
   commands_.add("store", [this] { building_.toggle(arrival_.pager(), place(), arrival_.triangles()); });
-  commands_.add("turn", [this] { turn(); });
-  commands_.add("name_bookmark", [this] { name_bookmark(); });
-  commands_.add("leave_out", [this] { leave_out_ahead(); });
-  commands_.add("show_all", [this] { show_all(); });
+  commands_.add("name_bookmark", [this] { records_.ask_name(*prompt_); });
+  rereading_.add_to(commands_);
   commands_.add("quit", [this] { quits_ = true; });
   roamer_->setCommandCallback([this](const std::string& name) { run(name); });
   stage_.viewer().addEventHandler(prompt_);
   stage_.viewer().addEventHandler(new SessionHandler(*this));
   stage_.viewer().addEventHandler(new Menu(stage_, *roamer_));
+  stage_.viewer().addEventHandler(layers_);
   stage_.viewer().addEventHandler(tools_);
   // SessionHandler handles Escape; the viewer would end before any other use of the key.
   stage_.viewer().setKeyEventSetsDone(0);
@@ -108,12 +98,13 @@ bool Session::frame() {
   news_.set_time(stage_.now());
 
   arrival_.fly_without_ground();
+  if (controllers_.update(roamer_leads())) show_keys();
   stage_.see_events();
   // Headless frames run faster than real time: wait for the tiles that would have loaded meanwhile.
   if (stage_.headless() && roaming()) arrival_.wait_for_tiles(passed);
   arrival_.fly_without_ground();
   if (learning_) learning_->update();
-  if (quits_ || next_ || stage_.viewer().done()) return false;
+  if (quits_ || next() || stage_.viewer().done()) return false;
   if (roaming()) {
     if (replay_) replay_->look(*roamer_, passed);
     if (roamer_->steps() > 0) log_.take_frame(roamer_->collisionNanoseconds(), roamer_->collisionOwnNanoseconds());
@@ -217,72 +208,9 @@ Vec3 Session::place() const {
   return scene_.bounds().empty() ? Vec3(0.0) : scene_.bounds().center();
 }
 
-/// Whether another session may follow this one. Says why not.
-bool Session::can_begin_anew() {
-  const bool writes = !options_.trace.empty() || !options_.record.empty() || !options_.record_path.empty();
-  if (options_.path.empty() && !options_.verify && !writes) return true;
-  news_.tell("the scene is not read anew on a path, or while a trace, a film or a way is written");
-  return false;
-}
-
-/// Ends the session to begin it anew with another axis up, which the profile keeps.
-void Session::turn() {
-  const std::optional<SceneFrame> frame = frame_of(what_.scene);
-  if (!what_.store.empty() || !frame) {
-    news_.tell("a store keeps the frame in which it was built: turn its scene, and build it again");
-  } else if (can_begin_anew()) {
-    next_ = NextSession{next_frame(*frame, arrival_.likely_up()), {}, {}, Mode::walk};
-    if (what_.scene.no_profile) return;
-    try {
-      const std::filesystem::path file = profile_path(what_.scene.scenes);
-      if (save_frame(*next_->frame, file))
-        news_.note(file.string() + " had a body for the scene as it was: train again");
-    } catch (const Error& error) {
-      news_.note(fmt::format("the turn is not kept: {}", error.what()));
-    }
-  }
-}
-
-void Session::name_bookmark() {
-  const std::string name = records_.bookmark();
-  if (name.empty()) {
-    news_.tell("there is no bookmark to name: keep one first");
-    return;
-  }
-  prompt_->ask("Name of the bookmark", name, [this](const std::string& text) {
-    try {
-      records_.name_bookmark(text);
-    } catch (const Error& error) {
-      news_.note(error.what());
-    }
-  });
-}
-
-void Session::leave_out_ahead() {
-  const std::string& name = status().around.ahead;
-  if (!roaming() || name.empty()) {
-    news_.tell("no object with a name is in the middle of the picture");
-  } else if (arrival_.pager() != nullptr) {
-    news_.tell("a store keeps its objects: build one with --ignore to leave some out");
-  } else if (const auto* world = dynamic_cast<const World*>(roamer_->space().get());
-             world != nullptr && world->stats().objects == 1) {
-    news_.tell("the scene has only this object");
-  } else if (can_begin_anew()) {
-    begin_anew(pattern_of(name));
-  }
-}
-
-void Session::show_all() {
-  if (roaming() && can_begin_anew()) begin_anew({});
-}
-
-void Session::begin_anew(const std::string& leave_out) {
-  next_ = NextSession{std::nullopt, leave_out, standing_pose_of(*roamer_), roamer_->mode()};
-}
-
 void Session::show_keys() {
   const std::string key = key_of(roamer_->controls(), "help");
-  stage_.hud().set_help(key_lines(roamer_->controls()));
+  stage_.hud().set_help(key_lines(roamer_->controls(), controllers_.has_gamepad()));
   if (!stage_.headless()) stage_.hud().set_button(key.empty() ? "Menu" : "Menu: " + key);
 }
 
@@ -300,12 +228,16 @@ bool Session::is_at_its_end() const {
 void Session::show(bool at_once) {
   graphics::Marks marks;
   tools_->add_to(marks);
+  layers_->update();
   tools_->update(roaming(), records_.places());
   display_.update(roaming(), roaming() && !arrival_.is_ghost_only() ? roamer_->leastEyeDistance() : plan_.walker.radius,
                   std::move(marks));
   if (!at_once && !display_.is_due()) return;
   arrival_.note_failures(stage_.now());
   Status status = display_.status(roaming());
+  if (const Space* const visible = layers_->visible(); visible != nullptr && roaming()) {
+    status.around = surroundings(*roamer_, *visible);
+  }
   if (roaming() && !roamer_leads()) status.camera = cameras_->present();
   // It is said of the file's own frame.
   if (scene_.report() && frame_of(what_.scene) == SceneFrame{}) {
@@ -314,6 +246,7 @@ void Session::show(bool at_once) {
   arrival_.fill(status);
   building_.fill(status);
   records_.fill(status);
+  layers_->fill(status);
   tools_->fill(status);
   if (learning_) learning_->fill(status);
   display_.show(std::move(status));
@@ -333,6 +266,7 @@ ViewReport Session::finish() {
   building_.fill(report);
   arrival_.fill(report);
   display_.fill(report);
+  layers_->fill(report);
   tools_->fill(report);
   records_.finish();
   records_.fill(report);

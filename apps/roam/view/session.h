@@ -2,6 +2,7 @@
 /// \file
 /// One session of `roam view`: from the empty window to the last frame.
 
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -9,13 +10,16 @@
 #include "view/arrival.h"
 #include "view/cameras.h"
 #include "view/commands.h"
+#include "view/controllers.h"
 #include "view/display.h"
+#include "view/layers.h"
 #include "view/learning.h"
 #include "view/news.h"
 #include "view/options.h"
 #include "view/prompt.h"
 #include "view/records.h"
 #include "view/replay.h"
+#include "view/rereading.h"
 #include "view/scene_graph.h"
 #include "view/stage.h"
 #include "view/store_building.h"
@@ -25,14 +29,6 @@
 
 namespace roam::app {
 
-/// How the person wants to read the scene next: in another frame, or without some objects.
-struct NextSession {
-  std::optional<SceneFrame> frame;  ///< another frame, where places of this one mean nothing
-  std::string leave_out;            ///< without `frame`: pattern of an object to leave out too; empty: show all again
-  Pose at;                          ///< the body at the end
-  Mode mode = Mode::walk;
-};
-
 /// Joins the objects of a session, each of which owns its state:
 ///
 ///     Arrival        loads the collision, puts the body into the scene
@@ -40,7 +36,10 @@ struct NextSession {
 ///     Learning       sizes of the body
 ///     Records        the recorded path, bookmarks
 ///     Display        head-up display, marks, overview
+///     Layers         objects on and off by name
+///     Controllers    gamepads
 ///     Tools          measuring by clicks, the plan
+///     Rereading      the end of the session for another one
 ///     Stage          window, time, pictures and films
 ///
 /// All of them write to News, and add their actions to Commands. The body collides with the scene's store if it matches
@@ -63,7 +62,7 @@ class Session {
   /// scene can be loaded, or if the path or --verify is not possible.
   bool frame();
   /// Set if the session has ended for another one.
-  [[nodiscard]] const std::optional<NextSession>& next() const { return next_; }
+  [[nodiscard]] const std::optional<NextSession>& next() const { return rereading_.next(); }
   /// Ends the session and writes its outputs.
   [[nodiscard]] ViewReport finish();
 
@@ -73,6 +72,7 @@ class Session {
   [[nodiscard]] osgRoam::Manipulator& roamer() { return *roamer_; }
   [[nodiscard]] Stage& stage() { return stage_; }
   [[nodiscard]] const Tools& tools() const { return *tools_; }
+  [[nodiscard]] Layers& layers() { return *layers_; }
   [[nodiscard]] const WalkLog& log() const { return log_; }
   [[nodiscard]] const Status& status() const { return display_.shown(); }
   /// Whether the body is in the scene, led by the person or the path.
@@ -88,12 +88,6 @@ class Session {
   void turn_around();
   void load_pages_of_film();
   void show_keys();
-  void turn();
-  void name_bookmark();
-  void leave_out_ahead();
-  void show_all();
-  [[nodiscard]] bool can_begin_anew();
-  void begin_anew(const std::string& leave_out);
   void show(bool at_once);
   [[nodiscard]] Vec3 place() const;
   [[nodiscard]] bool is_replaying() const { return replay_ && !replay_->done(); }
@@ -110,17 +104,20 @@ class Session {
   Stage stage_;
   osg::ref_ptr<Cameras> cameras_;
   Arrival arrival_;
+  const std::shared_ptr<SceneObjects> objects_;
   SceneGraph scene_;
   Display display_;
   const osg::ref_ptr<Prompt> prompt_;
+  const osg::ref_ptr<Layers> layers_;
   const osg::ref_ptr<Tools> tools_;
+  Controllers controllers_;
   StoreBuilding building_;
+  Rereading rereading_;
   std::optional<Learning> learning_;
   std::optional<Replay> replay_;
   double placed_at_ = 0.0;            ///< s since the session began
   std::optional<double> turning_at_;  ///< s since the session began, of the turntable's start
   bool quits_ = false;
-  std::optional<NextSession> next_;
 };
 
 }  // namespace roam::app

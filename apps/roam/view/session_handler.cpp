@@ -21,13 +21,19 @@ bool SessionHandler::handle(const osgGA::GUIEventAdapter& event, osgGA::GUIActio
   return command != nullptr && session_.run(command->name);
 }
 
-/// Closes the help, else releases the mouse. False if there is neither.
+/// Closes the help, else releases the mouse, else closes the list. False if there is none of these.
 bool SessionHandler::step_out() {
   graphics::Hud& hud = session_.stage().hud();
   osgRoam::Manipulator& roamer = session_.roamer();
-  if (!hud.help_shown() && !roamer.mouseGrab()) return false;
-  if (!hud.help_shown()) roamer.setMouseGrab(false);
-  hud.show_help(false);
+  Layers& layers = session_.layers();
+  if (!hud.help_shown() && !roamer.mouseGrab() && !layers.is_shown()) return false;
+  if (hud.help_shown()) {
+    hud.show_help(false);
+  } else if (roamer.mouseGrab()) {
+    roamer.setMouseGrab(false);
+  } else {
+    layers.close();
+  }
   return true;
 }
 

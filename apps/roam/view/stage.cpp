@@ -123,9 +123,11 @@ std::string Stage::quality_note() const {
 }
 
 void Stage::show(const Status& status) {
+  constexpr int roomy = 480;  // pixels: the usual lines and those of a tool leave half of the picture free
   std::vector<graphics::StatusLine> lines;
   for (const StatusText& line : status_lines(status)) {
     if (line.figures && hud_mode_ != HudMode::full) continue;
+    if (line.yields && !status.tool.empty() && frame_->height() < roomy) continue;
     lines.push_back({line.label, line.value, line.warning ? graphics::Tone::warning : graphics::Tone::info});
   }
   hud_->set_status(std::move(lines));

@@ -117,18 +117,22 @@ std::vector<StatusText> status_lines(const Status& status) {
   lines.push_back({"", mode_text(status), false});
   if (status.mode && status.camera.empty()) {
     const Vec3& p = status.around.feet;
-    lines.push_back({"feet", fmt::format("{:.2f}, {:.2f}, {:.2f}", p.x, p.y, p.z)});
+    const auto add = [&](const char* label, std::string value) {
+      if (!value.empty()) lines.push_back({label, std::move(value), false, false, true});
+    };
+    add("feet", fmt::format("{:.2f}, {:.2f}, {:.2f}", p.x, p.y, p.z));
     if (status.georeference) {
       const auto& [srs, origin] = *status.georeference;
       const Vec3 site = p + origin;
-      lines.push_back({"site", fmt::format("{:.2f}, {:.2f}, {:.2f} {}", site.x, site.y, site.z, printable(srs))});
+      add("site", fmt::format("{:.2f}, {:.2f}, {:.2f} {}", site.x, site.y, site.z, printable(srs)));
     }
-    if (const std::string height = height_text(status); !height.empty()) lines.push_back({"height", height});
-    lines.push_back({"heading", heading_text(status.yaw, status.pitch)});
-    if (const std::string ahead = ahead_text(status.around); !ahead.empty()) lines.push_back({"ahead", ahead});
-    lines.push_back({"body", body_text(status)});
+    add("height", height_text(status));
+    add("heading", heading_text(status.yaw, status.pitch));
+    add("ahead", ahead_text(status.around));
+    add("body", body_text(status));
     lines.push_back({"keys", fmt::format("{:.3g} m/s", status.pace), false, true});
   }
+  if (!status.hidden.empty()) lines.push_back({"hidden", status.hidden});
   lines.insert(lines.end(), status.tool.begin(), status.tool.end());
   if (status.triangles > 0) {
     lines.push_back({"triangles", short_count(static_cast<double>(status.triangles)), false, true});

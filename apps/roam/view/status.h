@@ -37,6 +37,7 @@ struct StatusText {
   std::string value;
   bool warning = false;
   bool figures = false;  ///< for programmers
+  bool yields = false;   ///< to the lines of a tool, where there is little room
 };
 
 struct Status {
@@ -63,6 +64,7 @@ struct Status {
   double collision_us = 0.0;          ///< per frame
   std::string recording;              ///< what is being recorded
   std::vector<StatusText> tool;       ///< of the tool that is on
+  std::string hidden;                 ///< which objects are not shown, and whether they stop the body; may be empty
   std::vector<Told> news;             ///< at this moment
   Told hold;
 };

@@ -16,9 +16,8 @@ double sight(const Space& space, const Vec3& eye) {
   return box.empty() ? 0.0 : std::min(glm::distance(eye, box.center()) + glm::length(box.size()), farthest);
 }
 
-Surroundings surroundings(const osgRoam::Manipulator& roamer) {
+Surroundings surroundings(const osgRoam::Manipulator& roamer, const Space& space) {
   const Walker& walker = *roamer.walker();
-  const Space& space = walker.space();
   Surroundings found;
   found.feet = walker.feet();
   const Vec3 centre = walker.position(), eye = roamer.eye();

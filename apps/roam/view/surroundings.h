@@ -17,8 +17,8 @@ struct Surroundings {
   std::string ahead;                  ///< name of that surface's object; may be empty
 };
 
-/// Two rays. Needs a walker; its space must not change meanwhile.
-[[nodiscard]] Surroundings surroundings(const osgRoam::Manipulator& roamer);
+/// Two rays in `space`. Needs a walker; the space must not change meanwhile.
+[[nodiscard]] Surroundings surroundings(const osgRoam::Manipulator& roamer, const Space& space);
 
 /// The unit vector of a gaze. Radians, as in osgRoam::Manipulator.
 [[nodiscard]] Vec3 gaze(double yaw, double pitch);

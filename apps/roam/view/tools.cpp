@@ -26,11 +26,13 @@ bool is_left(const Adapter& event) { return event.getButton() == Adapter::LEFT_M
 
 }  // namespace
 
-Tools::Tools(Stage& stage, SceneGraph& scene, osgRoam::Manipulator& roamer, const SceneAndStore& what,
-             const std::filesystem::path& program, std::vector<graphics::SectionPlane> section)
+Tools::Tools(Stage& stage, SceneGraph& scene, osgRoam::Manipulator& roamer, const Layers& layers,
+             const SceneAndStore& what, const std::filesystem::path& program,
+             std::vector<graphics::SectionPlane> section)
     : stage_(stage),
       scene_(scene),
       roamer_(roamer),
+      layers_(layers),
       measuring_(roamer),
       probing_(program, what, roamer),
       section_(std::move(section)),
@@ -64,10 +66,10 @@ void Tools::probe() {
   }
   const Vec3 a = beside(points->a, roamer_.settings().radius);
   if (points->b) {
-    probing_.ask(a, beside(*points->b, roamer_.settings().radius));
+    probing_.ask(a, beside(*points->b, roamer_.settings().radius), layers_.passed());
   } else {
     const Walker& walker = *roamer_.walker();
-    probing_.ask(roamer_.mode() == Mode::fly ? walker.position() : walker.feet(), a);
+    probing_.ask(roamer_.mode() == Mode::fly ? walker.position() : walker.feet(), a, layers_.passed());
   }
 }
 
@@ -84,7 +86,9 @@ void Tools::toggle_section() {
 
 void Tools::update(bool has_body, const std::vector<graphics::PlanPlace>& places) {
   section_.show(scene_.group(), scene_.origin());
-  if (has_body) plan_.update(stage_.hud().detail() != graphics::Detail::off, places);
+  // The list takes the plan's place.
+  if (has_body) plan_.update(stage_.hud().detail() != graphics::Detail::off && !layers_.is_shown(), places);
+  stage_.hud().set_covered(plan_.covered());
 }
 
 Tools::Point Tools::point_of(const Adapter& event) const {
@@ -112,16 +116,15 @@ bool Tools::handle(const Adapter& event, osgGA::GUIActionAdapter& /*action*/) {
 bool Tools::scroll(const Adapter& event) {
   constexpr double notch = 1.25;
   const Point at = point_of(event);
-  const auto motion = event.getScrollingMotion();
-  const bool up = motion == Adapter::SCROLL_UP, down = motion == Adapter::SCROLL_DOWN;
-  if (!(up || down)) return false;
+  const double notches = osgRoam::notches_of(event);
+  if (notches == 0.0) return false;
   if (!roamer_.mouseGrab() && plan_.at(at.x, at.y)) {
-    plan_.zoom(up ? 1.0 / notch : notch);
+    plan_.zoom(std::pow(notch, -notches));
     return true;
   }
   if (tool_ != Tool::section) return false;
   const osg::Vec3d eye = stage_.viewer().getCamera()->getInverseViewMatrix().getTrans();
-  section_.move(up ? 1.0 : -1.0, Vec3(eye.x(), eye.y(), eye.z()) + scene_.origin());
+  section_.move(notches, Vec3(eye.x(), eye.y(), eye.z()) + scene_.origin());
   return true;
 }
 
@@ -153,8 +156,9 @@ void Tools::release(const Adapter& event) {
 
 void Tools::click(const Point& at) {
   const osg::Camera& camera = *stage_.viewer().getCamera();
-  const auto found = pick(*roamer_.space(), camera.getViewMatrix(), camera.getProjectionMatrix(), scene_.origin(), at.x,
-                          at.y, section_.planes());
+  const Space* const visible = layers_.visible();
+  const auto found = pick(visible != nullptr ? *visible : *roamer_.space(), camera.getViewMatrix(),
+                          camera.getProjectionMatrix(), scene_.origin(), at.x, at.y, section_.planes());
   if (!found) {
     constexpr double seconds = 2.0;
     stage_.hint("There is no surface here", seconds);

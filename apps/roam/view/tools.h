@@ -7,6 +7,7 @@
 #include "graphics/overlay.h"
 #include "osgRoam/Manipulator.h"
 #include "view/commands.h"
+#include "view/layers.h"
 #include "view/live_plan.h"
 #include "view/measuring.h"
 #include "view/probing.h"
@@ -26,7 +27,7 @@ namespace roam::app {
 class Tools : public osgGA::GUIEventHandler {
  public:
   /// `program`: path of roam; empty: the running program. `section`: the planes at first.
-  Tools(Stage& stage, SceneGraph& scene, osgRoam::Manipulator& roamer, const SceneAndStore& what,
+  Tools(Stage& stage, SceneGraph& scene, osgRoam::Manipulator& roamer, const Layers& layers, const SceneAndStore& what,
         const std::filesystem::path& program, std::vector<graphics::SectionPlane> section);
 
   /// Adds "measure" and "section", which turn these tools on or off; "probe", which searches a way between the measured
@@ -66,6 +67,7 @@ class Tools : public osgGA::GUIEventHandler {
   Stage& stage_;
   SceneGraph& scene_;
   osgRoam::Manipulator& roamer_;
+  const Layers& layers_;
   Tool tool_ = Tool::none;
   Measuring measuring_;
   Probing probing_;

@@ -106,6 +106,7 @@ Json json_report(const ViewReport& report) {
   for (const Measurement& measurement : report.measurements) json["measurements"].push_back(to_json(measurement));
   json["probes"] = Json::array();
   for (const ProbeReply& reply : report.probes) json["probes"].push_back(to_json(reply));
+  json["hidden"] = {{"objects", report.hidden_objects}, {"passed", report.passes_hidden}};
   json["section"] = Json::array();
   for (const auto& [normal, distance] : report.section) {
     json["section"].push_back(Json::object({{"normal", to_json(normal)}, {"distance_m", distance}}));

@@ -65,6 +65,8 @@ struct ViewReport {
   std::vector<Measurement> measurements;
   std::vector<ProbeReply> probes;
   std::vector<graphics::SectionPlane> section;  ///< at the end
+  std::size_t hidden_objects = 0;               ///< at the end
+  bool passes_hidden = false;                   ///< the body passes through them
   std::vector<std::string> written;             ///< files
   std::vector<Mesh> meshes;                     ///< for --verify; none if the session began with a store
   verification::PieceLog pieces;                ///< for --verify

@@ -6,6 +6,7 @@
 
 #include "cli/exit_status.h"
 #include "cli/tell.h"
+#include "walk/certificate.h"
 
 namespace roam::app {
 
@@ -21,7 +22,8 @@ void check_against(const SceneOptions& scene) {
 
 verification::Verification verify_against(const SceneOptions& scene, const OpenScene& walked,
                                           const verification::PieceLog& pieces,
-                                          const std::function<bool(std::uint64_t, std::uint64_t)>& progress) {
+                                          const std::function<bool(std::uint64_t, std::uint64_t)>& progress,
+                                          checking::SceneSum& sum) {
   // Half of the memory for pieces: in 64 MiB, more than an hour's walk.
   const auto together = static_cast<std::size_t>(walked.memory() / (2 * sizeof(verification::Piece)));
   const std::uint64_t readings = std::max<std::uint64_t>(1, (pieces.size() + together - 1) / together);
@@ -38,6 +40,7 @@ verification::Verification verify_against(const SceneOptions& scene, const OpenS
     TriangleId first = 0;
     stream_scene(scene.scenes, reading, [&](const Mesh& piece, bool) {
       verifier.check({&piece, 1}, first);
+      if (reading_number == 0) add(sum, piece);
       first += piece.triangles.size();
     });
     if (first != walked.triangles() && reading_number == 0) {

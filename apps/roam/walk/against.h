@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <functional>
 
+#include "check/check.h"
 #include "scenes/open_scene.h"
 #include "verify/piece_log.h"
 
@@ -16,9 +17,10 @@ void check_against(const SceneOptions& scene);
 
 /// Checks every piece against every triangle of a scene of any size, which is read part by part. It reads the scene
 /// once for as many pieces as fit in half of the memory. If the triangle counts of scene and `walked` store differ, a
-/// note on standard error says so. `progress` is that of verify, with bytes: done, and in all.
+/// note on standard error says so. `progress` is that of verify, with bytes: done, and in all. The scene is added to
+/// `sum`.
 [[nodiscard]] verification::Verification verify_against(
     const SceneOptions& scene, const OpenScene& walked, const verification::PieceLog& pieces,
-    const std::function<bool(std::uint64_t, std::uint64_t)>& progress);
+    const std::function<bool(std::uint64_t, std::uint64_t)>& progress, checking::SceneSum& sum);
 
 }  // namespace roam::app

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "cli/exit_status.h"
+#include "cli/output_file.h"
 #include "cli/standard_streams.h"
 #include "cli/values.h"
 #include "roam/error.h"
@@ -60,6 +61,13 @@ void check_outputs(const WalkOptions& options) {
   demand_one_output("--trace", options.trace, options.json);
   check_output(options, "--trace", options.trace);
   check_output(options, "--picture", options.picture);
+  check_output(options, "--certify", options.certify);
+  if (!options.certify.empty()) {
+    app::check_output(options.scene.scenes, "--certify", options.certify);
+    if (options.scene.name_a_store() && options.against.scenes.empty()) {
+      throw UsageError("--certify", "a store keeps triangles to within 2 mm only; name its scene by --against, too");
+    }
+  }
   if (options.picture.empty()) return;
   std::error_code none;
   if (std::filesystem::weakly_canonical(options.picture, none) ==
@@ -94,6 +102,8 @@ void WalkOptions::add_to(CLI::App& verb) {
   verb.option_defaults()->group("Results");
   verb.add_option("--trace", trace, "Write every step to this CSV file (-: standard output)")->type_name("FILE");
   verb.add_option("--picture", picture, "Draw plan and section of the way (.svg, .png or .dxf)")->type_name("FILE");
+  verb.add_option("--certify", certify, "Write a certificate of every move, which `roam check` can check, to this file")
+      ->type_name("FILE");
   verb.add_flag("--verify", verify, "Check every move against all triangles, in higher precision, without the index");
   verb.add_option("--against", against.scenes,
                   "For a store: check every move against the triangles of the scene that it was made of")

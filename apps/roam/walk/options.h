@@ -32,6 +32,7 @@ struct WalkOptions {
   RouteOptions route;
   std::filesystem::path trace;
   std::filesystem::path picture;
+  std::filesystem::path certify;
   bool verify = false;
   SceneOptions against;  ///< scene of a store, for verification
   bool json = false;
@@ -39,6 +40,8 @@ struct WalkOptions {
 
   /// Whether every move is verified.
   [[nodiscard]] bool checks() const { return verify || !against.scenes.empty(); }
+  /// Whether every move is recorded, to be verified or certified.
+  [[nodiscard]] bool keeps_moves() const { return checks() || !certify.empty(); }
   [[nodiscard]] Mode walker_mode() const {
     if (!mode) return recorded ? recorded->mode : Mode::walk;
     return *mode == "fly" ? Mode::fly : *mode == "ghost" ? Mode::ghost : Mode::walk;

@@ -125,7 +125,7 @@ std::string text_report(const WalkReport& report) {
     lines.add("start", fmt::format("did not fit where it was put, inside a wall or too near to one; freed to {}",
                                    words::exactly_at(*freed)));
   }
-  lines.add("narrowest", words::tightest(report));
+  lines.add("narrowest", words::narrowest_place(report));
   lines.add("headroom", words::headroom(report));
   if (report.mode == Mode::fly && words::knows_clearance(report)) {
     lines.add("nearest", fmt::format("at least {} from everything", words::metres(std::max(0.0, result.least_gap))));

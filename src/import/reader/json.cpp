@@ -46,8 +46,8 @@ Json parse_json(std::string_view text, const std::string& place, int most_depth)
   };
   try {
     return Json::parse(text, limit);
-  } catch (const Json::parse_error& error) {
-    // Some exporters write names in other encodings.
+  } catch (const Json::exception& error) {
+    // A number beyond doubles is such a fault, too. Some exporters write names in other encodings.
     try {
       return Json::parse(as_utf8(text), limit);
     } catch (const Json::exception&) {

@@ -23,6 +23,7 @@
 #include "import/reader/display/part_pool.h"
 #include "import/reader/file_names.h"
 #include "import/reader/frame_writer.h"
+#include "import/reader/machine_failure.h"
 #include "import/reader/mesh_sink.h"
 #include "import/reader/numbers.h"
 #include "import/reader/page_requests.h"
@@ -30,6 +31,7 @@
 #include "import/reader/read_path.h"
 #include "import/reader/sandbox/sandbox.h"
 #include "import/reader/scene_files.h"
+#include "import/reader/tileset/outline.h"
 #include "import/stream.h"
 #include "roam/error.h"
 
@@ -46,14 +48,6 @@ constexpr std::uint64_t any_memory = std::uint64_t{1} << 56;
 /// libraries, and the window and piece of the receiver.
 constexpr std::uint64_t memory_beside_data = 28u << 20;
 
-/// Most bytes of vertices in the temporary file. The shortest vertex of a file has three bytes and is stored as three
-/// doubles. Foreign readers may pack more tightly, but keep their data in memory, at least as floats.
-std::uint64_t temporary_bytes(const std::string& path, std::uint64_t memory_limit) {
-  std::error_code none;
-  const auto bytes = std::filesystem::is_regular_file(path, none) ? std::filesystem::file_size(path, none) : 0;
-  return 8 * std::min<std::uint64_t>(none ? 0 : bytes, any_memory) + 2 * std::min(memory_limit, any_memory);
-}
-
 struct Request {
   ReadingSettings settings;
   bool display = false;
@@ -64,6 +58,20 @@ struct Request {
   int highest_landlock = any_landlock;
   bool only_walls = false;  ///< read nothing; only report which walls hold
 };
+
+/// Most bytes of vertices in the temporary file. The shortest vertex of a file has three bytes and is stored as three
+/// doubles. Foreign readers may pack more tightly, but keep their data in memory, at least as floats. A file whose
+/// compression or instances make more of less than that is refused, with the advice to allow more memory.
+std::uint64_t temporary_bytes(const Request& request) {
+  const std::uint64_t memory_limit = request.settings.memory_limit;
+  std::filesystem::path file = request.scope.scene;
+  std::error_code none;
+  const auto folder = std::filesystem::is_directory(file, none) ? file : file.parent_path();
+  // Of a part of a tileset, its content counts.
+  if (const auto content = content_of(request.settings.tile, folder)) file = request.scope.find(content->file);
+  const auto bytes = std::filesystem::is_regular_file(file, none) ? std::filesystem::file_size(file, none) : 0;
+  return 8 * std::min<std::uint64_t>(none ? 0 : bytes, any_memory) + 2 * std::min(memory_limit, any_memory);
+}
 
 double number(const std::string& word) {
   double value = 0.0;
@@ -148,7 +156,7 @@ int run(const std::vector<std::string>& arguments) {
   rights.scope = request.scope;
   rights.address_space = std::min(memory, any_memory) + own_address_space;
   rights.data = request.pieces ? memory - std::min(memory, memory_beside_data) : memory;
-  rights.file_size = request.pieces ? temporary_bytes(path, memory) : 0;
+  rights.file_size = request.pieces ? temporary_bytes(request) : 0;
   // Listing files needs no library.
   const bool reads = !request.only_walls && !request.settings.only_list;
   FrameWriter frames(stream_fd);
@@ -187,6 +195,8 @@ int run(const std::vector<std::string>& arguments) {
     return EXIT_SUCCESS;
   } catch (const Error& error) {
     return fail(error);
+  } catch (const MachineFailure& failure) {
+    return fail(failure.error());
   } catch (const std::bad_alloc&) {
     // The program makes the message, because it knows the limit. See cause_of_death.
     std::fputs("out of memory\n", stderr);

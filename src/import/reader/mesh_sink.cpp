@@ -39,6 +39,19 @@ std::string_view unit_of(double metres) {
   return {};
 }
 
+/// The names of an object and its ancestors in one text; `name` if all are empty. A node and its only mesh often have
+/// the same name, which is one.
+std::string path_of(std::span<const std::string> names, const std::string& name) {
+  std::string path;
+  std::string_view last;
+  for (const std::string& part : names) {
+    if (part.empty() || part == last) continue;
+    if (!path.empty()) path += DisplayPart::name_separator;
+    path += last = part;
+  }
+  return path.empty() ? name : path;
+}
+
 }  // namespace
 
 MeshSink::MeshSink(FrameWriter& frames, const ReadingSettings& settings, PartPool* parts, PieceCutter* pieces)
@@ -123,6 +136,7 @@ bool MeshSink::begin_object(std::span<const std::string> names, std::string_view
   begun_ = true;
   ++object_number_;
   if (pieces_ != nullptr) pieces_->begin_object(name_);
+  if (parts_ != nullptr) parts_->begin_object(path_of(names_, name_));
   return true;
 }
 
@@ -130,7 +144,10 @@ void MeshSink::set_look(const Look& wanted) {
   if (parts_ == nullptr) return;
   Look look = wanted;
   // Without an image there is nothing to cut. Looks are sorted, so none may have a NaN.
-  if (look.texture == no_texture && look.transparency != Transparency::blend) look = {};
+  if (look.texture == no_texture && look.transparency != Transparency::blend) {
+    look.transparency = Look{}.transparency;
+    look.cutoff = Look{}.cutoff;
+  }
   if (!(look.cutoff >= 0.0f && look.cutoff <= 1.0f)) look.cutoff = Look{}.cutoff;
   if (look == look_) return;
   if (!triangles_.empty()) send_triangles();

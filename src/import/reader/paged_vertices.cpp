@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <span>
 
+#include "import/reader/machine_failure.h"
+#include "roam/error.h"
+
 namespace roam::reader {
 namespace {
 
@@ -53,13 +56,21 @@ std::uint32_t PagedVertices::free_slot() {
 }
 
 void PagedVertices::write(std::uint64_t block, const Block& vertices) {
-  file_.write_at(block * sizeof(Block), std::as_bytes(std::span(vertices)));
+  try {
+    file_.write_at(block * sizeof(Block), std::as_bytes(std::span(vertices)));
+  } catch (const Error& error) {
+    throw MachineFailure(error);
+  }
   written_[block] = true;
 }
 
 std::uint32_t PagedVertices::load(std::uint64_t block) {
   const std::uint32_t slot = free_slot();
-  file_.read_at(block * sizeof(Block), std::as_writable_bytes(std::span(*slots_[slot].vertices)));
+  try {
+    file_.read_at(block * sizeof(Block), std::as_writable_bytes(std::span(*slots_[slot].vertices)));
+  } catch (const Error& error) {
+    throw MachineFailure(error);
+  }
   slots_[slot].block = block;
   slot_of_[block] = slot;
   return slot;

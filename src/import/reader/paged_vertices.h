@@ -22,13 +22,13 @@ class PagedVertices {
   PagedVertices(const PagedVertices&) = delete;
   PagedVertices& operator=(const PagedVertices&) = delete;
 
-  /// Throws roam::Error if the temporary file cannot be written.
+  /// Throws MachineFailure if the temporary file cannot be written.
   void add(const Vec3& vertex) {
     if (size_ % block_size == 0) begin_block();
     (*last_)[size_ % block_size] = vertex;
     ++size_;
   }
-  /// Vertex i; i < size(). Throws roam::Error if the temporary file cannot be read.
+  /// Vertex i; i < size(). Throws MachineFailure if the temporary file cannot be read.
   [[nodiscard]] Vec3 operator[](std::uint64_t i) {
     const std::uint64_t block = i / block_size;
     std::uint32_t slot = slot_of_[block];

@@ -17,6 +17,7 @@
 #include "store/build/plan.h"
 #include "store/build/root.h"
 #include "store/build/shard.h"
+#include "store/build/tasks.h"
 #include "store/files.h"
 
 namespace roam {
@@ -64,6 +65,10 @@ void describe(const Plan& plan, StoreBuildReport& report) {
   report.triangles = 0;
   for (const PlannedShard& shard : plan.shards) report.triangles += shard.stretch.triangles;
   report.shards = plan.shards.size();
+  report.shards_to_build = plan.to_build().size();
+  report.tasks = plan.tasks;
+  report.longest_task = longest_task(plan);
+  for (const std::size_t i : plan.to_build()) report.triangles_to_build += plan.shards[i].stretch.triangles;
   report.parts = plan.parts.size();
   Notes notes;
   for (const PartRecord& part : plan.parts) notes.add(part.info.name, part.notes);
@@ -76,18 +81,17 @@ void note(StoreBuildReport& report, std::string sentence) {
 }
 
 /// From the folder that is held, even if its path leads elsewhere by now.
-StoreInfo info_of(const Folder& store) { return Store::open(files_of(store), store.string())->info(); }
+StoreInfo info_of(const Folder& store) { return open_store(files_of(store), store.string())->info(); }
 
 /// Repairs the root of the store before planning, or removes it. Returns the damage as a sentence for the user.
-/// Throws NotAuthentic, without any change, if nothing shows that the store was built with the key.
+/// Throws Error, without any change, if nothing shows that the store was built with the key.
 std::string mend_or_remove_root(Work& work) {
   const std::string store = work.store.string();
   const std::optional<StoreKey> key = work.options.adopt ? std::nullopt : work.options.key;
   const RootMending mending = mend_root(work.store, key, [&] { work.tick(); });
   if (mending.wrong.empty()) return "";
   if (!mending.mended && key && holds_results(work.store)) {
-    throw NotAuthentic(store,
-                       fmt::format("its {}, and no copy of its manifest has the code of your key, so nothing shows "
+    throw Error(store, fmt::format("its {}, and no copy of its manifest has the code of your key, so nothing shows "
                                    "that you built it; --adopt builds all of it again; else remove it, or choose "
                                    "another output",
                                    mending.wrong));
@@ -102,10 +106,10 @@ std::string mend_or_remove_root(Work& work) {
 /// key.
 void demand_authentic(const Work& work) {
   if (!work.options.key || !is_file(work.store, current_file)) return;
-  const auto there = Store::open(files_of(work.store), work.store.string());
+  const auto there = open_store(files_of(work.store), work.store.string());
   if (there->is_authentic(*work.options.key)) return;
   if (!work.options.adopt) {
-    throw NotAuthentic(
+    throw Error(
         work.store.string(),
         "it was not built with your key: it may have come with the scene, and lack a wall, or be a colleague's; if you "
         "trust whoever built it, --adopt makes it yours; else remove it, or choose another output");
@@ -123,6 +127,7 @@ std::optional<Plan> plan_locked(Work& work, const std::set<std::string>& damaged
     demand_authentic(work);
     make_folders(work.store);
     plan = make_plan(work, damaged, report);
+    if (plan) assign_tasks(*plan, work.options.tasks);
     if (plan) write_plan(work, *plan);
   }
   report.plan_seconds -= report.read_seconds - read_before;
@@ -228,21 +233,24 @@ std::uint64_t plan_store(const StoreBuildOptions& options, StoreBuildReport& rep
   check_output(options);
   OutputFolder output(work.store, options.through_link, options.progress);
   const auto plan = plan_output(work, output, report);
-  return plan ? plan->to_build().size() : 0;
+  return plan ? plan->tasks : 0;
 }
 
-void build_shard(const StoreBuildOptions& options, std::uint64_t i, StoreBuildReport& report) {
+void build_task(const StoreBuildOptions& options, std::uint64_t i, StoreBuildReport& report) {
   const DefaultFloatingPoint guard;
   Work work(options);
   work.store = Folder::held(options.output, options.through_link);
   const Plan plan = read_plan(work);
   describe(plan, report);
-  const std::vector<std::size_t> numbers = plan.to_build();
-  if (i >= numbers.size()) {
-    throw Error::at(work.store.string(), fmt::format("there is no shard {} in the plan of {}: they go from 0 to {}", i,
-                                                     work.store.string(), numbers.empty() ? 0 : numbers.size() - 1));
+  if (plan.tasks == 0) {
+    throw NoSuchTask(work.store.string(), "the plan has no shards to build; merge");
   }
-  build_shards(work, plan, {numbers[static_cast<std::size_t>(i)]}, report);
+  if (i >= plan.tasks) {
+    throw NoSuchTask(work.store.string(),
+                     fmt::format("there is no task {} in the plan: they go from 0 to {}", i, plan.tasks - 1));
+  }
+  report.task_shards = plan.to_build(i).size();
+  build_shards(work, plan, plan.to_build(i), report);
 }
 
 void merge_store(const StoreBuildOptions& options, StoreBuildReport& report) {
@@ -291,7 +299,7 @@ StoreBuildReport repair_store(const StoreBuildOptions& options) {
   const Manifest manifest = *manifest_in_force(store);
   as_built.lossless = manifest.lossless;
   read_as(manifest.options, as_built.import);
-  if (options.key && !Store::open(files_of(store), store.string())->is_authentic(*options.key)) {
+  if (options.key && !open_store(files_of(store), store.string())->is_authentic(*options.key)) {
     // A repair gives it no code, and does not continue from anything that its builder left.
     as_built.key.reset();
     remove_scratch(store);

@@ -328,7 +328,7 @@ void Sources::look(const std::vector<SourcePart>& parts, const std::function<voi
 
 std::string Sources::fingerprint(const SourcePart& part, const std::string& options) const {
   const std::lock_guard lock(mutex_);
-  std::string text = fmt::format("roam part 3\n{}\n{}\n{}\n", options, part.name, part.tile);
+  std::string text = fmt::format("roam part 4\n{}\n{}\n{}\n", options, part.name, part.tile);
   if (part.frame) {
     const Vec3& o = part.frame->origin;
     text += fmt::format("{} {} {} {}\n", part.frame->srs, o.x, o.y, o.z);

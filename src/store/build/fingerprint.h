@@ -13,8 +13,8 @@
 #include <utility>
 #include <vector>
 
+#include "import/parts.h"
 #include "import/scene_scope.h"
-#include "roam/import.h"
 #include "roam/store.h"
 #include "store/build/references.h"
 #include "store/folder.h"

@@ -18,16 +18,24 @@ namespace {
 namespace fs = std::filesystem;
 /// Bytes. A record has a line for each half a million triangles.
 constexpr std::uint64_t record_memory = 64u << 20;
+/// Names are kept in a list that grows by doubling, and then in the bytes of the part file.
+constexpr std::uint64_t share_for_names = 4;
 
 /// Collects the pieces of a part and writes runs. Sorts one run while the next one fills, if memory allows.
 class Intake {
  public:
-  Intake(Work& work, std::string id, bool sorts_beside) : work_(work), id_(std::move(id)), sorts_beside_(sorts_beside) {
+  /// As one of `readers` that run at once.
+  Intake(Work& work, const ScenePart& part, std::string id, int readers)
+      : work_(work),
+        name_(part.name),
+        id_(std::move(id)),
+        sorts_beside_(work.sorts_beside_reading(readers)),
+        name_bytes_left_(work.reader_memory(readers) / share_for_names) {
     filling_.triangles.reserve(run_triangles);
   }
 
   void add(const Mesh& piece, bool continues) {
-    if (!continues || part_.objects.empty()) part_.objects.push_back({part_.triangles, piece.name});
+    if (!continues || part_.objects.empty()) add_object(piece.name);
     if (filling_.triangles.size() + piece.triangles.size() > run_triangles) hand_over();
     const auto first = static_cast<std::uint32_t>(filling_.vertices.size());
     filling_.vertices.insert(filling_.vertices.end(), piece.vertices.begin(), piece.vertices.end());
@@ -58,6 +66,17 @@ class Intake {
   Intake& operator=(const Intake&) = delete;
 
  private:
+  void add_object(const std::string& name) {
+    const std::uint64_t bytes = sizeof(PartFile::Object) + name.size();
+    if (bytes > name_bytes_left_) {
+      throw Error(name_,
+                  fmt::format("the names of its {} objects take too much memory; allow more, or leave objects out",
+                              part_.objects.size()));
+    }
+    name_bytes_left_ -= bytes;
+    part_.objects.push_back({part_.triangles, name});
+  }
+
   void hand_over() {
     if (filling_.triangles.empty()) return;
     wait();
@@ -87,8 +106,10 @@ class Intake {
   }
 
   Work& work_;
+  std::string name_;  ///< of the part
   std::string id_;
   bool sorts_beside_;
+  std::uint64_t name_bytes_left_;
   PartFile part_;
   std::uint64_t content_ = 0;
   RunContent filling_;
@@ -193,11 +214,12 @@ std::optional<PartRecord> find_record(const Work& work, const std::string& name)
   return record;
 }
 
-PartRecord read_part(Work& work, const ScenePart& part, const std::string& id, int readers, LookUps& look_ups) {
+PartRecord read_part(Work& work, const ScenePart& part, const std::string& id, int readers, LookUps& look_ups,
+                     reader::SceneBudget& budget) {
   PartRecord record;
   record.info.name = part.name;
   record.id = id;
-  Intake intake(work, record.id, work.sorts_beside_reading(readers));
+  Intake intake(work, part, record.id, readers);
   ImportOptions options = work.options.import;
   options.memory_limit = work.reader_memory(readers);
   std::uint64_t told = 0;  // bytes
@@ -213,7 +235,7 @@ PartRecord read_part(Work& work, const ScenePart& part, const std::string& id, i
   };
   const ImportReport report = stream_part(
       part, options, [&](const Mesh& piece, bool continues) { intake.add(piece, continues); },
-      [&](const FileLookUp& file) { look_ups.add(file); });
+      [&](const FileLookUp& file) { look_ups.add(file); }, &budget);
   const PartFile file = intake.finish();
   record.runs = intake.runs();
   record.has_runs = true;

@@ -5,7 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "roam/import.h"
+#include "import/parts.h"
+#include "import/processor_budget.h"
 #include "store/build/references.h"
 #include "store/build/work.h"
 #include "store/json_reader.h"
@@ -40,8 +41,9 @@ struct PartRecord {
 void publish_record(const Work& work, const PartRecord& record);
 
 /// Reads the part, as one of `readers` that run at once. Publishes its runs and its part file. The record lacks
-/// fingerprint and references.
-PartRecord read_part(Work& work, const ScenePart& part, const std::string& id, int readers, LookUps& look_ups);
+/// fingerprint and references. `budget`: of all parts.
+PartRecord read_part(Work& work, const ScenePart& part, const std::string& id, int readers, LookUps& look_ups,
+                     reader::SceneBudget& budget);
 
 // Keys in JSON: 32 hexadecimal digits.
 [[nodiscard]] std::string key_text(CurveKey key);

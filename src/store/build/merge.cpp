@@ -16,6 +16,7 @@
 #include "store/authentic.h"
 #include "store/build/layout.h"
 #include "store/build/root.h"
+#include "store/build/tasks.h"
 #include "store/files.h"
 
 namespace roam::store {
@@ -23,8 +24,23 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Missing shards that an error names, at most.
-constexpr std::size_t named = 5;
+/// Ranges of incomplete tasks that an error names, at most.
+constexpr std::size_t named = 20;
+
+/// An error that names the tasks to repeat. `missing` and `damaged`: shards, not empty together.
+Error incomplete(const Work& work, const Plan& plan, const std::vector<std::size_t>& missing,
+                 const std::vector<std::size_t>& damaged) {
+  std::set<std::uint64_t> tasks;
+  for (const std::size_t i : missing) tasks.insert(plan.shards[i].task);
+  for (const std::size_t i : damaged) tasks.insert(plan.shards[i].task);
+  const std::vector<std::uint64_t> numbers(tasks.begin(), tasks.end());
+  return Error::at(
+      work.store.string(),
+      fmt::format(
+          "cannot merge {}: missing shards: {}, damaged shards: {}, in tasks {} of {}; build these tasks again, "
+          "each with --shard and its number, and merge again",
+          work.store.string(), missing.size(), damaged.size(), ranges_text(numbers, named), plan.tasks));
+}
 
 /// The shards of the plan, each checked. Newly built ones are checked to the last byte.
 std::vector<ShardInfo> collect(Work& work, const Plan& plan) {
@@ -33,8 +49,9 @@ std::vector<ShardInfo> collect(Work& work, const Plan& plan) {
     for (const ShardInfo& shard : manifest->shards) before[shard.key] = shard;
   }
   std::vector<ShardInfo> shards(plan.shards.size());
-  std::vector<std::string> wrong(plan.shards.size());
   const std::vector<std::size_t> built = plan.to_build();
+  enum class State : std::uint8_t { whole, missing, damaged };
+  std::vector<State> states(built.size(), State::whole);
   for (std::size_t i = 0; i < plan.shards.size(); ++i) {
     if (!plan.shards[i].in_force) continue;
     const auto old = before.find(plan.shards[i].key);
@@ -50,28 +67,22 @@ std::vector<ShardInfo> collect(Work& work, const Plan& plan) {
       const PlannedShard& planned = plan.shards[built[b]];
       const auto shard = built_shard(work, planned.key);
       if (!shard) {
-        wrong[b] = "missing";
+        states[b] = State::missing;
       } else if (hashes.sha256(pack_file(shard->pack), [&](std::uint64_t) { work.tick(); }) != shard->pack) {
         remove_file(work.store, shard_file(planned.key));
-        wrong[b] = "damaged";
+        states[b] = State::damaged;
       } else {
         shards[built[b]] = *shard;
         work.add_triangles(shard->triangles);
       }
     });
   });
-  std::string list;
-  std::size_t count = 0;
+  std::vector<std::size_t> missing, damaged;
   for (std::size_t b = 0; b < built.size(); ++b) {
-    if (wrong[b].empty()) continue;
-    if (++count <= named) list += fmt::format("{}shard {} is {}", list.empty() ? "" : ", ", b, wrong[b]);
+    if (states[b] == State::missing) missing.push_back(built[b]);
+    if (states[b] == State::damaged) damaged.push_back(built[b]);
   }
-  if (count > named) list += fmt::format(", and {} more", count - named);
-  if (count > 0) {
-    throw Error::at(work.store.string(),
-                    fmt::format("cannot merge {}: {} (of {} to be built); build them, and merge again",
-                                work.store.string(), list, built.size()));
-  }
+  if (!missing.empty() || !damaged.empty()) throw incomplete(work, plan, missing, damaged);
   return shards;
 }
 

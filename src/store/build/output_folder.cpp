@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <chrono>
+#include <filesystem>
+#include <system_error>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -16,6 +18,21 @@
 
 namespace roam::store {
 namespace {
+
+namespace fs = std::filesystem;
+
+fs::path whole_path(const fs::path& path) {
+  std::error_code error;
+  fs::path whole = fs::weakly_canonical(path, error);
+  if (error)
+    throw Error::at(path.string(), fmt::format("cannot find out where {} lies: {}", path.string(), error.message()));
+  return whole;
+}
+
+bool is_inside(const fs::path& inner, const fs::path& outer) {
+  const fs::path relative = whole_path(inner).lexically_relative(whole_path(outer));
+  return !relative.empty() && *relative.begin() != "..";
+}
 
 /// Whether a build creates something of this name in the folder of a store.
 bool is_ours(const std::string& name) {
@@ -37,6 +54,30 @@ void demand_no_other_things(const Folder& store) {
 }
 
 }  // namespace
+
+void check_output(const StoreBuildOptions& options) {
+  const fs::path& out = options.output;
+  std::error_code error;
+  const fs::file_status status = fs::status(out, error);
+  if (!fs::exists(status) && fs::is_symlink(out, error)) {
+    throw Error::at(out.string(),
+                    fmt::format("{} is a link that leads nowhere; remove it, or choose another output", out.string()));
+  }
+  if (fs::exists(status) && !fs::is_directory(status)) {
+    throw Error::at(out.string(),
+                    fmt::format("{} is a file: a store is a folder; choose another output", out.string()));
+  }
+  for (const fs::path& path : options.scene) {
+    if (fs::is_directory(path, error) && is_inside(out, path)) {
+      throw Error::at(out.string(), fmt::format("{} lies in the folder of the scene, {}; choose an output outside",
+                                                out.string(), path.string()));
+    }
+    if (fs::exists(path, error) && is_inside(path, out)) {
+      throw Error::at(path.string(), fmt::format("the scene {} lies in the output {}; choose another output",
+                                                 path.string(), out.string()));
+    }
+  }
+}
 
 bool holds_results(const Folder& store) {
   const std::vector<std::string> names = names_in(store, "");

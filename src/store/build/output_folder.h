@@ -16,12 +16,15 @@ namespace roam::store {
 /// As in StoreBuildOptions.
 using BuildProgress = std::function<bool(const StoreBuildProgress&)>;
 
+/// Throws roam::Error if the output folder cannot be used for this scene.
+void check_output(const StoreBuildOptions& options);
+
 /// Locks the store. Waits for another holder up to 1 s. If the holder's builder was killed while it started a reader,
 /// waits up to 5 s, until that process has become the reader. While waiting it calls `progress`; false ends it. Throws
 /// roam::Error naming the holder, and roam::Cancelled.
 [[nodiscard]] std::unique_ptr<BuildLock> locked(const Folder& store, const BuildProgress& progress);
 
-/// Whether the folder holds finished results of read_part, build_shard or merge.
+/// Whether the folder holds finished results of read_part, build_task or merge.
 [[nodiscard]] bool holds_results(const Folder& store);
 
 /// The folder of a store, locked; made if it does not exist. The destructor removes what builds put there, except after

@@ -29,6 +29,12 @@ std::vector<std::size_t> Plan::to_build() const {
   return numbers;
 }
 
+std::vector<std::size_t> Plan::to_build(std::uint64_t task) const {
+  std::vector<std::size_t> numbers = to_build();
+  std::erase_if(numbers, [&](std::size_t i) { return shards[i].task != task; });
+  return numbers;
+}
+
 std::string key_of(const Stretch& stretch, const Plan& plan) {
   Json parts = Json::array();
   for (const std::uint32_t p : stretch.parts) {
@@ -53,13 +59,12 @@ void write_plan(const Work& work, const Plan& plan) {
     json["parts"] = shard.stretch.parts;
     json["key"] = shard.key;
     json["there"] = shard.in_force;
+    json["task"] = shard.task;
     shards.push_back(std::move(json));
   }
-  const Json json = {{"scratch_version", scratch_version},
-                     {"options", plan.options},
-                     {"lossless", plan.lossless},
-                     {"parts", std::move(parts)},
-                     {"shards", std::move(shards)}};
+  const Json json = {{"scratch_version", scratch_version}, {"options", plan.options},
+                     {"lossless", plan.lossless},          {"tasks", plan.tasks},
+                     {"parts", std::move(parts)},          {"shards", std::move(shards)}};
   write_coded(work.store, plan_file, json.dump(1) + "\n", work.options.key);
 }
 
@@ -67,9 +72,7 @@ Plan read_plan(const Work& work) {
   const Folder& store = work.store;
   const std::uint64_t memory = work.options.memory;
   if (!size_of(store, plan_file)) {
-    throw Error::at(
-        store.string(),
-        fmt::format("there is no plan in {}: nothing is being built there; begin with --plan", store.string()));
+    throw NothingPlanned(store.string(), "there is no plan: nothing is being built there; begin with --plan");
   }
   const std::optional<std::string> text = read_coded(store, plan_file, memory / 4, work.options.key);
   if (!text) {
@@ -85,6 +88,7 @@ Plan read_plan(const Work& work) {
     Plan plan;
     plan.options = json.at("options").get<std::string>();
     plan.lossless = json.at("lossless").get<bool>();
+    plan.tasks = json.at("tasks").get<std::uint64_t>();
     for (const Json& part : json.at("parts")) {
       PartRecord& record = plan.parts.emplace_back(record_of(part));
       record.has_runs = part.at("has_runs").get<bool>();
@@ -99,13 +103,16 @@ Plan read_plan(const Work& work) {
       shard.stretch.parts = item.at("parts").get<std::vector<std::uint32_t>>();
       shard.key = item.at("key").get<std::string>();
       shard.in_force = item.at("there").get<bool>();
+      shard.task = item.at("task").get<std::uint64_t>();
       if (shard.stretch.triangles > ShardLimits{}.shard) throw std::runtime_error("a shard is too large");
       for (const std::uint32_t p : shard.stretch.parts) {
         if (p >= plan.parts.size()) throw std::runtime_error("a part is out of range");
       }
       if (shard.key != key_of(shard.stretch, plan)) throw std::runtime_error("a key is not what it should be");
+      if (!shard.in_force && shard.task >= plan.tasks) throw std::runtime_error("a task is out of range");
       plan.shards.push_back(std::move(shard));
     }
+    if (plan.tasks > plan.shards.size()) throw std::runtime_error("it has more tasks than shards");
     return plan;
   } catch (const std::exception& e) {
     throw Error::at((store / plan_file).string(),

@@ -16,8 +16,9 @@ namespace roam::store {
 
 struct PlannedShard {
   Stretch stretch;
-  std::string key;        ///< see key_of
-  bool in_force = false;  ///< in the store in force
+  std::string key;         ///< see key_of
+  bool in_force = false;   ///< in the store in force
+  std::uint64_t task = 0;  ///< that builds it, if it is not in force: see assign_tasks
 };
 
 struct Plan {
@@ -25,16 +26,19 @@ struct Plan {
   bool lossless = false;
   std::vector<PartRecord> parts;
   std::vector<PlannedShard> shards;
+  std::uint64_t tasks = 0;
 
+  /// The shards that are not in force, or those of one task.
   [[nodiscard]] std::vector<std::size_t> to_build() const;
+  [[nodiscard]] std::vector<std::size_t> to_build(std::uint64_t task) const;
 };
 
 /// The key of a shard: a hash of everything that decides its content. That is the format, the version of the builder,
 /// the import options, the stretch, and its parts.
 [[nodiscard]] std::string key_of(const Stretch& stretch, const Plan& plan);
 
-/// The plan in the scratch folder. Throws roam::Error if there is no usable plan, if it was made with another key, or
-/// if it takes more than half of the memory.
+/// The plan in the scratch folder. Throws NothingPlanned if there is none, and roam::Error if it is unusable, if it was
+/// made with another key, or if it takes more than half of the memory.
 [[nodiscard]] Plan read_plan(const Work& work);
 void write_plan(const Work& work, const Plan& plan);
 
@@ -43,9 +47,6 @@ void write_plan(const Work& work, const Plan& plan);
 
 /// The notes of each part of a store, as in PartRecord.
 [[nodiscard]] std::vector<std::vector<std::string>> notes_by_part(const Manifest& manifest);
-
-/// Throws roam::Error if the output folder cannot be used for this scene.
-void check_output(const StoreBuildOptions& options);
 
 /// Reads the changed parts and decides the shards. None if the store is up to date. Files whose SHA-256 is in `damaged`
 /// count as missing. The store must be locked.

@@ -20,21 +20,6 @@
 namespace roam::store {
 namespace {
 
-namespace fs = std::filesystem;
-
-fs::path whole_path(const fs::path& path) {
-  std::error_code error;
-  fs::path whole = fs::weakly_canonical(path, error);
-  if (error)
-    throw Error::at(path.string(), fmt::format("cannot find out where {} lies: {}", path.string(), error.message()));
-  return whole;
-}
-
-bool is_inside(const fs::path& inner, const fs::path& outer) {
-  const fs::path relative = whole_path(inner).lexically_relative(whole_path(outer));
-  return !relative.empty() && *relative.begin() != "..";
-}
-
 class Planner {
  public:
   Planner(Work& work, const std::set<std::string>& damaged, StoreBuildReport& report)
@@ -49,7 +34,9 @@ class Planner {
           fmt::format("the patterns to ignore and the allowed folders are longer than {} kB together; name fewer",
                       longest_options >> 10));
     }
-    parts_ = scene_parts(work_.options.scene, work_.options.import);
+    ImportOptions listing = work_.options.import;
+    listing.memory_limit = work_.options.memory;
+    parts_ = scene_parts(work_.options.scene, listing);
     plan_.lossless = work_.options.lossless;
     take_records();
     report_.parts = parts_.size();
@@ -191,7 +178,7 @@ class Planner {
     // A sixteenth of the memory for the names of files.
     LookUps look_ups(parts_[i], sources_.scope(parts_[i].path),
                      work_.options.memory / (16 * static_cast<std::uint64_t>(readers)));
-    PartRecord record = read_part(work_, parts_[i], plan_.parts[i].id, readers, look_ups);
+    PartRecord record = read_part(work_, parts_[i], plan_.parts[i].id, readers, look_ups, budget_);
     SourcePart sources(parts_[i]);
     for (const auto& [name, file] : look_ups.files()) {
       record.info.references.push_back(name);
@@ -366,6 +353,7 @@ class Planner {
   const std::set<std::string>& damaged_;
   StoreBuildReport& report_;
   Sources sources_;
+  reader::SceneBudget budget_;
   std::optional<Manifest> in_force_;
   std::vector<ScenePart> parts_;
   std::vector<std::size_t> unknown_;  ///< parts that must be read in any case
@@ -374,30 +362,6 @@ class Planner {
 };
 
 }  // namespace
-
-void check_output(const StoreBuildOptions& options) {
-  const fs::path& out = options.output;
-  std::error_code error;
-  const fs::file_status status = fs::status(out, error);
-  if (!fs::exists(status) && fs::is_symlink(out, error)) {
-    throw Error::at(out.string(),
-                    fmt::format("{} is a link that leads nowhere; remove it, or choose another output", out.string()));
-  }
-  if (fs::exists(status) && !fs::is_directory(status)) {
-    throw Error::at(out.string(),
-                    fmt::format("{} is a file: a store is a folder; choose another output", out.string()));
-  }
-  for (const fs::path& path : options.scene) {
-    if (fs::is_directory(path, error) && is_inside(out, path)) {
-      throw Error::at(out.string(), fmt::format("{} lies in the folder of the scene, {}; choose an output outside",
-                                                out.string(), path.string()));
-    }
-    if (fs::exists(path, error) && is_inside(path, out)) {
-      throw Error::at(path.string(), fmt::format("the scene {} lies in the output {}; choose another output",
-                                                 path.string(), out.string()));
-    }
-  }
-}
 
 std::optional<Plan> make_plan(Work& work, const std::set<std::string>& damaged, StoreBuildReport& report) {
   return Planner(work, damaged, report).run();

@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
+#include "import/parts.h"
 #include "import/scene_scope.h"
-#include "roam/import.h"
 
 namespace roam::store {
 

@@ -9,6 +9,7 @@
 #include <span>
 
 #include "math/disjoint_sets.h"
+#include "math/level_distance.h"
 
 namespace roam::training {
 
@@ -20,8 +21,6 @@ constexpr double neck_share = 0.8;
 constexpr std::uint32_t least_places = 4;
 /// m2: the least area of the places in a room; a room of 1 m2 has 0.8.
 constexpr double least_area = 0.5;
-
-double level_distance(const Vec3& a, const Vec3& b) { return std::hypot(a.x - b.x, a.y - b.y); }
 
 }  // namespace
 

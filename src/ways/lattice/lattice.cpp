@@ -44,7 +44,8 @@ bool goes_straight(const Survey& survey, const Measure& measure, const Vec3& fro
     at_to.lift = last->lift;
   }
   const Vec3 a = centre_of(measure, from, at_from), b = centre_of(measure, to, at_to);
-  if (free_way(world, body, a, b)) return true;
+  const auto has_low_way = [&] { return !meets_high_obstacle(survey, measure, from, to, radius); };
+  if (free_way(world, body, a, b)) return has_low_way();
   if (measure.mode == Mode::fly) return false;
   const auto goes_at = [&](double height) {
     const Vec3 from_a(a.x, a.y, height), to_b(b.x, b.y, height);
@@ -52,7 +53,7 @@ bool goes_straight(const Survey& survey, const Measure& measure, const Vec3& fro
   };
   // Crosses at the height of the higher place, as over a kerb. A sphere may lift anywhere, so it may also cross at the
   // lower height, as under a lintel.
-  return goes_at(std::max(a.z, b.z)) || (measure.height == 0.0 && goes_at(std::min(a.z, b.z)));
+  return (goes_at(std::max(a.z, b.z)) && has_low_way()) || (measure.height == 0.0 && goes_at(std::min(a.z, b.z)));
 }
 
 }  // namespace roam::ways

@@ -2,9 +2,9 @@
 /// \file
 /// Places where a small body can be, on a lattice that is made on demand, and how wide a body may be there.
 ///
-/// Walking: columns of a square lattice; a place is the foot on the floor. A sphere is dropped to find a neighbour's
-/// height. It collides only with floor below the knee, so cracks carry it, and both ends of the interval stay
-/// independent. Flying: a cubic lattice; a place is the centre.
+/// Walking: columns of a square lattice; a place is that of the feet on the floor. A sphere is dropped to find a
+/// neighbour's height. It collides only with floor below the knee, so cracks carry it, and both ends of the interval
+/// stay independent. Flying: a cubic lattice; a place is the centre.
 
 #include <cstddef>
 #include <cstdint>
@@ -36,7 +36,7 @@ struct Measure {
 /// is less than measure.narrowest. Certified: a capsule of that radius less 0.1 mm is free there.
 [[nodiscard]] double clearance_at(const Survey& survey, const Measure& measure, const Vec3& place);
 
-/// The floor under `near` for a foot at about that height: at most `measure.step` up or down. Cracks carry the foot.
+/// The floor under `near` for feet at about that height: at most `measure.step` up or down. The rims of cracks count.
 /// None if there is no such floor.
 [[nodiscard]] std::optional<Vec3> foot_at(const Survey& survey, const Measure& measure, const Vec3& near);
 

@@ -3,6 +3,7 @@
 #include <bit>
 #include <cmath>
 
+#include "math/level_distance.h"
 #include "ways/lattice/graph.h"
 #include "ways/lattice/walk_scouts.h"
 #include "ways/lattice/walk_step.h"
@@ -228,7 +229,7 @@ std::optional<NodeId> WalkLattice::seed(const Vec3& place) {
     for (int dy = -farthest; dy <= farthest; ++dy) {
       const LatticePoint at{middle.x + dx, middle.y + dy, 0};
       const Vec3 to = plan_.point(at);
-      const double distance = std::hypot(to.x - place.x, to.y - place.y);
+      const double distance = level_distance(to, place);
       if (distance <= seed_reach * plan_.spacing) candidates.push_back({distance, at});
     }
   }

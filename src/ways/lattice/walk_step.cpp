@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "math/level_distance.h"
 #include "ways/trials/trials.h"
 
 namespace roam::ways {
@@ -39,7 +40,7 @@ float WalkSteps::clearance(const Vec3& place) const {
 
 /// Two free bodies that overlap leave no room for a wall between them.
 bool WalkSteps::linked(const Standing& a, const Standing& b) const {
-  const double rise = std::abs(a.place.z - b.place.z), along = std::hypot(a.place.x - b.place.x, a.place.y - b.place.y);
+  const double rise = std::abs(a.place.z - b.place.z), along = level_distance(a.place, b.place);
   const double least = measure_.narrowest;
   const bool one_step = std::abs(a.level - b.level) <= measure_.step + level_tolerance;
   // Centres of spheres differ in height by their radii and lifts too.

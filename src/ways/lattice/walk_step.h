@@ -13,7 +13,7 @@
 
 namespace roam::ways {
 
-/// A foot, and how wide a body may be there.
+/// A place of the feet, and how wide a body may be there.
 struct Standing {
   Vec3 place{0.0};
   double level = 0.0;  ///< see FloorPlace
@@ -58,8 +58,8 @@ class WalkSteps {
   [[nodiscard]] float clearance(const Vec3& place) const;
   /// Whether a body of `narrowest` gets from one free place to another.
   [[nodiscard]] bool linked(const Standing& a, const Standing& b) const;
-  /// Whether a walker gets from one place to another, one of which is over a gap. It walks on the largest foot: the gap
-  /// may have floor within a step, or continue into an open drop.
+  /// Whether a walker gets from one place to another, one of which is over a gap. Its support disc is the largest: the
+  /// gap may have floor within a step, or continue into an open drop.
   [[nodiscard]] bool walked(const Standing& a, const Standing& b) const;
 
  private:

@@ -46,7 +46,7 @@ void check(const Vec3& from, const Vec3& to, const PassageOptions& o) {
   if (!(o.spacing >= least_spacing && o.spacing <= Space::reach_limit))
     refuse(fmt::format("the spacing is {} m; it must be at least {} and at most {} m", o.spacing, least_spacing,
                        Space::reach_limit));
-  positive(o.support_max, "the largest foot");
+  positive(o.support_max, "the largest support disc");
   if (!(o.narrowest < o.widest)) refuse("the narrowest radius must be less than the widest");
   if (o.mode == Mode::fly) return;
   if (!(o.step >= 0.0 && o.step <= Space::reach_limit)) refuse("the step must be between 0 and 1000 m");

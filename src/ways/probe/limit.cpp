@@ -1,12 +1,13 @@
 // The limit of a body: a door, a wall beside an end, a lintel that is too low, a step that is too high.
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <numbers>
+#include <vector>
 
 #include "ways/lattice/walk_place.h"
 #include "ways/probe/parts.h"
+#include "ways/refine/refine.h"
 #include "ways/refine/stations.h"
 #include "ways/trials/on_way.h"
 
@@ -25,9 +26,8 @@ constexpr double rise_reach = 0.6;       ///< radius around a breaking-off withi
 constexpr double rise_within = 0.3;      ///< a floor that rises over more than this is a ramp
 /// A wall on one side only: moved aside by 1 m, a body gains at least this much clearance.
 constexpr double one_sided = 0.4;
-/// Metres, and part of a normal's length: reach and facing of the walls on both sides of a narrowest place.
+/// Metres: reach of the walls on both sides of a narrowest place.
 constexpr double side_reach = 0.02;
-constexpr double side_cosine = 0.3;
 /// A normal steeper than this belongs to a surface above or below.
 constexpr double upright = 0.7;
 
@@ -67,10 +67,8 @@ std::optional<ProbeLimit> end_limit(const ProbeSearch& search, const Passage& pa
   Stand stand{clearance, 0.0};
   if (measure.mode == Mode::walk)
     stand = stand_at(search.survey, measure, place, clearance, 0.99 * clearance).value_or(stand);
-  const Vec3 centre = centre_of(measure, place, stand);
-  std::array<Contact, 1> wall;
-  if (search.survey.world().contacts(body_of(measure, clearance), centre, Vec3(0.0), 5.0 * same_clearance, wall) == 0)
-    return std::nullopt;
+  const std::vector<Contact> wall = sides_of(search.survey, measure, place, clearance, stand, 5.0 * same_clearance);
+  if (wall.empty()) return std::nullopt;
   if (measure.mode == Mode::walk && std::abs(wall[0].normal.z) >= upright) return std::nullopt;
   ProbeLimit limit;
   limit.kind = kind;
@@ -82,23 +80,6 @@ std::optional<ProbeLimit> end_limit(const ProbeSearch& search, const Passage& pa
                 0.5 * clearance * limit.direction;
   limit.along = kind == ProbeLimit::Kind::start ? 0.0 : passage.length;
   return limit;
-}
-
-/// Whether a body at the narrowest place of a way has walls on both sides.
-bool is_between(const ProbeSearch& search, const Vec3& place, const Opening& opening) {
-  const Measure measure = search.measure();
-  const double radius = 0.5 * opening.width;
-  const Stand stand = stand_at(search.survey, measure, place, radius, 0.9 * radius).value_or(Stand{radius, 0.0});
-  std::array<Contact, 64> near;
-  const std::size_t count = search.survey.world().contacts(body_of(measure, radius), centre_of(measure, place, stand),
-                                                           Vec3(0.0), side_reach, near);
-  bool ahead = false, behind = false;
-  for (std::size_t i = 0; i < count; ++i) {
-    const double facing = glm::dot(near[i].normal, opening.direction);
-    ahead = ahead || facing < -side_cosine;
-    behind = behind || facing > side_cosine;
-  }
-  return ahead && behind;
 }
 
 /// The headroom of a way: the greatest height, up to `most`, of a body of that radius that passes under everything.
@@ -200,7 +181,8 @@ std::optional<ProbeLimit> limit_of(const ProbeSearch& search, const Passage& pas
   limit.along = on.along;
   limit.heading = level(on.heading);
   limit.feet = passage.found ? on.place : opening.point;
-  if (limit.kind == ProbeLimit::Kind::door && !is_between(search, on.place, opening)) {
+  if (limit.kind == ProbeLimit::Kind::door &&
+      !is_between(search.survey, search.measure(), on.place, opening, side_reach)) {
     limit.kind = ProbeLimit::Kind::edge;
     limit.size = 0.5 * opening.width;
     limit.needed = radius;

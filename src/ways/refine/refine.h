@@ -23,4 +23,9 @@ namespace roam::ways {
 /// The two sides of the opening at the narrowest place of a way.
 [[nodiscard]] Opening opening_at(const Survey& survey, const Measure& measure, const Vec3& place, double radius);
 
+/// Whether a body at the narrowest place of a way has surfaces within `reach` (m) on both sides of its opening. With
+/// one side only, a larger body passes farther from it, if it can stand there. Below a lintel is floor.
+[[nodiscard]] bool is_between(const Survey& survey, const Measure& measure, const Vec3& place, const Opening& opening,
+                              double reach);
+
 }  // namespace roam::ways

@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
+#include "math/level_distance.h"
 #include "ways/lattice/walk_place.h"
 #include "ways/refine/refine.h"
 
@@ -27,7 +28,7 @@ constexpr double longest_piece = 20.0;
 bool passes_on_floor(const Survey& survey, const Measure& measure, const Vec3& from, const Vec3& to, double radius,
                      double tolerance) {
   if (measure.mode == Mode::fly) return goes_straight(survey, measure, from, to, radius);
-  const double length = std::hypot(to.x - from.x, to.y - from.y);
+  const double length = level_distance(to, from);
   const int count = std::max(1, static_cast<int>(std::ceil(length / stride)));
   const double sloping = length / count * std::tan(glm::radians(survey.slope_degrees())) + uneven;
   Vec3 at = from;

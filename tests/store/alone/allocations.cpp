@@ -77,7 +77,7 @@ TEST_F(StoreAllocations, APagerIsMadeOrRefusedWhereverOneFails) {
 TEST_F(StoreAllocations, ALoadingThreadGoesOnWhereverOneFails) {
   for (long failing = 1; failing < 60; ++failing) {
     const auto bytes = std::make_shared<made::TroubledBytes>(folder_.path());  // which has no file open yet
-    const auto opened = Store::open(bytes, "s");
+    const auto opened = store::open_store(bytes, "s");
     bytes->hold();
     Pager pager(opened, {.memory = Pager::least_memory});
     spared = true;
@@ -101,7 +101,7 @@ TEST_F(StoreAllocations, ALoadingThreadGoesOnWhereverOneFails) {
 #endif
 
 /// Throws where it should answer.
-class ThrowingBytes : public StoreBytes {
+class ThrowingBytes : public store::StoreBytes {
  public:
   explicit ThrowingBytes(const std::filesystem::path& folder) : files_(store::files_of(folder)) {}
   std::vector<std::byte> whole(const std::string& file, std::uint64_t limit) override {
@@ -122,13 +122,13 @@ class ThrowingBytes : public StoreBytes {
   std::atomic<int> throws{0};
 
  private:
-  std::shared_ptr<StoreBytes> files_;
+  std::shared_ptr<store::StoreBytes> files_;
   std::atomic<int> count_{0};
 };
 
 TEST_F(StoreAllocations, BytesThatThrowAreLikeBytesThatCannotBeRead) {
   const auto bytes = std::make_shared<ThrowingBytes>(folder_.path());
-  const auto opened = Store::open(bytes, "s");
+  const auto opened = store::open_store(bytes, "s");
   for (const int throws : {1, 2, 3}) {
     bytes->throws = throws;
     Pager pager(opened, {.memory = Pager::least_memory, .loaders = 2});

@@ -198,6 +198,7 @@ TEST(StoreBuildResume, InStepsByManyProcessesInAnyOrder) {
   write_ply(folder.file("a.ply"), field(760, 0.5, {0.0, 0.0, 0.0}));
   ASSERT_EQ(in_child([&] { roam::build_store(options({folder.file("a.ply")}, folder.file("whole"))); }), 0);
   auto o = options({folder.file("a.ply")}, folder.file("steps"));
+  o.tasks = 64;
   roam::StoreBuildReport report;
   std::uint64_t count = 0;
   ASSERT_EQ(in_child([&] { std::ofstream(folder.file("count")) << roam::plan_store(o, report); }), 0);
@@ -205,15 +206,52 @@ TEST(StoreBuildResume, InStepsByManyProcessesInAnyOrder) {
   ASSERT_GT(count, 1U);
   o.scene.clear();
   const std::string missing = refusal([&] { roam::merge_store(o, report); });
-  EXPECT_NE(missing.find("shard 0 is missing"), std::string::npos) << missing;
+  EXPECT_NE(missing.find("missing shards: 2, damaged shards: 0, in tasks 0-1 of 2;"), std::string::npos) << missing;
   for (std::uint64_t i = count; i-- > 0;) {
-    ASSERT_EQ(in_child([&] { roam::build_shard(o, i, report); }), 0);
-    ASSERT_EQ(in_child([&] { roam::build_shard(o, i, report); }), 0);
+    ASSERT_EQ(in_child([&] { roam::build_task(o, i, report); }), 0);
+    ASSERT_EQ(in_child([&] { roam::build_task(o, i, report); }), 0);
   }
-  EXPECT_NE(refusal([&] { roam::build_shard(o, count, report); }).find("there is no shard"), std::string::npos);
+  EXPECT_NE(refusal([&] { roam::build_task(o, count, report); }).find("there is no task"), std::string::npos);
   ASSERT_EQ(in_child([&] { roam::merge_store(o, report); }), 0);
   expect_same(folder.file("whole"), folder.file("steps"));
-  EXPECT_NE(refusal([&] { roam::build_shard(o, 0, report); }).find("no plan"), std::string::npos);
+  EXPECT_NE(refusal([&] { roam::build_task(o, 0, report); }).find("no plan"), std::string::npos);
+}
+
+TEST(StoreBuildResume, AnotherNumberOfTasksKeepsShardsThatAreThere) {
+  const TestFolder folder;
+  write_ply(folder.file("a.ply"), field(760, 0.5, {0.0, 0.0, 0.0}));
+  ASSERT_EQ(in_child([&] { roam::build_store(options({folder.file("a.ply")}, folder.file("whole"))); }), 0);
+  const auto counts = [&](auto&& step) {
+    // In a child, because a process that has threads cannot be forked again.
+    EXPECT_EQ(in_child([&] {
+                auto o = options({folder.file("a.ply")}, folder.file("steps"));
+                roam::StoreBuildReport report;
+                std::ofstream out(folder.file("counts"));
+                step(o, report);
+                out << report.tasks << ' ' << report.shards_to_build << ' ' << report.shards_built;
+              }),
+              0);
+    std::ifstream in(folder.file("counts"));
+    return std::string(std::istreambuf_iterator<char>(in), {});
+  };
+  const auto plan = [&](std::uint64_t tasks) {
+    return counts([&](auto& o, auto& report) {
+      o.tasks = tasks;
+      roam::plan_store(o, report);
+    });
+  };
+  const auto build = [&](std::uint64_t i) {
+    return counts([&](auto& o, auto& report) { roam::build_task(o, i, report); });
+  };
+  EXPECT_EQ(plan(64), "2 2 0") << "no task is empty";
+  EXPECT_EQ(build(1), "2 2 1");
+  EXPECT_EQ(plan(0), "1 2 0") << "two would not be equally long";
+  EXPECT_EQ(build(0), "1 2 1");
+  EXPECT_EQ(build(0), "1 2 0");
+  EXPECT_EQ(plan(2), "2 2 0");
+  EXPECT_EQ(build(1), "2 2 0");
+  counts([](auto& o, auto& report) { roam::merge_store(o, report); });
+  expect_same(folder.file("whole"), folder.file("steps"));
 }
 
 TEST(StoreBuildResume, MergingRefusesAPackThatWasChanged) {
@@ -222,7 +260,7 @@ TEST(StoreBuildResume, MergingRefusesAPackThatWasChanged) {
   const auto o = options({folder.file("a.ply")}, folder.file("s"));
   roam::StoreBuildReport report;
   ASSERT_EQ(roam::plan_store(o, report), 1U);
-  roam::build_shard(o, 0, report);
+  roam::build_task(o, 0, report);
   const auto pack = fs::directory_iterator(folder.file("s") + "/packs")->path();
   {
     std::fstream file(pack, std::ios::in | std::ios::out | std::ios::binary);
@@ -230,9 +268,9 @@ TEST(StoreBuildResume, MergingRefusesAPackThatWasChanged) {
     file.put('?');
   }
   const std::string text = refusal([&] { roam::merge_store(o, report); });
-  EXPECT_NE(text.find("shard 0 is damaged"), std::string::npos) << text;
+  EXPECT_NE(text.find("missing shards: 0, damaged shards: 1, in tasks 0 of 1;"), std::string::npos) << text;
   EXPECT_FALSE(fs::exists(folder.file("s") + "/CURRENT"));
-  roam::build_shard(o, 0, report);
+  roam::build_task(o, 0, report);
   roam::merge_store(o, report);
   expect_whole(folder.file("s"));
 }

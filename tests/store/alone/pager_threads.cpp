@@ -59,7 +59,7 @@ TEST(PagerThreads, ThatCannotBeStartedAreAnErrorAndThoseThatRunEnd) {
 }
 
 /// Part files cannot be read as long as it is said so.
-class NoParts : public StoreBytes {
+class NoParts : public store::StoreBytes {
  public:
   explicit NoParts(const std::filesystem::path& folder) : files_(store::files_of(folder)) {}
   std::atomic<bool> broken{true}, slow{false};
@@ -73,7 +73,7 @@ class NoParts : public StoreBytes {
   }
 
  private:
-  std::shared_ptr<StoreBytes> files_;
+  std::shared_ptr<store::StoreBytes> files_;
 };
 
 TEST(PagerNames, ThatCouldNotBeReadAreReadAgainWhenSomebodyAsks) {
@@ -81,7 +81,7 @@ TEST(PagerNames, ThatCouldNotBeReadAreReadAgainWhenSomebodyAsks) {
   const Mesh mesh = floor_of_tiles();
   made::store(folder.path(), {&mesh, 1}, {});
   const auto bytes = std::make_shared<NoParts>(folder.path());
-  Pager pager(Store::open(bytes, "yard"), {.memory = 16u << 20});
+  Pager pager(store::open_store(bytes, "yard"), {.memory = 16u << 20});
   made::load_all(pager);
   const Impact below = pager.sweep({0.3, 0.0}, {5.0, 5.0, 2.0}, {0.0, 0.0, -3.0});
   ASSERT_TRUE(below.hit && !below.unknown);
@@ -122,7 +122,7 @@ TEST(PagerNames, ThatTakeLongKeepNoTileWaiting) {
   const auto bytes = std::make_shared<NoParts>(folder.path());
   bytes->broken = false;
   bytes->slow = true;
-  const auto store = Store::open(bytes, "yard");
+  const auto store = store::open_store(bytes, "yard");
   TriangleId some = no_triangle;
   store->for_each_triangle(store->info().bounds, [&](auto, auto ids) { some = ids[0]; });
   Pager pager(store, {.memory = 16u << 20, .loaders = 1});

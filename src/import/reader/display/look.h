@@ -38,9 +38,19 @@ enum class Transparency : std::uint8_t {
 /// The look that triangles drawn together share.
 struct Look {
   TextureId texture = no_texture;
+  TextureId gloss_texture = no_texture;  ///< as in glTF: roughness is green, metalness is blue
+  TextureId emission_texture = no_texture;
   Transparency transparency = Transparency::none;
-  float cutoff = 0.5f;  ///< for mask
+  float cutoff = 0.5f;                       ///< for mask
+  float roughness = 1.0f, metalness = 0.0f;  ///< 0..1
+  Colour emission{};                         ///< the colour in which it shines by itself
   auto operator<=>(const Look&) const = default;
+
+  /// The first of its images.
+  [[nodiscard]] TextureId image() const {
+    if (texture != no_texture) return texture;
+    return gloss_texture != no_texture ? gloss_texture : emission_texture;
+  }
 };
 
 /// Converts from 0..1. A NaN gives 0.

@@ -1,7 +1,9 @@
 #include "import/reader/display/part_graph.h"
 
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <iterator>
 #include <limits>
 #include <span>
 #include <utility>
@@ -64,9 +66,10 @@ void fill(DisplayGeometry& geometry, const Surface& surface, std::span<const std
 
 PartGraph::PartGraph(Textures& textures, const Vec3& origin) : textures_(textures) { part_.origin = origin; }
 
-void PartGraph::add(const Surface& surface, const Look& look, bool normals, std::uint32_t group) {
+void PartGraph::add(const Surface& surface, const Look& look, bool normals, std::uint32_t group,
+                    std::span<const std::string> objects) {
   const std::uint32_t number = number_of(look);
-  const bool textured = part_.looks[number].texture != DisplayLook::no_texture;
+  const bool textured = part_.looks[number].has_image();
   bytes_ += surface.bytes();
   part_.triangles += surface.triangles.size();
   std::vector<std::uint32_t> order;
@@ -82,8 +85,26 @@ void PartGraph::add(const Surface& surface, const Look& look, bool normals, std:
     geometry.look = number;
     geometry.cell = cell_around(box.center() - part_.origin);
     fill(geometry, surface, chunk, part_.origin + geometry.cell, normals, textured, index_of);
+    geometry.runs = runs_of(surface, chunk, objects);
     part_.geometries.push_back(std::move(geometry));
   }
+}
+
+std::vector<DisplayRun> PartGraph::runs_of(const Surface& surface, std::span<const std::uint32_t> chunk,
+                                           std::span<const std::string> objects) {
+  std::vector<DisplayRun> runs;
+  auto next = surface.runs.begin();
+  for (const std::uint32_t triangle : chunk) {
+    if (runs.empty() || (next != surface.runs.end() && triangle >= next->first)) {
+      while (next != surface.runs.end() && triangle >= next->first) ++next;
+      const std::string& name = objects[std::prev(next)->object];
+      const auto [at, is_new] = objects_.try_emplace(name, static_cast<std::uint32_t>(part_.objects.size()));
+      if (is_new) part_.objects.push_back(name);
+      if (runs.empty() || runs.back().object != at->second) runs.push_back({at->second, 0});
+    }
+    ++runs.back().triangles;
+  }
+  return runs;
 }
 
 std::size_t PartGraph::add_pages(DisplayPages&& pages, const Box& box) {
@@ -93,15 +114,17 @@ std::size_t PartGraph::add_pages(DisplayPages&& pages, const Box& box) {
   return part_.pages.size() - 1;
 }
 
-const PartGraph::Loaded& PartGraph::load(TextureId texture) {
-  const auto [at, is_new] = loaded_.try_emplace(textures_.first_of(texture));
+PartGraph::Loaded PartGraph::load(TextureId texture, Content content) {
+  if (texture == no_texture) return {};
+  const auto [at, is_new] = loaded_.try_emplace({textures_.first_of(texture), content});
   Loaded& loaded = at->second;
   if (!is_new) return loaded;
+  const bool gloss = content == Content::gloss;
   const osg::ref_ptr<osg::Image> image = textures_.load(texture);
-  if (image == nullptr) return loaded;
+  if (image == nullptr || (gloss && image->isCompressed())) return loaded;
   loaded.number = static_cast<std::uint32_t>(part_.textures.size());
   loaded.translucent = image->isImageTranslucent();
-  part_.textures.push_back(texels_of(*image));
+  part_.textures.push_back(gloss ? gloss_of(*image) : texels_of(*image));
   const Wrapping wrapping = textures_.wrapping(texture);
   part_.textures.back().across = wrapping.across;
   part_.textures.back().up = wrapping.up;
@@ -112,10 +135,20 @@ const PartGraph::Loaded& PartGraph::load(TextureId texture) {
 std::uint32_t PartGraph::number_of(const Look& look) {
   const auto [at, is_new] = looks_.try_emplace(look, static_cast<std::uint32_t>(part_.looks.size()));
   if (!is_new) return at->second;
-  const Loaded texture = look.texture == no_texture ? Loaded{} : load(look.texture);
+  const Loaded texture = load(look.texture, Content::colours);
   const bool textured = texture.number != DisplayLook::no_texture;
   DisplayLook shown;
   shown.texture = texture.number;
+  shown.gloss_texture = load(look.gloss_texture, Content::gloss).number;
+  shown.emission_texture = load(look.emission_texture, Content::colours).number;
+  // Without its image, a factor would make a mirror of a whole wall.
+  if (look.gloss_texture == no_texture || shown.gloss_texture != DisplayLook::no_texture) {
+    shown.roughness = look.roughness;
+    shown.metalness = look.metalness;
+  }
+  if (look.emission_texture == no_texture || shown.emission_texture != DisplayLook::no_texture) {
+    std::copy_n(look.emission.begin(), shown.emission.size(), shown.emission.begin());
+  }
   shown.cutoff = look.cutoff;
   if (look.transparency == Transparency::mask && textured) shown.cover = DisplayCover::cut;
   if (look.transparency == Transparency::blend ||

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "import/part_format.h"
 #include "import/stream.h"
@@ -28,10 +29,21 @@ bool has_normals(const Corners& corners, std::span<const VertexLook> looks) {
 
 }  // namespace
 
+void PartPool::begin_object(std::string names) {
+  if (names.size() > DisplayPart::name_limit) names.resize(DisplayPart::name_limit);
+  if (names == object_name_) return;
+  object_name_ = std::move(names);
+  object_.reset();
+}
+
 void PartPool::add(std::span<const Vec3> vertices, std::span<const VertexLook> looks,
                    std::span<const Corners> triangles, const Look& look) {
   if (triangles.empty()) return;
   if (index_.size() < vertices.size()) index_.resize(vertices.size());
+  if (!object_) {
+    object_ = object_numbers_.try_emplace(object_name_, static_cast<std::uint32_t>(objects_.size())).first->second;
+    if (*object_ == objects_.size()) objects_.push_back(object_name_);
+  }
   for (const bool normals : {true, false}) {
     const bool any = std::any_of(triangles.begin(), triangles.end(),
                                  [&](const Corners& corners) { return has_normals(corners, looks) == normals; });
@@ -40,17 +52,17 @@ void PartPool::add(std::span<const Vec3> vertices, std::span<const VertexLook> l
     const std::size_t before = at->second.bytes();
     add_to(at->second, vertices, looks, triangles, look, normals);
     const std::size_t bytes = at->second.bytes();
-    (look.texture == no_texture ? plain_bytes_ : textured_bytes_) += bytes - before;
+    (look.image() == no_texture ? plain_bytes_ : textured_bytes_) += bytes - before;
     if (!page_) send_enough(look, bytes);
   }
 }
 
 void PartPool::send_enough(const Look& look, std::size_t bytes) {
-  const bool plain = look.texture == no_texture;
+  const bool plain = look.image() == no_texture;
   if (plain && plain_bytes_ >= part_bytes) {
-    send_where([](const Look& one) { return one.texture == no_texture; });
+    send_where([](const Look& one) { return one.image() == no_texture; });
   } else if (!plain && bytes >= one_texture_bytes) {
-    send_where([&](const Look& one) { return one.texture == look.texture; });
+    send_where([&](const Look& one) { return one.image() == look.image(); });
   } else if (textured_bytes_ >= all_textures_bytes) {
     send_where([](const Look&) { return true; });
   }
@@ -64,6 +76,9 @@ PartGraph& PartPool::begin_page() {
 void PartPool::add_to(Surface& surface, std::span<const Vec3> vertices, std::span<const VertexLook> looks,
                       std::span<const Corners> triangles, const Look& look, bool normals) {
   ++mark_;
+  if (surface.runs.empty() || surface.runs.back().object != *object_) {
+    surface.runs.push_back({*object_, static_cast<std::uint32_t>(surface.triangles.size())});
+  }
   for (const Corners& corners : triangles) {
     if (has_normals(corners, looks) != normals) continue;
     Corners added;
@@ -93,13 +108,13 @@ void PartPool::send_where(const std::function<bool(const Look&)>& wanted) {
       ++at;
       continue;
     }
-    if (own && look.texture != last && own->bytes() >= part_bytes) {
+    if (own && look.image() != last && own->bytes() >= part_bytes) {
       send(*own);
       own.reset();
     }
     if (!page_ && !own) own.emplace(textures_, origin_near(surface.vertices));
-    (page_ ? *page_ : *own).add(surface, look, normals, group);
-    last = look.texture;
+    (page_ ? *page_ : *own).add(surface, look, normals, group, objects_);
+    last = look.image();
     (last == no_texture ? plain_bytes_ : textured_bytes_) -= surface.bytes();
     at = gathered_.erase(at);
   }
@@ -111,6 +126,9 @@ void PartPool::finish_file() {
   if (page_) send(*page_);
   page_.reset();
   textures_.forget_images();
+  objects_.clear();
+  object_numbers_.clear();
+  object_.reset();
 }
 
 const Vec3& PartPool::origin_near(std::span<const Vec3> places) {

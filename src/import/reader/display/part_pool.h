@@ -7,6 +7,8 @@
 #include <map>
 #include <optional>
 #include <span>
+#include <string>
+#include <unordered_map>
 #include <vector>
 
 #include "import/reader/display/part_graph.h"
@@ -24,6 +26,8 @@ class PartPool {
 
   [[nodiscard]] Textures& textures() { return textures_; }
 
+  /// Triangles from now on are of the object with these names: DisplayPart::objects.
+  void begin_object(std::string names);
   /// Adds triangles with vertices in the frame of the scene. Sends a part when there is enough geometry.
   void add(std::span<const Vec3> vertices, std::span<const VertexLook> looks, std::span<const Corners> triangles,
            const Look& look);
@@ -61,6 +65,10 @@ class PartPool {
   Textures textures_;
   std::optional<Vec3> origin_;
   Gathered gathered_;
+  std::vector<std::string> objects_;  ///< by number, since the last finish_file
+  std::unordered_map<std::string, std::uint32_t> object_numbers_;
+  std::string object_name_;              ///< of the triangles to come
+  std::optional<std::uint32_t> object_;  ///< its number, once it has triangles
   std::optional<PartGraph> page_;
   std::uint32_t group_ = 0;
   std::size_t plain_bytes_ = 0, textured_bytes_ = 0;  ///< gathered without and with textures

@@ -16,12 +16,12 @@ class Cutter {
       : surface_(surface), chunks_(chunks) {}
 
   void cut(std::span<std::uint32_t> triangles) {
-    if (triangles.size() <= few_triangles) return chunks_.emplace_back(triangles), void();
+    if (triangles.size() <= few_triangles) return finish(triangles);
     Box box;
     for (const std::uint32_t t : triangles) box.include(centre(t));
     const Vec3 size = box.size();
     const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
-    if (triangles.size() <= chunk_triangles && size[axis] <= chunk_size) return chunks_.emplace_back(triangles), void();
+    if (triangles.size() <= chunk_triangles && size[axis] <= chunk_size) return finish(triangles);
     const auto middle = triangles.begin() + static_cast<std::ptrdiff_t>(triangles.size() / 2);
     std::nth_element(triangles.begin(), middle, triangles.end(), [&](std::uint32_t a, std::uint32_t b) {
       const double ca = centre(a)[axis], cb = centre(b)[axis];
@@ -32,6 +32,11 @@ class Cutter {
   }
 
  private:
+  /// Triangles of one object follow each other, as in the file.
+  void finish(std::span<std::uint32_t> triangles) {
+    std::sort(triangles.begin(), triangles.end());
+    chunks_.emplace_back(triangles);
+  }
   [[nodiscard]] Vec3 centre(std::uint32_t triangle) const {
     const Corners& c = surface_.triangles[triangle];
     return (surface_.vertices[c[0]] + surface_.vertices[c[1]] + surface_.vertices[c[2]]) / 3.0;

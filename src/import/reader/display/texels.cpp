@@ -95,4 +95,26 @@ DisplayTexture texels_of(const osg::Image& image) {
   return texture;
 }
 
+DisplayTexture gloss_of(const osg::Image& image) {
+  const auto kind = kind_of(image);
+  const std::size_t step = kind == DisplayTexels::rgb ? 3 : kind == DisplayTexels::rgba ? 4 : 0;
+  DisplayTexture texture;
+  texture.width = width_of(image);
+  texture.height = height_of(image);
+  texture.texels = DisplayTexels::grey_alpha;
+  texture.bytes.reserve(std::size_t{2} * texture.width * texture.height);
+  for (unsigned t = 0; t < texture.height; ++t) {
+    for (unsigned s = 0; s < texture.width; ++s) {
+      if (step > 0) {
+        const unsigned char* texel = image.data(0, t) + step * s;
+        texture.bytes.insert(texture.bytes.end(), texel + 1, texel + 3);
+      } else {
+        const osg::Vec4 colour = image.getColor(s, t);
+        for (const unsigned k : {1u, 2u}) texture.bytes.push_back(colour_byte(colour[k]));
+      }
+    }
+  }
+  return texture;
+}
+
 }  // namespace roam::reader

@@ -15,4 +15,8 @@ namespace roam::reader {
 /// opacity. Requires has_texels(image).
 [[nodiscard]] DisplayTexture texels_of(const osg::Image& image);
 
+/// Roughness (grey) and metalness (opacity) from an image's green and blue. Requires has_texels(image), and that the
+/// image is not compressed.
+[[nodiscard]] DisplayTexture gloss_of(const osg::Image& image);
+
 }  // namespace roam::reader

@@ -6,6 +6,7 @@
 
 #include "import/reader/display/image_file.h"
 #include "import/reader/display/texels.h"
+#include "roam/error.h"
 #include "roam/import.h"
 
 namespace roam::reader {
@@ -63,7 +64,12 @@ void Textures::leave_out_generated() {
 
 osg::ref_ptr<osg::Image> Textures::load(TextureId id) {
   Source& source = sources_.at(first_of(id));
-  osg::ref_ptr<osg::Image> image = source.decode ? source.decode() : source.image;
+  osg::ref_ptr<osg::Image> image = source.image;
+  try {
+    if (source.decode) image = source.decode();
+  } catch (const Error&) {
+    // The file does not have the bytes of its image: an absent image, not an absent surface.
+  }
   if (image == nullptr || !has_texels(*image)) {
     report_missing(source.name);
     return nullptr;

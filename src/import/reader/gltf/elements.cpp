@@ -100,7 +100,7 @@ std::span<const std::byte> Elements::within(GltfFile& file, const Json& view, co
                     (count == 0 || (bytes.size() - *begin >= element_bytes &&
                                     (bytes.size() - *begin - element_bytes) / stride >= count - 1));
   if (!fits) throw file.damaged("an accessor reaches beyond its buffer view");
-  return bytes.subspan(*begin);
+  return count == 0 ? std::span<const std::byte>() : bytes.subspan(*begin);
 }
 
 void Elements::read_sparse(GltfFile& file, const Json& sparse) {
@@ -154,6 +154,7 @@ double Elements::Values::at(std::uint64_t element, unsigned component) const {
 bool Elements::are_floats() const { return base_.type == f32; }
 
 double Elements::at(std::uint64_t element, unsigned component) const {
+  if (element >= count_) return 0.0;
   if (!replaced_.empty()) {
     if (const auto other = replaced_.find(element); other != replaced_.end()) {
       return replacing_.at(other->second, component);

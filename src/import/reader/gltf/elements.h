@@ -34,7 +34,7 @@ class Elements {
   /// Whether the values are stored as floats, not as integers.
   [[nodiscard]] bool are_floats() const;
   /// A component of an element, with quantized and normalized ones as the numbers that they mean; 0 beyond the last
-  /// component. `element` < count().
+  /// component and beyond the last element.
   [[nodiscard]] double at(std::uint64_t element, unsigned component) const;
   /// The same for indices. A value that is no index gives the largest one.
   [[nodiscard]] std::uint32_t index(std::uint64_t element) const;

@@ -2,10 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <optional>
 #include <span>
+#include <utility>
 
 #include "files/escaped.h"
 #include "import/reader/display/normal_matrix.h"
@@ -23,6 +25,13 @@ double to_srgb(double linear) {
 
 Colour shown(double red, double green, double blue, double opacity) {
   return {colour_byte(to_srgb(red)), colour_byte(to_srgb(green)), colour_byte(to_srgb(blue)), colour_byte(opacity)};
+}
+
+/// A factor, to 1/16: materials that look alike are drawn together.
+float share_of(const Json& factor, double otherwise) {
+  constexpr double steps = 16.0;
+  const double value = number(factor, otherwise);
+  return static_cast<float>(std::round(steps * std::clamp(value > 0.0 ? value : 0.0, 0.0, 1.0)) / steps);
 }
 
 DisplayWrap wrap_of(const Json& mode) {
@@ -51,7 +60,7 @@ std::string unique_key(const std::string& path) {
 GltfLooks::GltfLooks(GltfFile& file, MeshSink& sink)
     : file_(file), sink_(sink), key_(unique_key(file.path().string())) {}
 
-std::uint64_t GltfLooks::coordinate_set(const Json& primitive) { return material_of(primitive).set; }
+std::uint64_t GltfLooks::coordinate_set(const Json& primitive) { return material_of(primitive).placement.set; }
 
 const GltfLooks::Material& GltfLooks::material_of(const Json& primitive) {
   const std::uint64_t index = whole_number(member(primitive, "material")).value_or(no_material);
@@ -65,7 +74,7 @@ GltfLooks::Material GltfLooks::read(const Json& from) {
   const Json& glossy = member(from, "extensions", "KHR_materials_pbrSpecularGlossiness");
   const bool metallic = member(from, "pbrMetallicRoughness").is_object() || !glossy.is_object();
   const Json& model = metallic ? member(from, "pbrMetallicRoughness") : glossy;
-  take_texture(member(model, metallic ? "baseColorTexture" : "diffuseTexture"), material);
+  material.look.texture = image(member(model, metallic ? "baseColorTexture" : "diffuseTexture"), material);
   if (const auto c = numbers(member(model, metallic ? "baseColorFactor" : "diffuseFactor"), 4)) {
     material.colour = shown((*c)[0], (*c)[1], (*c)[2], (*c)[3]);
   }
@@ -77,19 +86,50 @@ GltfLooks::Material GltfLooks::read(const Json& from) {
     material.look.transparency = Transparency::mask;
     material.look.cutoff = static_cast<float>(number(member(from, "alphaCutoff"), 0.5));
   }
+  if (metallic) read_gloss(model, material);
+  read_emission(from, material);
   return material;
 }
 
-void GltfLooks::take_texture(const Json& reference, Material& to) {
-  if (!reference.is_object()) return;
-  to.look.texture = texture(member(reference, "index"));
-  to.set = whole_number(member(reference, "texCoord")).value_or(0);
-  const Json& moved = member(reference, "extensions", "KHR_texture_transform");
-  if (!moved.is_object()) return;
-  if (const auto o = numbers(member(moved, "offset"), 2)) to.offset = {(*o)[0], (*o)[1]};
-  if (const auto s = numbers(member(moved, "scale"), 2)) to.scale = {(*s)[0], (*s)[1]};
-  to.rotation = number(member(moved, "rotation"), 0.0);
-  to.set = whole_number(member(moved, "texCoord")).value_or(to.set);
+void GltfLooks::read_gloss(const Json& model, Material& to) {
+  const Json& reference = member(model, "metallicRoughnessTexture");
+  const TextureId texture = image(reference, to);
+  // The image alone says where a surface is metal.
+  if (reference.is_object() && texture == no_texture) return;
+  const float roughness = share_of(member(model, "roughnessFactor"), 1.0);
+  if (roughness >= 1.0f && texture == no_texture) return;  // dull, whether metal or not
+  to.look.gloss_texture = texture;
+  to.look.roughness = roughness;
+  to.look.metalness = share_of(member(model, "metallicFactor"), 1.0);
+}
+
+void GltfLooks::read_emission(const Json& material, Material& to) {
+  const auto factor = numbers(member(material, "emissiveFactor"), 3);
+  if (!factor) return;
+  const Json& brighter = member(material, "extensions", "KHR_materials_emissive_strength");
+  const double strength = number(member(brighter, "emissiveStrength"), 1.0);
+  const Colour emission = shown((*factor)[0] * strength, (*factor)[1] * strength, (*factor)[2] * strength, 0.0);
+  if (emission == Colour{}) return;
+  const Json& reference = member(material, "emissiveTexture");
+  to.look.emission_texture = image(reference, to);
+  if (!reference.is_object() || to.look.emission_texture != no_texture) to.look.emission = emission;
+}
+
+TextureId GltfLooks::image(const Json& reference, Material& material) {
+  if (!reference.is_object()) return no_texture;
+  Placement lies;
+  lies.set = whole_number(member(reference, "texCoord")).value_or(0);
+  if (const Json& moved = member(reference, "extensions", "KHR_texture_transform"); moved.is_object()) {
+    if (const auto o = numbers(member(moved, "offset"), 2)) lies.offset = {(*o)[0], (*o)[1]};
+    if (const auto s = numbers(member(moved, "scale"), 2)) lies.scale = {(*s)[0], (*s)[1]};
+    lies.rotation = number(member(moved, "rotation"), 0.0);
+    lies.set = whole_number(member(moved, "texCoord")).value_or(lies.set);
+  }
+  const bool is_first = material.look.image() == no_texture;
+  if (!is_first && !(lies == material.placement)) return no_texture;
+  const TextureId found = texture(member(reference, "index"));
+  if (found != no_texture) material.placement = lies;
+  return found;
 }
 
 TextureId GltfLooks::texture(const Json& index) {
@@ -130,7 +170,11 @@ void GltfLooks::begin(const Json& primitive, const Primitive& read, const glm::d
   material_ = &material_of(primitive);
   normal_matrix_ = normal_matrix(linear);
   Look look = material_->look;
-  if (!read.coordinates) look.texture = no_texture;
+  if (!read.coordinates && look.image() != no_texture) {
+    look.texture = no_texture;
+    if (std::exchange(look.gloss_texture, no_texture) != no_texture) look.roughness = 1.0f;
+    if (std::exchange(look.emission_texture, no_texture) != no_texture) look.emission = {};
+  }
   sink_.set_look(look);
 }
 
@@ -143,7 +187,7 @@ VertexLook GltfLooks::of(std::uint64_t vertex) const {
     look.colour = look.colour * shown(colours->at(vertex, 0), colours->at(vertex, 1), colours->at(vertex, 2), opacity);
   }
   if (const auto& coordinates = primitive_->coordinates) {
-    const Material& m = *material_;
+    const Placement& m = material_->placement;
     const double u = coordinates->at(vertex, 0) * m.scale.x, v = coordinates->at(vertex, 1) * m.scale.y;
     const double cosine = std::cos(m.rotation), sine = std::sin(m.rotation);
     // glTF's zero is at the upper edge of the image.

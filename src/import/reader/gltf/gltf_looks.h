@@ -29,18 +29,25 @@ class GltfLooks {
   [[nodiscard]] VertexLook of(std::uint64_t vertex) const;
 
  private:
+  /// How an image lies on the surface: KHR_texture_transform.
+  struct Placement {
+    std::uint64_t set = 0;  ///< of texture coordinates
+    glm::dvec2 offset{0.0}, scale{1.0};
+    double rotation = 0.0;
+    bool operator==(const Placement&) const = default;
+  };
   struct Material {
     Look look;
     Colour colour = white;
-    std::uint64_t set = 0;
-    // KHR_texture_transform
-    glm::dvec2 offset{0.0}, scale{1.0};
-    double rotation = 0.0;
+    Placement placement;  ///< of all its images
   };
 
   const Material& material_of(const Json& primitive);
   [[nodiscard]] Material read(const Json& material);
-  void take_texture(const Json& reference, Material& to);
+  /// The image of a material; none if it lies otherwise than the images before.
+  [[nodiscard]] TextureId image(const Json& reference, Material& material);
+  void read_gloss(const Json& model, Material& to);
+  void read_emission(const Json& material, Material& to);
   [[nodiscard]] TextureId texture(const Json& index);
 
   GltfFile& file_;

@@ -92,6 +92,16 @@ void GltfWalk::say_what_is_unknown() {
 }
 
 void GltfWalk::walk(const glm::dmat4& outer, const glm::dmat4& inner) {
+  try {
+    walk_scene(outer, inner);
+  } catch (const Error&) {
+    // The reading may go on with other files, but the images of these parts are in this one.
+    finish();
+    throw;
+  }
+}
+
+void GltfWalk::walk_scene(const glm::dmat4& outer, const glm::dmat4& inner) {
   const Json& json = file_.json();
   const Json& nodes = member(json, "nodes");
   visited_.assign(nodes.is_array() ? nodes.size() : 0, false);
@@ -157,6 +167,10 @@ const Primitive* GltfWalk::primitive(std::uint64_t mesh, std::uint64_t index, co
   const auto [at, is_new] = primitives_.try_emplace({mesh, index});
   if (is_new) {
     at->second = read_primitive(file_, described, looks_.has_value(), looks_ ? looks_->coordinate_set(described) : 0);
+    if (at->second && !at->second->damaged_looks.empty()) {
+      sink_.report_note_once(fmt::format("{}: {} of its vertices is damaged; surfaces are shown without it.",
+                                         file_.path().string(), at->second->damaged_looks));
+    }
   }
   return at->second ? &*at->second : nullptr;
 }
@@ -189,15 +203,18 @@ std::vector<glm::dmat4> GltfWalk::instances(const Json& node) {
   if (!extension.is_object()) return {glm::dmat4(1.0)};
   const Json& attributes = member(extension, "attributes");
   std::optional<Elements> translations, rotations, scales;
-  std::uint64_t count = 0;
+  std::optional<std::uint64_t> all;
   for (const auto& [name, to] :
        {std::pair{"TRANSLATION", &translations}, {"ROTATION", &rotations}, {"SCALE", &scales}}) {
     const Json& accessor = member(attributes, name);
     if (accessor.is_null()) continue;
     to->emplace(file_, accessor);
-    if (count != 0 && (*to)->count() != count) throw file_.damaged("its attributes of instances differ in number");
-    count = (*to)->count();
+    if (all.value_or((*to)->count()) != (*to)->count()) {
+      throw file_.damaged("its attributes of instances differ in number");
+    }
+    all = (*to)->count();
   }
+  const std::uint64_t count = all.value_or(0);
   std::vector<glm::dmat4> places;
   for (std::uint64_t i = 0; i < count; ++i) {
     const glm::dquat rotation =

@@ -23,12 +23,13 @@ class GltfWalk {
 
   /// Adds the triangles of the file's scene, transformed in doubles: first by its nodes, then by `inner`, by the
   /// translation of CESIUM_RTC, and by `outer`. May be called again for further instances. Throws roam::Error for a
-  /// damaged file.
+  /// damaged file; then the parts until the damage are sent.
   void walk(const glm::dmat4& outer, const glm::dmat4& inner);
   /// Images are decoded here. Must be called before the file is destroyed.
   void finish() { sink_.send_parts(); }
 
  private:
+  void walk_scene(const glm::dmat4& outer, const glm::dmat4& inner);
   void walk_node(std::uint64_t node, const glm::dmat4& parent);
   void add_mesh(const Json& node, const glm::dmat4& to_sink);
   void add(const Json& described, const Primitive& primitive, const glm::dmat4& to_sink);

@@ -70,9 +70,17 @@ std::optional<Primitive> read_primitive(GltfFile& file, const Json& primitive, b
     read.indices.emplace(file, indices);
   }
   if (!looks) return read;
-  read.normals = attribute("NORMAL");
-  read.colours = attribute("COLOR_0");
-  read.coordinates = attribute("TEXCOORD_" + std::to_string(set));
+  const auto look = [&](const std::string& name) -> std::optional<Elements> {
+    try {
+      return attribute(name);
+    } catch (const Error&) {
+      read.damaged_looks = name;
+      return std::nullopt;
+    }
+  };
+  read.normals = look("NORMAL");
+  read.colours = look("COLOR_0");
+  read.coordinates = look("TEXCOORD_" + std::to_string(set));
   for (std::optional<Elements>* one : {&read.normals, &read.colours, &read.coordinates}) {
     if (*one && (*one)->count() < read.positions.count()) one->reset();
   }

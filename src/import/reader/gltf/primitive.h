@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <string>
 
 #include "import/reader/gltf/elements.h"
 #include "import/reader/gltf/gltf_file.h"
@@ -19,6 +20,7 @@ struct Primitive {
   std::optional<Elements> coordinates;  ///< texture coordinates of the set that was requested
   std::optional<Elements> indices;
   std::uint64_t mode = triangles;
+  std::string damaged_looks{};  ///< the name of an attribute that is left out because it is damaged
 
   static constexpr std::uint64_t triangles = 4, triangle_strip = 5, triangle_fan = 6;
 
@@ -30,7 +32,8 @@ struct Primitive {
 [[nodiscard]] bool has_triangles(const Json& primitive);
 
 /// Reads a primitive with triangles; unset if it has no positions. Without `looks`, reads only what a body collides
-/// with. `set`: of texture coordinates. Throws roam::Error if it is damaged.
+/// with. `set`: of texture coordinates. Throws roam::Error if it is damaged. A damaged attribute that only looks have
+/// is left out, so that bodies collide with the triangles that are shown.
 [[nodiscard]] std::optional<Primitive> read_primitive(GltfFile& file, const Json& primitive, bool looks,
                                                       std::uint64_t set);
 

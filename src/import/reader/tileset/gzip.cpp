@@ -33,6 +33,7 @@ std::string without_gzip(std::string bytes, const std::string& place) {
     stream.next_out = reinterpret_cast<Bytef*>(content.data() + held);
     stream.avail_out = static_cast<uInt>(step);
     state = inflate(&stream, Z_NO_FLUSH);
+    if (state == Z_MEM_ERROR) throw std::bad_alloc();
     taken += more - stream.avail_in;
     content.resize(held + step - stream.avail_out);
     const bool stuck = state == Z_OK && content.size() == held && stream.avail_in == more;

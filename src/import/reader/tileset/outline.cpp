@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <iterator>
 #include <optional>
+#include <unordered_set>
 #include <utility>
 
 #include "import/reader/named_file.h"
@@ -33,6 +35,15 @@ glm::dmat4 transform_of(const Json& tile, const std::string& place) {
   glm::dmat4 matrix;
   for (int i = 0; i < 16; ++i) matrix[i / 4][i % 4] = (*m)[static_cast<std::size_t>(i)];
   return matrix;
+}
+
+bool is_finite(const glm::dmat4& matrix) {
+  for (int column = 0; column < 4; ++column) {
+    for (int k = 0; k < 4; ++k) {
+      if (!std::isfinite(matrix[column][k])) return false;
+    }
+  }
+  return true;
 }
 
 std::string uri_of(const Json& content) {
@@ -64,6 +75,13 @@ struct Tileset {
 
 /// Whether finer tiles replace a tile, or are added to it.
 enum class Refine { replace, add };
+
+/// Drops elements with a text that one before has. Some ten bytes of JSON may make any number of them.
+template <class T, class TextOf>
+void drop_repeated(std::vector<T>& list, const TextOf& text_of) {
+  std::unordered_set<std::string> known;
+  std::erase_if(list, [&](const T& element) { return !known.insert(text_of(element)).second; });
+}
 
 Refine refine_of(const Json& tile, Refine inherited) {
   const std::string refine = text(member(tile, "refine"));
@@ -209,6 +227,10 @@ class OutlineWalk {
   /// Returns whether the content is complete.
   bool add_content(const std::string& uri, const Tileset& tileset, const glm::dmat4& matrix, Refine inherited) {
     const fs::path file = contents_.place(tileset.folder(), uri);
+    if (!is_finite(matrix)) {
+      sink_.report_note_once(fmt::format("{}: the transforms of its tile overflow; it is left out.", file.string()));
+      return missing(file.string());
+    }
     switch (contents_.state_of(file)) {
       case TileContents::State::missing:
         return missing(file.empty() ? uri : file.string());
@@ -287,6 +309,8 @@ class OutlineWalk {
 Outline outline_of(const fs::path& tileset, SceneFiles& files, MeshSink& sink, const ReadingSettings& settings) {
   Outline outline;
   OutlineWalk(files, sink, outline).walk(tileset, settings);
+  drop_repeated(outline.contents, [](const TileContent& content) { return token_of(content, {}); });
+  drop_repeated(outline.files, [](const fs::path& file) { return file.string(); });
   return outline;
 }
 

@@ -29,7 +29,7 @@ struct TileContent {
 [[nodiscard]] std::optional<TileContent> content_of(std::string_view token, const std::filesystem::path& folder);
 
 struct Outline {
-  std::vector<TileContent> contents;         ///< in the order of the tileset
+  std::vector<TileContent> contents;         ///< in the order of the tileset; each once at a place
   std::vector<std::filesystem::path> files;  ///< tilesets and subtrees that were read
   std::uint64_t missing = 0;                 ///< contents, tilesets and subtrees that are absent or damaged
   std::string first_missing;

@@ -1,5 +1,5 @@
-// A foot over a store of which tiles are missing: where it is carried it is so in the whole scene, or the step says
-// that it met what is not known.
+// A support disc over a store of which tiles are missing: where it is carried it is so in the whole scene, or the step
+// says that it met what is not known.
 
 #include <gtest/gtest.h>
 
@@ -18,7 +18,7 @@ using roam::Carrying;
 using roam::Pager;
 
 /// The files of a store, of which some tiles cannot be read.
-class SomeGone : public roam::StoreBytes {
+class SomeGone : public roam::store::StoreBytes {
  public:
   SomeGone(const std::filesystem::path& folder, std::uint64_t seed)
       : files_(roam::store::files_of(folder)), seed_(seed) {}
@@ -33,7 +33,7 @@ class SomeGone : public roam::StoreBytes {
   std::set<std::uint64_t> pages;  ///< that can
 
  private:
-  std::shared_ptr<roam::StoreBytes> files_;
+  std::shared_ptr<roam::store::StoreBytes> files_;
   std::uint64_t seed_;
 };
 
@@ -52,15 +52,15 @@ Mesh slabs() {
   return m;
 }
 
-TEST(PagerFoot, IsCarriedByTheSceneOrSaysThatItMetTheUnknown) {
+TEST(PagerDisc, IsCarriedByTheSceneOrSaysThatItMetTheUnknown) {
   const Mesh mesh = slabs();
   const roam::World whole = build(mesh);
   int carried = 0, told = 0, walks = 0;
   for (std::uint64_t seed = 1; seed <= 6; ++seed) {
-    const made::Folder folder("pager_foot");
+    const made::Folder folder("pager_disc");
     made::store(folder.path(), {&mesh, 1}, {.page_tiles = 8, .tile_triangles = 24});
     const auto bytes = std::make_shared<SomeGone>(folder.path(), seed);
-    const auto store = roam::Store::open(bytes, "slabs");
+    const auto store = roam::store::open_store(bytes, "slabs");
     for (const auto& page : store->state().pages) bytes->pages.insert(page.ref.offset);
     Pager pager(store, {.memory = 64 << 20, .loaders = 2});
     ASSERT_TRUE(made::update_until(pager, {0.3, 0.6}, Vec3(15.0, 6.0, 1.0), [&] {

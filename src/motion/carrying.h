@@ -1,8 +1,10 @@
 #pragma once
 /// \file
 /// Support of a body over cracks of the floor: by their rims, or by its support disc (WalkerSettings::support_radius).
+/// The rooms above the core that look for cracks include this header, too; it is not installed.
 ///
-/// Lengths are metres, angles degrees. All functions are thread-safe and allocate nothing. docs/walking.md: "The foot".
+/// Lengths are metres, angles degrees. All functions are thread-safe and allocate nothing. docs/walking.md, "The
+/// support disc".
 
 #include <cstdint>
 
@@ -12,8 +14,7 @@ namespace roam {
 
 class Walker;
 
-/// The steepest contact with a rim that still carries. A crack of width w carries a sphere of radius r if
-/// r >= w / (2 sin 70) = 0.532 w, and lets it through if r < w / 2. In between the rims catch it: it cannot step up.
+/// The steepest contact with a rim that still carries; docs/cracks.md, "Which body crosses".
 inline constexpr double rim_slope_degrees = 70.0;
 inline constexpr double rim_cosine = 0.34202014332566873;
 inline constexpr double rim_sine = 0.93969262078590838;

@@ -2,29 +2,29 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "roam/support.h"
+#include "motion/carrying.h"
 #include "ways/lattice/walk_place.h"
 
 namespace roam::ways {
 namespace {
 
-/// Metres. The foot is a ball of this radius: small enough not to ride on obstacles that the body passes, large enough
-/// to bridge the treads of stairs. A body of radius r rests higher on a slope by r (1 / cos - 1); the knee allows for
-/// that.
-constexpr double foot_radius = 0.3;
+/// Metres. Floor is found by a ball of this radius: small enough not to ride on obstacles that the body passes, large
+/// enough to bridge the treads of stairs. A body of radius r rests higher on a slope by r (1 / cos - 1); the knee
+/// allows for that.
+constexpr double ball_radius = 0.3;
 /// Metres. The least ball that is tried beside walls and posts.
-constexpr double least_foot = 0.01;
+constexpr double least_ball = 0.01;
 /// Metres. Contacts at the start, and rises above the step, do not count below this.
 constexpr double touch = 1e-3;
-/// Metres. Floor that touches the foot this near to the axis, seen from above, counts as under the axis. Gaps hardly
+/// Metres. Floor that touches the ball this near to the axis, seen from above, counts as under the axis. Gaps hardly
 /// wider than that, as between the bars of a grate, carry every body.
 constexpr double under_axis = 0.02;
 
-/// Share of the largest foot's radius. A disc this large decides whether the foot falls through a gap. Discs that
-/// barely fit would need a search of all rims around, repeated by every walker sent over the gap.
+/// Share of the radius of the largest support disc. A disc this large decides whether the body falls through a gap.
+/// Discs that barely fit would need a search of all rims around, repeated by every walker sent over the gap.
 constexpr double sure_share = 0.998;
 
-/// On floor no steeper than this, the foot touches almost under its axis.
+/// On floor no steeper than this, the ball touches almost under its axis.
 constexpr double gentle_cosine = 0.9;
 
 /// The largest ball with a fixed lowest point that does not contain a point `aside` from its axis and `above` its
@@ -36,9 +36,9 @@ double aside(const Vec3& p, double x, double y) { return std::hypot(p.x - x, p.y
 /// The floor straight below, no higher than `from` and no lower than a step below `level`.
 std::optional<double> floor_under_axis(const Survey& survey, const Measure& measure, double x, double y, double from,
                                        double level) {
-  const double start = from + touch + 2.0 * least_foot;
-  const double down = start - least_foot - (level - touch - measure.step);
-  const Impact below = survey.floor().sweep({least_foot, 0.0}, {x, y, start}, Vec3(0.0, 0.0, -down));
+  const double start = from + touch + 2.0 * least_ball;
+  const double down = start - least_ball - (level - touch - measure.step);
+  const Impact below = survey.floor().sweep({least_ball, 0.0}, {x, y, start}, Vec3(0.0, 0.0, -down));
   if (!below.hit) return std::nullopt;
   return below.point.z;
 }
@@ -52,8 +52,9 @@ Clearance floor_beside(const Survey& survey, const Vec3& axis, double reach) {
   return survey.floor().floor_clearance({0.0, carrying_band}, axis, reach, floor);
 }
 
-/// Tests one level disc of the largest foot, on the far side of the axis from `floor` and just clear of it. True if the
-/// disc holds the axis, is free of floor, and sees its middle from the axis. carrying() finds the same with more work.
+/// Tests one level disc of the largest support disc, on the far side of the axis from `floor` and just clear of it.
+/// True if the disc holds the axis, is free of floor, and sees its middle from the axis. carrying() finds the same with
+/// more work.
 bool is_free_beyond(const Survey& survey, const Vec3& axis, const Vec3& floor, double radius, double knee) {
   constexpr double sight = 0.01;  // m, radius of the sphere that looks for walls
   constexpr double apart = 0.01;  // m; the rims of most drops are not quite straight
@@ -64,8 +65,8 @@ bool is_free_beyond(const Survey& survey, const Vec3& axis, const Vec3& floor, d
          !survey.world().first_impact({sight, 0.0}, axis + Vec3(0.0, 0.0, knee), away).hit;
 }
 
-/// Whether the gap under an axis, at the level of a rim, is an open drop, which carries no foot. This is the walker's
-/// own rule, applied to the largest foot.
+/// Whether the gap under an axis, at the level of a rim, is an open drop, which carries no support disc. This is the
+/// walker's own rule, applied to the largest support disc.
 bool is_open_drop(const Survey& survey, const Measure& measure, const Vec3& rim, double x, double y, KnownGaps* gaps) {
   const double radius = sure_share * measure.support_max, knee = std::max(measure.step, carrying_band) + touch;
   const Vec3 axis(x, y, rim.z);
@@ -86,8 +87,8 @@ std::optional<FloorPlace> floor_below(const Survey& survey, const Measure& measu
                                       KnownGaps* gaps) {
   const double start = level + measure.step + 2.0 * touch;
   const double reach = 2.0 * measure.step + 4.0 * touch;
-  double radius = foot_radius;
-  while (radius >= least_foot) {
+  double radius = ball_radius;
+  while (radius >= least_ball) {
     const Vec3 centre(x, y, start + radius);
     const Impact s = survey.floor().sweep({radius, 0.0}, centre, Vec3(0.0, 0.0, -reach));
     if (!s.hit) return std::nullopt;

@@ -1,4 +1,4 @@
-// A foot and what is not known yet: it is solid, so it carries, and the report says that it does. And a foot that is
+// A support disc and unknown space, which is solid: it carries, and the report says that it does. And a disc that is
 // not moved is asked once.
 
 #include <gtest/gtest.h>
@@ -46,7 +46,7 @@ struct HalfASplit {
   }
 };
 
-TEST(FootUnknown, IsCarriedByWhatMayBeFloorAndSaysSo) {
+TEST(DiscUnknown, IsCarriedByWhatMayBeFloorAndSaysSo) {
   HalfASplit split;
   Walker w(split.space, person(0.51), Mode::walk, {-1.0, 0.0, 0.95});
   EXPECT_FALSE(w.report().met_unknown);
@@ -64,7 +64,7 @@ TEST(FootUnknown, IsCarriedByWhatMayBeFloorAndSaysSo) {
   EXPECT_FALSE(w.report().met_unknown);
 }
 
-TEST(FootUnknown, FallsWhenThereTurnsOutToBeNoFloor) {
+TEST(DiscUnknown, FallsWhenThereTurnsOutToBeNoFloor) {
   HalfASplit split;
   Walker w(split.space, person(0.51), Mode::walk, {-1.0, 0.0, 0.95});
   split.walk_out(w);
@@ -79,7 +79,7 @@ TEST(FootUnknown, FallsWhenThereTurnsOutToBeNoFloor) {
   EXPECT_TRUE(fell);
 }
 
-TEST(FootUnknown, OfFloorAloneIsCarriedAsIfAllWereKnown) {
+TEST(DiscUnknown, OfFloorAloneIsCarriedAsIfAllWereKnown) {
   HalfASplit split;
   deliver(split.space, split.far, floor_between(1.0, 20.0, 0.0));
   (void)split.space.expect({{-20.0, 5.0, 3.0}, {20.0, 10.0, 6.0}});
@@ -89,7 +89,7 @@ TEST(FootUnknown, OfFloorAloneIsCarriedAsIfAllWereKnown) {
   EXPECT_FALSE(w.report().met_unknown);
 }
 
-TEST(FootUnknown, IsNotCarriedByWhatLiesTooDeepOrTooHigh) {
+TEST(DiscUnknown, IsNotCarriedByWhatLiesTooDeepOrTooHigh) {
   // A shaft of 4 m: far too wide for the foot, but for what is not known over or under it.
   for (const Box& box : {Box{{-20.0, -10.0, -2.0}, {20.0, 10.0, -0.5}}, Box{{-20.0, -10.0, 1.9}, {20.0, 10.0, 3.0}}}) {
     Patchwork space;
@@ -110,7 +110,7 @@ TEST(FootUnknown, IsNotCarriedByWhatLiesTooDeepOrTooHigh) {
   }
 }
 
-TEST(FootUnknown, DoesNotTakeTheTopOfABoxForThePlaneOfTheFloor) {
+TEST(DiscUnknown, DoesNotTakeTheTopOfABoxForThePlaneOfTheFloor) {
   Patchwork space;
   Mesh floors = floor_between(-20.0, 0.0, 0.0);
   add_floor(floors, 2.0, -10.0, 20.0, 10.0, 0.0);
@@ -129,7 +129,7 @@ TEST(FootUnknown, DoesNotTakeTheTopOfABoxForThePlaneOfTheFloor) {
   EXPECT_NEAR(over_the_split, 0.0, near_ground);
 }
 
-TEST(FootUnknown, WaitsWhereItWasPutUntilTheRimsAreKnown) {
+TEST(DiscUnknown, WaitsWhereItWasPutUntilTheRimsAreKnown) {
   for (const bool floors : {true, false}) {
     Patchwork space;
     const PatchId left = space.expect({{-20.0, -10.0, -9.0}, {0.0, 10.0, 0.0}});
@@ -156,7 +156,7 @@ TEST(FootUnknown, WaitsWhereItWasPutUntilTheRimsAreKnown) {
   }
 }
 
-TEST(FootUnknown, WhoFallsIsNotHeldByWhatIsBesideTheWay) {
+TEST(DiscUnknown, WhoFallsIsNotHeldByWhatIsBesideTheWay) {
   Patchwork space;
   for (const double x : {-20.0, 1.0}) (void)space.expect({{x, -10.0, 2.0}, {x + 20.0, 10.0, 4.0}});
   for (const double x : {-20.0, 1.0}) {
@@ -205,7 +205,7 @@ Walker standing_over_it(const Counting& space) {
   return w;
 }
 
-TEST(FootAtRest, LooksForADiscOnce) {
+TEST(DiscAtRest, LooksForADiscOnce) {
   const Counting space(split(1.25));
   Walker w = standing_over_it(space);
   space.asked = 0;
@@ -218,13 +218,13 @@ TEST(FootAtRest, LooksForADiscOnce) {
   EXPECT_GT(space.asked, 10) << "it has moved";
 }
 
-TEST(FootAtRest, LooksAgainWhenAnythingHasChanged) {
+TEST(DiscAtRest, LooksAgainWhenAnythingHasChanged) {
   Counting space(split(1.25));
   Walker w = standing_over_it(space);
   space.asked = 0;
   w.resize(0.3, 0.7);
   w.step({}, frame);
-  EXPECT_GT(space.asked, 1) << "another foot";
+  EXPECT_GT(space.asked, 1) << "another disc";
   w.step({}, frame);
   space.asked = 0;
   w.step({{}, false, true}, frame);
@@ -241,7 +241,7 @@ TEST(FootAtRest, LooksAgainWhenAnythingHasChanged) {
   EXPECT_FALSE(w.report().bridging) << "the far side has gone";
 }
 
-TEST(FootAtRest, LooksEachTimeWhereChangesAreNotTold) {
+TEST(DiscAtRest, LooksEachTimeWhereChangesAreNotTold) {
   Counting space(split(1.25));
   space.tells = false;
   Walker w = standing_over_it(space);

@@ -1,0 +1,132 @@
+// roam cluster: writes jobs for a batch engine that build a store on many machines.
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "cli/exit_status.h"
+#include "cli/report.h"
+#include "cli/values.h"
+#include "process/find_program.h"
+#include "roam/error.h"
+#include "roam/store_build.h"
+#include "scenes/beside_scene.h"
+#include "scenes/scene_options.h"
+#include "verbs.h"
+
+namespace roam::app {
+namespace {
+
+struct ClusterVerb {
+  SceneOptions scene;
+  std::filesystem::path output;
+  std::uint64_t shards = 0;
+  bool submit = false;
+};
+
+/// A word of the shell. Throws UsageError for control characters, such as line breaks.
+std::string quoted(const std::string& word) {
+  if (std::any_of(word.begin(), word.end(), [](unsigned char c) { return c < 0x20 || c == 0x7F; })) {
+    throw UsageError(Error::at(word, "a name has a line break or another control character; rename it"));
+  }
+  std::string text = "'";
+  for (const char c : word) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return text + "'";
+}
+
+std::string quoted(const std::vector<std::string>& words) {
+  std::string text;
+  for (const std::string& word : words) text += " " + quoted(word);
+  return text;
+}
+
+/// A script of the shell that submits three jobs.
+std::string slurm_script(const ClusterVerb& verb) {
+  const std::string roam = quoted(process::own_program().string()), out = quoted(verb.output.string());
+  const std::string limits = fmt::format(" --threads={} --memory={}", verb.scene.threads, *verb.scene.memory);
+  // Slurm also counts what roam does not: pages of files, the allocator's reserve.
+  const std::uint64_t mebibytes = (*verb.scene.memory >> 20) * 5 / 4;
+  const auto job = [&](const char* name, const std::string& options, const std::string& arguments) {
+    return fmt::format(
+        "{0}=$(sbatch --parsable --requeue --job-name=roam-{0} --cpus-per-task={1} --mem={2}M{3} << 'END'\n"
+        "#!/bin/sh\n"
+        "exec {4} build -o {5}{6}\n"
+        "END\n"
+        ")\n",
+        name, verb.scene.threads, mebibytes, options, roam, out, arguments);
+  };
+  const std::string after = " --kill-on-invalid-dep=yes --dependency=afterok:${plan%%;*}";
+  return "#!/bin/sh\n"
+         "# Submits three jobs to Slurm: a plan, an array of tasks, and a merge, which says what is missing.\n"
+         "# After a failure, the same again goes on. sbatch reads SBATCH_PARTITION, SBATCH_ACCOUNT, SBATCH_TIMELIMIT.\n"
+         "set -eu\n" +
+         job("plan", "", fmt::format(" --plan={}{}", verb.shards, quoted(verb.scene.arguments()))) +
+         job("tasks", fmt::format("{} --array=0-{}", after, verb.shards - 1), limits + " --shard=auto") +
+         job("merge", after + ",afterany:${tasks%%;*}", limits + " --merge") +
+         "echo \"The jobs are ${plan%%;*}, ${tasks%%;*} and ${merge%%;*}; the last one writes "
+         "slurm-${merge%%;*}.out.\"\n";
+}
+
+ExitStatus slurm(ClusterVerb verb) {
+  verb.scene.check_there();
+  if (verb.output.empty()) {
+    verb.output = store_beside(verb.scene.scenes.front());
+    demand_no_link(verb.output);
+  }
+  if (verb.scene.threads == 0) verb.scene.threads = 2;
+  verb.scene.memory = std::max(verb.scene.memory.value_or(StoreBuildOptions{}.memory), StoreBuildOptions::least_memory);
+  const std::string script = slurm_script(verb);
+  if (!verb.submit) {
+    print(script);
+    return done;
+  }
+  if (process::find_program("sbatch").empty()) {
+    throw Error::at("--submit",
+                    "there is no sbatch here; start the script, which the command prints without --submit, "
+                    "on a machine that has it");
+  }
+  ::execl("/bin/sh", "sh", "-c", script.c_str(), nullptr);
+  throw Error::at("/bin/sh", std::string("cannot start /bin/sh: ") + std::strerror(errno));
+}
+
+constexpr const char* slurm_help =
+    R"(Prints a script of the shell. It submits a job that plans, an array of N tasks that build the shards, and a job
+that merges them and says what is missing. All machines must see the scene, the store and your home by the same paths.
+docs/cluster.md has scripts for other engines.
+
+Examples:
+  roam cluster slurm Data/ -o dam.roam --shards 64 > dam.sh
+  roam cluster slurm Data/ -o dam.roam --shards 64 --submit
+)";
+
+}  // namespace
+
+void add_cluster(CLI::App& program, Run& run) {
+  CLI::App* verb = program.add_subcommand("cluster", "Build a store on many machines: jobs for Slurm");
+  verb->require_subcommand(1);
+  verb->footer("Examples:\n  roam cluster slurm Data/ -o dam.roam --shards 64 --submit\n");
+
+  CLI::App* slurm_kind = verb->add_subcommand("slurm", "Write or submit the jobs of a build for Slurm");
+  slurm_kind->footer(slurm_help);
+  const auto options = std::make_shared<ClusterVerb>();
+  options->scene.add_to(*slurm_kind);
+  slurm_kind->get_option("--memory")->description("Memory of each job (default: 1G; at least 256M)");
+  slurm_kind->get_option("--threads")->description("Cores of each job (default: 2)");
+  slurm_kind->option_defaults()->group("Jobs");
+  slurm_kind->add_option("-o,--output", options->output, "Folder of the store (default: SCENE.roam beside the scene)")
+      ->type_name("FOLDER");
+  slurm_kind->add_option("--shards", options->shards, "Tasks of the array, as N of `roam build --plan N`")
+      ->required()
+      ->check(from_to<std::uint64_t>(1, 1'000'000))
+      ->type_name("N");
+  slurm_kind->add_flag("--submit", options->submit, "Submit the jobs instead of printing the script");
+  slurm_kind->callback([options, &run] { run = [options] { return slurm(*options); }; });
+}
+
+}  // namespace roam::app

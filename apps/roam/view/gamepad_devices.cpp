@@ -1,0 +1,127 @@
+// The devices behind Gamepads. Without a library, they are at rest.
+#include <algorithm>
+
+#include "view/gamepad.h"
+
+#ifdef ROAM_WITH_SDL
+#include <SDL.h>
+#endif
+#ifdef ROAM_WITH_SPNAV
+#include <spnav.h>
+#endif
+
+namespace roam::app {
+
+#ifdef ROAM_WITH_SDL
+struct Gamepads::Sdl {
+  Sdl() {
+    SDL_SetHint(SDL_HINT_NO_SIGNAL_HANDLERS, "1");
+    SDL_SetHint(SDL_HINT_JOYSTICK_ALLOW_BACKGROUND_EVENTS, "1");
+    // The kernel's drivers are enough; SDL's own would claim USB devices.
+    SDL_SetHint(SDL_HINT_JOYSTICK_HIDAPI, "0");
+    ready = SDL_InitSubSystem(SDL_INIT_GAMECONTROLLER) == 0;
+  }
+  ~Sdl() {
+    if (pad != nullptr) SDL_GameControllerClose(pad);
+    if (ready) SDL_QuitSubSystem(SDL_INIT_GAMECONTROLLER);
+  }
+  Sdl(const Sdl&) = delete;
+  Sdl& operator=(const Sdl&) = delete;
+
+  PadState state() {
+    if (!ready) return {};
+    SDL_GameControllerUpdate();
+    // Nobody reads the events.
+    SDL_FlushEvents(SDL_FIRSTEVENT, SDL_LASTEVENT);
+    if (pad != nullptr && SDL_GameControllerGetAttached(pad) == SDL_FALSE) {
+      SDL_GameControllerClose(pad);
+      pad = nullptr;
+    }
+    for (int i = 0; pad == nullptr && i < SDL_NumJoysticks(); ++i) {
+      if (SDL_IsGameController(i) == SDL_TRUE) pad = SDL_GameControllerOpen(i);
+    }
+    return pad == nullptr ? PadState{} : read();
+  }
+
+  [[nodiscard]] PadState read() const {
+    const auto axis = [&](SDL_GameControllerAxis which) {
+      constexpr double range = 32767.0;
+      return std::clamp(SDL_GameControllerGetAxis(pad, which) / range, -1.0, 1.0);
+    };
+    PadState state;
+    state.present = true;
+    state.left = {axis(SDL_CONTROLLER_AXIS_LEFTX), axis(SDL_CONTROLLER_AXIS_LEFTY)};
+    state.right = {axis(SDL_CONTROLLER_AXIS_RIGHTX), axis(SDL_CONTROLLER_AXIS_RIGHTY)};
+    state.left_trigger = axis(SDL_CONTROLLER_AXIS_TRIGGERLEFT);
+    state.right_trigger = axis(SDL_CONTROLLER_AXIS_TRIGGERRIGHT);
+    constexpr SDL_GameControllerButton buttons[pad_buttons] = {SDL_CONTROLLER_BUTTON_A,
+                                                               SDL_CONTROLLER_BUTTON_B,
+                                                               SDL_CONTROLLER_BUTTON_X,
+                                                               SDL_CONTROLLER_BUTTON_Y,
+                                                               SDL_CONTROLLER_BUTTON_BACK,
+                                                               SDL_CONTROLLER_BUTTON_START,
+                                                               SDL_CONTROLLER_BUTTON_LEFTSTICK,
+                                                               SDL_CONTROLLER_BUTTON_RIGHTSTICK,
+                                                               SDL_CONTROLLER_BUTTON_LEFTSHOULDER,
+                                                               SDL_CONTROLLER_BUTTON_RIGHTSHOULDER};
+    for (std::size_t i = 0; i < pad_buttons; ++i) {
+      state.buttons[i] = SDL_GameControllerGetButton(pad, buttons[i]) != 0;
+    }
+    return state;
+  }
+
+  bool ready = false;
+  SDL_GameController* pad = nullptr;
+};
+#else
+struct Gamepads::Sdl {
+  [[nodiscard]] PadState state() { return {}; }
+};
+#endif
+
+#ifdef ROAM_WITH_SPNAV
+struct Gamepads::Spacenav {
+  Spacenav() : ready(spnav_open() != -1) {}
+  ~Spacenav() {
+    if (ready) spnav_close();
+  }
+  Spacenav(const Spacenav&) = delete;
+  Spacenav& operator=(const Spacenav&) = delete;
+
+  PuckState state() {
+    constexpr double range = 350.0;  // of the daemon's numbers
+    spnav_event event;
+    while (ready && spnav_poll_event(&event) != 0) {
+      if (event.type != SPNAV_EVENT_MOTION) continue;
+      const auto share = [](int value) { return std::clamp(value / range, -1.0, 1.0); };
+      const spnav_event_motion& motion = event.motion;
+      last = {true, share(motion.x), share(motion.y), share(motion.z), -share(motion.ry), -share(motion.rx)};
+    }
+    return last;
+  }
+
+  bool ready = false;
+  PuckState last{.present = ready};
+};
+#else
+struct Gamepads::Spacenav {
+  [[nodiscard]] PuckState state() { return {}; }
+};
+#endif
+
+Gamepads::Gamepads() : sdl_(std::make_unique<Sdl>()), spacenav_(std::make_unique<Spacenav>()) {}
+Gamepads::~Gamepads() = default;
+
+bool Gamepads::supported() {
+#if defined(ROAM_WITH_SDL) || defined(ROAM_WITH_SPNAV)
+  return true;
+#else
+  return false;
+#endif
+}
+
+PadState Gamepads::pad() { return sdl_->state(); }
+
+PuckState Gamepads::puck() { return spacenav_->state(); }
+
+}  // namespace roam::app

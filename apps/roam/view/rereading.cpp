@@ -1,0 +1,70 @@
+#include "view/rereading.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+
+#include "roam/error.h"
+#include "roam/profile.h"
+#include "roam/world.h"
+#include "scenes/frame.h"
+#include "view/body.h"
+#include "view/patterns.h"
+
+namespace roam::app {
+
+void Rereading::add_to(Commands& commands) {
+  commands.add("turn", [this] { turn(); });
+  commands.add("leave_out", [this] { leave_out_ahead(); });
+  commands.add("show_all", [this] { show_all(); });
+}
+
+/// Whether another session may follow this one. Says why not.
+bool Rereading::is_possible() {
+  const bool writes = !options_.trace.empty() || !options_.record.empty() || !options_.record_path.empty();
+  if (options_.path.empty() && !options_.verify && !writes) return true;
+  news_.tell("the scene is not read anew on a path, or while a trace, a film or a way is written");
+  return false;
+}
+
+/// Another axis up, which the profile keeps.
+void Rereading::turn() {
+  const std::optional<SceneFrame> frame = frame_of(what_.scene);
+  if (!what_.store.empty() || !frame) {
+    news_.tell("a store keeps the frame in which it was built: turn its scene, and build it again");
+  } else if (is_possible()) {
+    next_ = NextSession{next_frame(*frame, arrival_.likely_up()), {}, {}, Mode::walk};
+    if (what_.scene.no_profile) return;
+    try {
+      const std::filesystem::path file = profile_path(what_.scene.scenes);
+      if (save_frame(*next_->frame, file))
+        news_.note(file.string() + " had a body for the scene as it was: train again");
+    } catch (const Error& error) {
+      news_.note(fmt::format("the turn is not kept: {}", error.what()));
+    }
+  }
+}
+
+void Rereading::leave_out_ahead() {
+  const std::string& name = display_.shown().around.ahead;
+  if (!arrival_.is_placed() || name.empty()) {
+    news_.tell("no object with a name is in the middle of the picture");
+  } else if (arrival_.pager() != nullptr) {
+    news_.tell("a store keeps its objects: build one with --ignore to leave some out");
+  } else if (const auto* world = dynamic_cast<const World*>(roamer_.space().get());
+             world != nullptr && world->stats().objects == 1) {
+    news_.tell("the scene has only this object");
+  } else if (is_possible()) {
+    leave_out(pattern_of(name));
+  }
+}
+
+void Rereading::show_all() {
+  if (arrival_.is_placed() && is_possible()) leave_out({});
+}
+
+void Rereading::leave_out(const std::string& pattern) {
+  next_ = NextSession{std::nullopt, pattern, standing_pose_of(roamer_), roamer_.mode()};
+}
+
+}  // namespace roam::app

@@ -1,0 +1,53 @@
+#pragma once
+/// \file
+/// The end of a session for another one that reads the scene otherwise: with another axis up, or without some objects.
+
+#include <optional>
+#include <string>
+
+#include "osgRoam/Manipulator.h"
+#include "view/arrival.h"
+#include "view/commands.h"
+#include "view/display.h"
+#include "view/news.h"
+#include "view/options.h"
+#include "view/pose.h"
+
+namespace roam::app {
+
+/// How the person wants to read the scene next.
+struct NextSession {
+  std::optional<SceneFrame> frame;  ///< another frame, where places of this one mean nothing
+  std::string leave_out;            ///< without `frame`: pattern of an object to leave out too; empty: show all again
+  Pose at;                          ///< the body at the end
+  Mode mode = Mode::walk;
+};
+
+class Rereading {
+ public:
+  Rereading(const SceneAndStore& what, const ViewOptions& options, const Arrival& arrival,
+            const osgRoam::Manipulator& roamer, const Display& display, News& news)
+      : what_(what), options_(options), arrival_(arrival), roamer_(roamer), display_(display), news_(news) {}
+
+  /// Adds "turn", "leave_out" and "show_all".
+  void add_to(Commands& commands);
+  /// Set if this session ends for another one.
+  [[nodiscard]] const std::optional<NextSession>& next() const { return next_; }
+
+ private:
+  [[nodiscard]] bool is_possible();
+  void turn();
+  void leave_out_ahead();
+  void show_all();
+  void leave_out(const std::string& pattern);
+
+  const SceneAndStore& what_;
+  const ViewOptions& options_;
+  const Arrival& arrival_;
+  const osgRoam::Manipulator& roamer_;
+  const Display& display_;
+  News& news_;
+  std::optional<NextSession> next_;
+};
+
+}  // namespace roam::app

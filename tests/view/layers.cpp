@@ -1,0 +1,224 @@
+// Objects on and off by name.
+#include "view/layers.h"
+
+#include <algorithm>
+#include <osg/Geometry>
+#include <osg/NodeVisitor>
+#include <sstream>
+
+#include "view_stores.h"
+
+namespace {
+
+using namespace roam;
+using namespace roam::app;
+
+/// A body in a room of 20 m x 4 m x 3 m, at (10, 0), looking along +x at its wall "front".
+class Layered : public view_stores::Driven {
+ public:
+  explicit Layered(const std::vector<std::string>& hide = {}, bool has_store = false) {
+    write_scene();
+    options.size = "640x360";
+    options.at = {10, 0, 0.95, 0};
+    options.hide = hide;
+    if (has_store) build();
+    begin();
+    run(0.5);
+  }
+  /// Clicks the row of the list with this text, or its arrow.
+  void click(const std::string& text) {
+    run(0.1);
+    session->stage().draw();  // one clicks on what one sees
+    const graphics::Hud& hud = session->stage().hud();
+    // The list says its rows from top to bottom, and each is one of the names at its height.
+    std::vector<std::string> rows;
+    std::istringstream lines(hud.text());
+    bool in_list = false;
+    for (std::string line; std::getline(lines, line);) {
+      if (in_list) rows.push_back(line.size() > 4 && line[0] == '[' ? line.substr(4) : line);
+      in_list = in_list || line.starts_with("Objects: ");
+    }
+    const auto row = std::find(rows.begin(), rows.end(), text);
+    ASSERT_NE(row, rows.end()) << hud.text();
+    std::string last;
+    std::ptrdiff_t seen = -1;
+    constexpr double x = 0.9;
+    for (double y = 1.0; y > -1.0; y -= 0.005) {
+      const std::string name = hud.list_at(x, y);
+      if (name.empty() || name == graphics::Hud::list_search || name == last) continue;
+      last = name;
+      if (++seen == row - rows.begin()) return press_at(x, y - 0.01);
+    }
+    ADD_FAILURE() << text << " is not to be seen";
+  }
+  void press_at(double x, double y) {
+    const osgGA::GUIEventAdapter& now = *events().getCurrentEventState();
+    const bool upwards = now.getMouseYOrientation() == osgGA::GUIEventAdapter::Y_INCREASING_UPWARDS;
+    const auto place = [](double share, float least, float most) {
+      return least + static_cast<float>(0.5 * (1.0 + share)) * (most - least);
+    };
+    const float across = place(x, now.getXmin(), now.getXmax());
+    const float up = place(upwards ? y : -y, now.getYmin(), now.getYmax());
+    events().mouseButtonPress(across, up, 1);
+    events().mouseButtonRelease(across, up, 1);
+    run(1.0 / 60.0);
+  }
+  void show_list() { session->run("layers"); }
+  /// Walks ahead for some seconds.
+  void walk(double seconds) {
+    press('w');
+    run(seconds);
+    release('w');
+    run(0.5);
+  }
+  /// The triangles that are drawn.
+  [[nodiscard]] std::uint64_t drawn() {
+    class Count : public osg::NodeVisitor {
+     public:
+      Count() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) {}
+      void apply(osg::Geometry& geometry) override {
+        for (unsigned i = 0; i < geometry.getNumPrimitiveSets(); ++i) {
+          triangles += geometry.getPrimitiveSet(i)->getNumIndices() / 3;
+        }
+      }
+      std::uint64_t triangles = 0;
+    } count;
+    run(0.2);
+    session->stage().frame().space()->accept(count);
+    return count.triangles;
+  }
+};
+
+TEST(Layers, AreHiddenAndShownByTheMouse) {
+  Layered d;
+  const std::uint64_t all = d.drawn();
+  d.show_list();
+  EXPECT_TRUE(contains(d.hud(), "Objects: 6, hidden: 0")) << d.hud();
+  EXPECT_TRUE(contains(d.hud(), "[x] ceiling")) << d.hud();
+  d.click("front");
+  EXPECT_TRUE(contains(d.hud(), "[ ] front")) << d.hud();
+  EXPECT_TRUE(contains(d.hud(), "hidden: 1 of 6 objects; the body meets them")) << d.hud();
+  EXPECT_EQ(d.drawn(), all - 2) << "its two triangles";
+  d.walk(9.0);
+  EXPECT_NEAR(d.place().x, 19.7, 0.02) << "it is still a wall";
+  d.click("front");
+  EXPECT_EQ(d.drawn(), all);
+  d.click("left");
+  d.click("right");
+  EXPECT_EQ(d.drawn(), all - 4);
+  d.click("show all");
+  EXPECT_EQ(d.drawn(), all);
+}
+
+TEST(Layers, LetTheBodyThroughIfItIsSaid) {
+  Layered d;
+  d.session->roamer().setMode(Mode::fly);  // there is no floor behind the wall
+  d.show_list();
+  d.click("front");
+  d.click("the body passes through what is hidden");
+  EXPECT_TRUE(contains(d.hud(), "hidden: 1 of 6 objects; the body passes through")) << d.hud();
+  EXPECT_NEAR(d.place().x, 10.0, 1e-6) << "it stays where it was";
+  d.walk(9.0);
+  EXPECT_GT(d.place().x, 20.3) << "past the wall at 20";
+  // Back inside, the wall is solid again.
+  d.session->roamer().setPose({12, 0, 1.5}, 0.0, 0.0);
+  d.click("front");
+  EXPECT_FALSE(contains(d.hud(), "hidden: 1 of")) << d.hud();
+  d.walk(9.0);
+  EXPECT_NEAR(d.place().x, 19.7, 0.02);
+  const Json json = json_report(d.session->finish());
+  EXPECT_EQ(json["hidden"]["objects"], 0);
+  EXPECT_EQ(json["hidden"]["passed"], true);
+}
+
+TEST(Layers, StayWallsWhileAllMovesAreVerified) {
+  view_stores::Driven d;
+  d.write_scene();
+  d.options.at = {10, 0, 0.95, 0};
+  d.options.verify = true;
+  d.options.hide = {"front"};
+  d.begin();
+  const std::shared_ptr<const Space> space = d.session->roamer().space();
+  d.session->layers().pass_through(true);
+  EXPECT_TRUE(contains(d.hud(), "stay walls while all moves are verified")) << d.hud();
+  EXPECT_EQ(d.session->roamer().space(), space);
+}
+
+TEST(Layers, OfAStoreAreHiddenButStayWalls) {
+  Layered d({}, true);
+  ASSERT_TRUE(d.on_store());
+  const std::uint64_t all = d.drawn();
+  d.show_list();
+  d.click("front");
+  EXPECT_EQ(d.drawn(), all - 2);
+  d.click("the body passes through what is hidden");
+  EXPECT_TRUE(contains(d.hud(), "a store keeps its objects")) << d.hud();
+  d.walk(9.0);
+  EXPECT_NEAR(d.place().x, 19.7, 0.02);
+}
+
+TEST(Layers, AreHiddenFromTheStartByAnOption) {
+  const std::uint64_t all = Layered().drawn();
+  Layered d({"front", "ce*", "nothing"});
+  EXPECT_EQ(d.drawn(), all - 4);
+  EXPECT_TRUE(contains(d.hud(), "hidden: 2 of 6 objects")) << d.hud();
+  const ViewReport report = d.session->finish();
+  EXPECT_EQ(report.hidden_objects, 2u);
+  EXPECT_EQ(
+      std::count(report.notes.begin(), report.notes.end(), "No object's name matches 'nothing'; nothing was hidden."),
+      1);
+}
+
+TEST(Layers, AreNotFoundByClicksWhenHidden) {
+  Layered d({"front"});
+  d.tap('t');
+  d.session->stage().draw();
+  d.press_at(0.0, 0.0);
+  EXPECT_TRUE(contains(d.hud(), "There is no surface here")) << d.hud();
+  EXPECT_FALSE(contains(d.hud(), "ahead: front")) << d.hud();
+}
+
+TEST(Layers, AreSearched) {
+  Layered d;
+  d.show_list();
+  d.run(0.1);
+  d.session->stage().draw();
+  const graphics::Hud& hud = d.session->stage().hud();
+  double y = 1.0;
+  while (y > -1.0 && hud.list_at(0.9, y) != graphics::Hud::list_search) y -= 0.01;
+  ASSERT_GT(y, -1.0);
+  d.press_at(0.9, y - 0.01);
+  for (const char c : std::string("ri")) d.tap(c);
+  d.tap(osgGA::GUIEventAdapter::KEY_Return);
+  EXPECT_TRUE(contains(d.hud(), "[x] right")) << d.hud();
+  EXPECT_FALSE(contains(d.hud(), "left")) << d.hud();
+  d.press_at(0.9, y - 0.01);
+  EXPECT_TRUE(contains(d.hud(), "[x] left")) << "another click ends the search: " << d.hud();
+  d.tap(osgGA::GUIEventAdapter::KEY_Escape);
+  EXPECT_FALSE(contains(d.hud(), "Objects: ")) << d.hud();
+}
+
+TEST(Layers, AreScrolled) {
+  std::string obj = room_obj();
+  for (int i = 0; i < 100; ++i) obj += "o shelf_" + std::to_string(100 + i) + "\nf 1 2 3\n";
+  view_stores::Driven d;
+  d.write_scene(obj);
+  d.options.size = "640x360";
+  d.options.at = {10, 0, 0.95, 0};
+  d.begin();
+  d.session->run("layers");
+  EXPECT_TRUE(contains(d.hud(), "floor")) << d.hud();
+  EXPECT_FALSE(contains(d.hud(), "shelf_199")) << d.hud();
+  d.session->stage().draw();
+  const osgGA::GUIEventAdapter& now = *d.events().getCurrentEventState();
+  const float x = now.getXmin() + 0.9f * (now.getXmax() - now.getXmin());
+  const float y = 0.5f * (now.getYmin() + now.getYmax());
+  d.events().mouseMotion(x, y);
+  const double speed = d.session->roamer().speed();
+  for (int i = 0; i < 60; ++i) d.events().mouseScroll(osgGA::GUIEventAdapter::SCROLL_DOWN);
+  EXPECT_TRUE(contains(d.hud(), "shelf_199")) << d.hud();
+  EXPECT_FALSE(contains(d.hud(), "[x] floor")) << d.hud();
+  EXPECT_EQ(d.session->roamer().speed(), speed) << "the wheel is the list's";
+}
+
+}  // namespace
