@@ -15,7 +15,7 @@ TOPICS = {
         "versions and errors; spaces", "Space World Store"),
     "Queries": ("roam/sweep roam/collector", "queries; batches", "Sweep Clearance Contacts"),
     "Walking": (
-        "roam/walker roam/walker_settings roam/step_report roam/stance roam/standing roam/support roam/opening "
+        "roam/walker roam/walker_settings roam/step_report roam/stance roam/standing roam/opening "
         "roam/route roam/path_file roam/wander roam/move_instances", "walkers; routes", "Walker Step Route"),
     "Sizes": (
         "roam/survey roam/probe roam/passage roam/trial roam/train roam/crack roam/profile roam/size_learner",
@@ -191,6 +191,7 @@ def python_classes(source):
 def pages(source):
     """Pages by name, their names and titles in order, and (page, anchor) of each header."""
     introduction, sections = c_sections(source)
+    check(source, sections)
     classes = python_classes(source)
     texts, titles, headers, places = {}, [], {}, {"cpp": [], "c": [], "python": []}
     for topic, (cpp, c, python) in TOPICS.items():
@@ -210,7 +211,7 @@ def pages(source):
                 text += ["### roam/roam.h {#roam-h}", "", introduction, ""]
                 headers["include/roam/roam.h"] = page, "roam-h"
             for name in c.split("; "):
-                part, seen = declarations(sections.pop(name), "c")
+                part, seen = declarations(sections[name], "c")
                 text += [f"### {name.capitalize()}", "", *part]
                 places["c"] += [(page, heading, code) for heading, code in seen.items()]
             text += ["## In Python {#python}", ""]
@@ -220,19 +221,20 @@ def pages(source):
                 places["python"] += [(page, name, member) for member in [name, *(f"{name}.{m}" for m in members)]]
         texts[page] = "\n".join(text)
         titles.append((page, topic))
-    check(source, headers, sections, classes)
     texts["api/index.md"] = side_by_side(places)
     return texts, titles, headers
 
 
-def check(source, headers, sections, classes):
-    public = {f"include/{path.parent.name}/{path.name}" for path in (source / "include").glob("*/*.h")}
-    named = re.findall(r'"(\w+)"', (source / "python/roam/__init__.py").read_text(encoding="utf-8").split("__all__")[1])
-    listed = {name for _, _, python in TOPICS.values() for name in python.split()}
-    for what, left in (("headers", public ^ set(headers)), ("sections of roam.h", set(sections)),
-                       ("classes", listed ^ set(named))):
-        if left:
-            raise SystemExit(f"{__file__}: TOPICS lacks, or has too many, {what}: {', '.join(sorted(left))}")
+def check(source, sections):
+    """Whether the topics have all headers, sections and classes, and no others."""
+    public = {f"{path.parent.name}/{path.stem}" for path in (source / "include").glob("*/*.h")} - {"roam/roam"}
+    module = (source / "python/roam/__init__.py").read_text(encoding="utf-8")
+    named = re.findall(r'"(\w+)"', module.split("__all__")[1])
+    cpp, c, python = zip(*TOPICS.values())
+    for what, there, listed in (("headers", public, " ".join(cpp).split()), ("classes", named, " ".join(python).split()),
+                                ("sections of roam.h", sections, "; ".join(filter(None, c)).split("; "))):
+        if set(there) != set(listed):
+            raise SystemExit(f"{__file__}: TOPICS and the {what} differ in {', '.join(set(there) ^ set(listed))}")
 
 
 def side_by_side(places):
