@@ -231,7 +231,8 @@ def check(source, sections):
     module = (source / "python/roam/__init__.py").read_text(encoding="utf-8")
     named = re.findall(r'"(\w+)"', module.split("__all__")[1])
     cpp, c, python = zip(*TOPICS.values())
-    for what, there, listed in (("headers", public, " ".join(cpp).split()), ("classes", named, " ".join(python).split()),
+    for what, there, listed in (("headers", public, " ".join(cpp).split()),
+                                ("classes", named, " ".join(python).split()),
                                 ("sections of roam.h", sections, "; ".join(filter(None, c)).split("; "))):
         if set(there) != set(listed):
             raise SystemExit(f"{__file__}: TOPICS and the {what} differ in {', '.join(set(there) ^ set(listed))}")
