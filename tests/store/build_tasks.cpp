@@ -36,7 +36,9 @@ TEST(StoreTasks, HaveEachShardOnceAndAreNeverEmpty) {
   for (const std::uint64_t wished : {0, 1, 2, 17, 64, 179, 180, 181, 100000}) {
     Plan plan = plan_of(200, 1);
     assign_tasks(plan, wished);
-    if (wished > 0) EXPECT_EQ(plan.tasks, std::min<std::uint64_t>(wished, 180));
+    if (wished > 0) {
+      EXPECT_EQ(plan.tasks, std::min<std::uint64_t>(wished, 180));
+    }
     std::set<std::size_t> all;
     std::size_t sum = 0;
     for (std::uint64_t task = 0; task < plan.tasks; ++task) {
@@ -59,7 +61,9 @@ TEST(StoreTasks, AreBalanced) {
     assign_tasks(plan, 0);
     EXPECT_GE(plan.tasks, 1U);
     EXPECT_LE(plan.tasks, most_good_tasks);
-    if (shards >= 100) EXPECT_GE(plan.tasks, std::min<std::size_t>(shards / 2, most_good_tasks));
+    if (shards >= 100) {
+      EXPECT_GE(plan.tasks, std::min<std::size_t>(shards / 2, most_good_tasks));
+    }
     EXPECT_LE(balance(plan), good_balance);
     if (shards < 1000) continue;
     assign_tasks(plan, 64);
