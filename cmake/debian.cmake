@@ -64,7 +64,7 @@ roam_debian_package(program roam science "walk and fly through any 3D scene"
 This package has the program: it shows scenes, walks through them, finds
 out what fits, and makes stores of scenes larger than memory."
   "roam-reader (= ${roam_debian_version})" fonts-dejavu-core)
-set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS "libgl1-mesa-dri")
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS "libgl1-mesa-dri, libsdl2-2.0-0")
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SUGGESTS "ffmpeg, roam-doc, xvfb")
 
 roam_debian_package(reader roam-reader science "reader of 3D scenes for roam"

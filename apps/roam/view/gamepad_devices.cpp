@@ -5,6 +5,7 @@
 
 #ifdef ROAM_WITH_SDL
 #include <SDL.h>
+#include <dlfcn.h>
 #endif
 #ifdef ROAM_WITH_SPNAV
 #include <spnav.h>
@@ -13,32 +14,67 @@
 namespace roam::app {
 
 #ifdef ROAM_WITH_SDL
+/// SDL, loaded when a window opens: it brings some forty libraries, which no other verb needs.
+class SdlLibrary {
+ public:
+  SdlLibrary() : library_(::dlopen("libSDL2-2.0.so.0", RTLD_NOW | RTLD_LOCAL)) {}
+  // It stays loaded: libraries that it brings have threads.
+  [[nodiscard]] bool is_there() const { return library_ != nullptr && !lacks_; }
+
+ private:
+  template <class Function>
+  Function* find(const char* name) {
+    void* const found = library_ == nullptr ? nullptr : ::dlsym(library_, name);
+    lacks_ = lacks_ || found == nullptr;
+    return reinterpret_cast<Function*>(found);
+  }
+  void* library_;
+  bool lacks_ = false;
+
+ public:
+#define ROAM_SDL(name) decltype(::SDL_##name)* const name = find<decltype(::SDL_##name)>("SDL_" #name)
+  ROAM_SDL(SetHint);
+  ROAM_SDL(InitSubSystem);
+  ROAM_SDL(QuitSubSystem);
+  ROAM_SDL(FlushEvents);
+  ROAM_SDL(NumJoysticks);
+  ROAM_SDL(IsGameController);
+  ROAM_SDL(GameControllerOpen);
+  ROAM_SDL(GameControllerClose);
+  ROAM_SDL(GameControllerUpdate);
+  ROAM_SDL(GameControllerGetAttached);
+  ROAM_SDL(GameControllerGetAxis);
+  ROAM_SDL(GameControllerGetButton);
+#undef ROAM_SDL
+};
+
 struct Gamepads::Sdl {
   Sdl() {
-    SDL_SetHint(SDL_HINT_NO_SIGNAL_HANDLERS, "1");
-    SDL_SetHint(SDL_HINT_JOYSTICK_ALLOW_BACKGROUND_EVENTS, "1");
+    if (!sdl.is_there()) return;
+    sdl.SetHint(SDL_HINT_NO_SIGNAL_HANDLERS, "1");
+    sdl.SetHint(SDL_HINT_JOYSTICK_ALLOW_BACKGROUND_EVENTS, "1");
     // The kernel's drivers are enough; SDL's own would claim USB devices.
-    SDL_SetHint(SDL_HINT_JOYSTICK_HIDAPI, "0");
-    ready = SDL_InitSubSystem(SDL_INIT_GAMECONTROLLER) == 0;
+    sdl.SetHint(SDL_HINT_JOYSTICK_HIDAPI, "0");
+    ready = sdl.InitSubSystem(SDL_INIT_GAMECONTROLLER) == 0;
   }
   ~Sdl() {
-    if (pad != nullptr) SDL_GameControllerClose(pad);
-    if (ready) SDL_QuitSubSystem(SDL_INIT_GAMECONTROLLER);
+    if (pad != nullptr) sdl.GameControllerClose(pad);
+    if (ready) sdl.QuitSubSystem(SDL_INIT_GAMECONTROLLER);
   }
   Sdl(const Sdl&) = delete;
   Sdl& operator=(const Sdl&) = delete;
 
   PadState state() {
     if (!ready) return {};
-    SDL_GameControllerUpdate();
+    sdl.GameControllerUpdate();
     // Nobody reads the events.
-    SDL_FlushEvents(SDL_FIRSTEVENT, SDL_LASTEVENT);
-    if (pad != nullptr && SDL_GameControllerGetAttached(pad) == SDL_FALSE) {
-      SDL_GameControllerClose(pad);
+    sdl.FlushEvents(SDL_FIRSTEVENT, SDL_LASTEVENT);
+    if (pad != nullptr && sdl.GameControllerGetAttached(pad) == SDL_FALSE) {
+      sdl.GameControllerClose(pad);
       pad = nullptr;
     }
-    for (int i = 0; pad == nullptr && i < SDL_NumJoysticks(); ++i) {
-      if (SDL_IsGameController(i) == SDL_TRUE) pad = SDL_GameControllerOpen(i);
+    for (int i = 0; pad == nullptr && i < sdl.NumJoysticks(); ++i) {
+      if (sdl.IsGameController(i) == SDL_TRUE) pad = sdl.GameControllerOpen(i);
     }
     return pad == nullptr ? PadState{} : read();
   }
@@ -46,7 +82,7 @@ struct Gamepads::Sdl {
   [[nodiscard]] PadState read() const {
     const auto axis = [&](SDL_GameControllerAxis which) {
       constexpr double range = 32767.0;
-      return std::clamp(SDL_GameControllerGetAxis(pad, which) / range, -1.0, 1.0);
+      return std::clamp(sdl.GameControllerGetAxis(pad, which) / range, -1.0, 1.0);
     };
     PadState state;
     state.present = true;
@@ -65,11 +101,12 @@ struct Gamepads::Sdl {
                                                                SDL_CONTROLLER_BUTTON_LEFTSHOULDER,
                                                                SDL_CONTROLLER_BUTTON_RIGHTSHOULDER};
     for (std::size_t i = 0; i < pad_buttons; ++i) {
-      state.buttons[i] = SDL_GameControllerGetButton(pad, buttons[i]) != 0;
+      state.buttons[i] = sdl.GameControllerGetButton(pad, buttons[i]) != 0;
     }
     return state;
   }
 
+  SdlLibrary sdl;
   bool ready = false;
   SDL_GameController* pad = nullptr;
 };
