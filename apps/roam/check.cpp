@@ -36,7 +36,7 @@ struct CheckOptions {
   bool json = false;
 };
 
-/// Maximum bytes of a certificate: some 5 million segments.
+/// Maximum bytes of a certificate: more than 5 million segments take.
 constexpr std::uint64_t limit = 1ull << 30;
 
 double height_of(const checking::Size& size) { return 2.0 * (size.radius + size.half_height); }

@@ -56,7 +56,7 @@ std::string slurm_script(const ClusterVerb& verb) {
     return fmt::format(
         "{0}=$(sbatch --parsable --requeue --job-name=roam-{0} --cpus-per-task={1} --mem={2}M{3} << 'END'\n"
         "#!/bin/sh\n"
-        "exec {4} build -o {5}{6}\n"
+        "exec {4} build --output={5}{6}\n"
         "END\n"
         ")\n",
         name, verb.scene.threads, mebibytes, options, roam, out, arguments);
@@ -67,8 +67,10 @@ std::string slurm_script(const ClusterVerb& verb) {
          "# After a failure, the same again goes on. sbatch reads SBATCH_PARTITION, SBATCH_ACCOUNT, SBATCH_TIMELIMIT.\n"
          "set -eu\n" +
          job("plan", "", fmt::format(" --plan={}{}", verb.shards, quoted(verb.scene.arguments()))) +
+         "trap 'scancel \"${plan%%;*}\"' EXIT  # if the others cannot be submitted\n" +
          job("tasks", fmt::format("{} --array=0-{}", after, verb.shards - 1), limits + " --shard=auto") +
          job("merge", after + ",afterany:${tasks%%;*}", limits + " --merge") +
+         "trap - EXIT\n"
          "echo \"The jobs are ${plan%%;*}, ${tasks%%;*} and ${merge%%;*}; the last one writes "
          "slurm-${merge%%;*}.out.\"\n";
 }

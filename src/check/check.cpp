@@ -59,7 +59,7 @@ Certificate read_certificate(std::string_view text) {
   std::string word;
   demand(std::getline(in, word) && word == first_line, "it is not a certificate of this version");
   in >> word >> all.scene.triangles >> std::hex >> all.scene.hash >> std::dec >> word >> count;
-  demand(read(in, place.x, place.y, place.z, end.x, end.y, end.z), "its head is not as the format says");
+  demand(read(in, place.x, place.y, place.z, end.x, end.y, end.z) && count <= 5'000'000, "its head is wrong");
   for (in >> word; word == "size" && read(in, size.radius, size.half_height); in >> word) all.sizes.push_back(size);
   for (; word == "segment"; word.clear(), in >> word) {
     Segment s;
@@ -67,9 +67,9 @@ Certificate read_certificate(std::string_view text) {
     demand(
         read(in, s.from.x, s.from.y, s.from.z, s.to.x, s.to.y, s.to.z, s.size.radius, s.size.half_height, s.clearance),
         "it is not as the format says");
-    demand(number == all.segments.size() + 1, "a segment before it is missing, or one is too many");
+    demand(number == all.segments.size() + 1 && number <= count, "a segment before it is missing, or one is too many");
     demand(s.from == place, "it does not begin where the one before it ends, or the head of the file says");
-    demand(std::find(all.sizes.begin(), all.sizes.end(), s.size) != all.sizes.end(),
+    demand(all.sizes.size() <= 1000 && std::find(all.sizes.begin(), all.sizes.end(), s.size) != all.sizes.end(),
            "the head of the file does not name this size of the body");
     demand(number == 1 || s.size == size || (s.from.x == s.to.x && s.from.y == s.to.y),
            "the body has another size than before, and moves sideways");
@@ -139,6 +139,8 @@ Checker::Checker(const Certificate& certificate) : certificate_(certificate), re
 }
 
 void Checker::search(std::size_t node, const Triangle& triangle, const Box& box) {
+  const int below = std::bit_width(tree_.size() / 2) - std::bit_width(node);
+  if ((node << below) - tree_.size() / 2 >= refused_) return;  // the first wrong segment is named
   for (int k = 0; k < 3; ++k) {
     if (box.upper[k] < tree_[node].lower[k] || box.lower[k] > tree_[node].upper[k]) return;
   }
@@ -147,7 +149,6 @@ void Checker::search(std::size_t node, const Triangle& triangle, const Box& box)
     return search(2 * node + 1, triangle, box);
   }
   const std::size_t number = node - tree_.size() / 2;
-  if (number >= refused_) return;  // the first wrong segment is named
   const Segment& s = certificate_.segments[number];
   if (apart(s, triangle, s.clearance - 1e-9)) return;
   refused_ = number;

@@ -76,7 +76,14 @@ void certify(const std::filesystem::path& file, const OpenScene& scene, const ve
     for (const Piece& piece : some) segments.add(piece);
   });
   if (segments.empty()) throw Error("--certify " + file.string(), "the body was never free: nothing can be certified");
-  files::write_whole(file, segments.certificate(sum));
+  const std::string text = segments.certificate(sum);
+  try {
+    (void)checking::read_certificate(text);
+  } catch (const checking::Refused& refused) {
+    throw Error::at("--certify " + file.string(),
+                    fmt::format("this walk has no certificate: segment {}: {}", refused.segment, refused.what()));
+  }
+  files::write_whole(file, text);
 }
 
 }  // namespace roam::app

@@ -14,9 +14,8 @@ namespace roam::app {
 void add(checking::SceneSum& sum, const Mesh& mesh);
 
 /// Writes the certificate of a walk to `file`, unless that is empty. `source`: of the scene whose store it was; null:
-/// not read to its end, and there is no certificate. If the body is put elsewhere on its way, the certificate has a
-/// segment that does not begin where the one before it ends, and will be refused. Throws roam::Error if the file cannot
-/// be written, or if nothing is certified.
+/// not read to its end, and there is no certificate. Throws roam::Error if the file cannot be written, if nothing is
+/// certified, or if the segments do not hold together: the body was put elsewhere on its way.
 void certify(const std::filesystem::path& file, const OpenScene& scene, const verification::PieceLog& pieces,
              const checking::SceneSum* source);
 

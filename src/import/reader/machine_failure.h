@@ -2,7 +2,11 @@
 /// \file
 /// Failures that are no fault of the scene.
 
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
 #include <stdexcept>
+#include <string>
 #include <utility>
 
 #include "roam/error.h"
@@ -21,5 +25,15 @@ class MachineFailure : public std::runtime_error {
  private:
   Error error_;
 };
+
+/// Throws MachineFailure unless `reason` (errno of a call on `path`; 0: none) says that the file is not there or may
+/// not be read.
+inline void fail_unless_missing(int reason, const std::filesystem::path& path) {
+  for (const int missing : {0, ENOENT, ENOTDIR, EACCES, EPERM, ELOOP, ENAMETOOLONG, ENXIO, EISDIR}) {
+    if (reason == missing) return;
+  }
+  throw MachineFailure(
+      Error(path.string(), std::string("this file cannot be read: ") + std::strerror(reason) + ". Try again."));
+}
 
 }  // namespace roam::reader

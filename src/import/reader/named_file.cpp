@@ -88,21 +88,15 @@ std::optional<std::string> whole_file(SceneFiles& files, const fs::path& path) {
   const fs::path file = files.open(path);
   if (file.empty()) return std::nullopt;
   const files::Descriptor descriptor(::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
-  const auto failure = [&](int reason) {
-    return MachineFailure(
-        Error(path.string(), std::string("this file cannot be read: ") + std::strerror(reason) + ". Try again."));
-  };
   struct stat status {};
   if (!descriptor.is_open()) {
-    for (const int machine : {EIO, EMFILE, ENFILE, ENOMEM, EINTR, ETIMEDOUT}) {
-      if (errno == machine) throw failure(machine);
-    }
+    fail_unless_missing(errno, path);
     return std::nullopt;
   }
   if (::fstat(descriptor.number(), &status) != 0 || !S_ISREG(status.st_mode)) return std::nullopt;
   std::string bytes(static_cast<std::size_t>(status.st_size), '\0');
   const std::size_t read = files::read_fully(descriptor.number(), std::as_writable_bytes(std::span(bytes)));
-  if (read < bytes.size() && errno != 0) throw failure(errno);
+  if (read < bytes.size()) fail_unless_missing(errno, path);
   bytes.resize(read);
   return bytes;
 }

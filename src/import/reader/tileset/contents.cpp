@@ -4,12 +4,14 @@
 #include <sys/stat.h>
 
 #include <array>
+#include <cerrno>
 #include <cstdint>
 #include <span>
 #include <string_view>
 
 #include "files/descriptor.h"
 #include "import/reader/file_names.h"
+#include "import/reader/machine_failure.h"
 #include "import/reader/named_file.h"
 #include "import/reader/tileset/gzip.h"
 #include "import/reader/tileset/tile_content.h"
@@ -36,7 +38,10 @@ fs::path TileContents::find(const fs::path& path) {
   }
   const fs::path real = *known->second / path.filename();
   struct stat status {};
-  if (::lstat(real.c_str(), &status) != 0) return {};
+  if (::lstat(real.c_str(), &status) != 0) {
+    fail_unless_missing(errno, path);
+    return {};
+  }
   if (S_ISREG(status.st_mode)) return real;
   if (!S_ISLNK(status.st_mode)) return {};
   if (!files_.resolve(path)) files_.leave_out(path);
@@ -48,9 +53,13 @@ TileContents::State TileContents::state_of(const fs::path& path) {
   if (file.empty()) return State::missing;
   const files::Descriptor descriptor(::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
   struct stat status {};
-  if (!descriptor.is_open() || ::fstat(descriptor.number(), &status) != 0) return State::missing;
+  if (!descriptor.is_open() || ::fstat(descriptor.number(), &status) != 0) {
+    fail_unless_missing(errno, path);
+    return State::missing;
+  }
   std::array<char, content_start_bytes> start{};
   const std::size_t read = files::read_fully(descriptor.number(), 0, std::as_writable_bytes(std::span(start)));
+  if (read < start.size()) fail_unless_missing(errno, path);
   const std::string_view bytes(start.data(), read);
   const std::string extension = extension_of(path);
   if (is_gzip(bytes)) return extension == "json" ? State::tileset : State::mesh;
