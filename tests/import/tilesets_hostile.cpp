@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cerrno>
 #include <cstdint>
 #include <cstdlib>
 #include <string>
@@ -11,6 +12,7 @@
 #include "gltf_made.h"
 #include "import/parts.h"
 #include "import/processor_budget.h"
+#include "import/reader/machine_failure.h"
 #include "import/reader/piece_cutter.h"
 #include "import_files.h"
 #include "roam/error.h"
@@ -127,6 +129,15 @@ TEST(ImportTilesetsHostile, CountPartsAgainstTheMemory) {
     ADD_FAILURE() << "62,500 parts from 30 kB";
   } catch (const Error& error) {
     EXPECT_TRUE(contains(error.what(), "of memory that importing may use")) << error.what();
+  }
+}
+
+TEST(ImportTilesetsHostile, AreNotHeldForMissingIfTheDiskFails) {
+  for (const int reason : {0, ENOENT, ENOTDIR, EACCES, ELOOP, ENAMETOOLONG}) {
+    EXPECT_NO_THROW(reader::fail_unless_missing(reason, "tile.glb")) << reason;
+  }
+  for (const int reason : {EIO, ESTALE, EMFILE, ENOMEM, ETIMEDOUT}) {
+    EXPECT_THROW(reader::fail_unless_missing(reason, "tile.glb"), reader::MachineFailure) << reason;
   }
 }
 

@@ -29,7 +29,7 @@ class MachineFailure : public std::runtime_error {
 /// Throws MachineFailure unless `reason` (errno of a call on `path`; 0: none) says that the file is not there or may
 /// not be read.
 inline void fail_unless_missing(int reason, const std::filesystem::path& path) {
-  for (const int missing : {0, ENOENT, ENOTDIR, EACCES, EPERM, ELOOP, ENAMETOOLONG, ENXIO, EISDIR}) {
+  for (const int missing : {0, ENOENT, ENOTDIR, EACCES, EPERM, ELOOP, ENAMETOOLONG, ENXIO, EISDIR, EINVAL, EILSEQ}) {
     if (reason == missing) return;
   }
   throw MachineFailure(
