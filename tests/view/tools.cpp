@@ -175,13 +175,16 @@ TEST(Tools, GoToWhatIsClickedOnThePlan) {
   d.tap('l');
   ASSERT_EQ(d.session->tools().plan().size(), graphics::PlanSize::large);
   d.run(0.1);
+  d.session->stage().draw();  // which gives the plan its place
   // 5 m ahead: the point of the picture that the plan shows there.
   bool clicked = false;
-  for (double x = -1.0; x < 1.0 && !clicked; x += 0.01) {
-    const auto at = d.session->tools().plan().at(x, 0.0);
-    if (!at || std::abs(at->x - (d.place().x + 5.0)) > 0.5) continue;
-    d.click(x, 0.0);
-    clicked = true;
+  for (double y = -1.0; y < 1.0 && !clicked; y += 0.01) {
+    for (double x = -1.0; x < 1.0 && !clicked; x += 0.01) {
+      const auto at = d.session->tools().plan().at(x, y);
+      if (!at || std::abs(at->x - (d.place().x + 5.0)) > 0.5 || std::abs(at->y - d.place().y) > 0.5) continue;
+      d.click(x, y);
+      clicked = true;
+    }
   }
   ASSERT_TRUE(clicked);
   const double before = d.place().x;

@@ -67,7 +67,10 @@ void SceneGraph::hide_objects() {
   if (changed) frames_until_check_ = 0;
   if (version == first_version || --frames_until_check_ > 0) return;
   frames_until_check_ = check_frames;
-  if (changed || paged_ || !is_over(state_) || is_compiling()) show_objects(*group_, *objects_->flags());
+  const bool unsettled = paged_ || !is_over(state_) || is_compiling();
+  // Once more after the last piece: it may have come since the last check.
+  if (changed || unsettled || unsettled_) show_objects(*group_, *objects_->flags());
+  unsettled_ = unsettled;
 }
 
 bool SceneGraph::is_compiling() const {

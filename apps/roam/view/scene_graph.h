@@ -77,6 +77,7 @@ class SceneGraph {
   std::shared_ptr<SceneObjects> objects_;
   std::uint64_t objects_version_ = 0;  ///< that the graph shows
   int frames_until_check_ = 0;
+  bool unsettled_ = false;  ///< pieces could still arrive at the last check of what is hidden
   std::unique_ptr<DisplayLoader> loader_;
 };
 

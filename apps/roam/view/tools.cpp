@@ -12,6 +12,8 @@ namespace {
 
 using Adapter = osgGA::GUIEventAdapter;
 
+constexpr std::size_t most_passed = 1000;  // patterns that a command line has room for
+
 // A click is as short and still as the two of a double click are near each other.
 constexpr double longest_click = osgRoam::double_click_time;             // s
 constexpr double click_distance = 2.0 * osgRoam::double_click_distance;  // of half the picture
@@ -64,12 +66,17 @@ void Tools::probe() {
     stage_.hint(fmt::format("First measure from A to B: {}, then two clicks", key), seconds);
     return;
   }
+  const std::vector<std::string> passed = layers_.passed();
+  if (passed.size() > most_passed) {
+    stage_.hint("Too many objects are hidden for a probe", seconds);
+    return;
+  }
   const Vec3 a = beside(points->a, roamer_.settings().radius);
   if (points->b) {
-    probing_.ask(a, beside(*points->b, roamer_.settings().radius), layers_.passed());
+    probing_.ask(a, beside(*points->b, roamer_.settings().radius), passed);
   } else {
     const Walker& walker = *roamer_.walker();
-    probing_.ask(roamer_.mode() == Mode::fly ? walker.position() : walker.feet(), a, layers_.passed());
+    probing_.ask(roamer_.mode() == Mode::fly ? walker.position() : walker.feet(), a, passed);
   }
 }
 
