@@ -90,8 +90,10 @@ void Layers::follow() {
     }
   }
   std::vector<ObjectId> without;
-  for (const std::string& name : names_.names) {
+  for (const auto& [name, objects] : names_.names) {
     const auto [begin, end] = ids_.equal_range(name);
+    // The body meets what its world has by another name.
+    if (begin == end && world_ != nullptr) names_.left_over += objects;
     for (auto at = begin; at != end; ++at) without.push_back(at->second);
   }
   visible_.reset();
@@ -221,7 +223,7 @@ void Layers::search() {
 std::vector<std::string> Layers::passed() const {
   std::vector<std::string> patterns;
   if (!passes_) return patterns;
-  for (const std::string& name : names_.names) {
+  for (const auto& [name, objects] : names_.names) {
     if (ids_.contains(name)) patterns.push_back(pattern_of(name));
   }
   return patterns;
@@ -236,7 +238,8 @@ void Layers::fill(Status& status) const {
   } else if (names_.left_over == 0) {
     status.hidden += "the body passes through";
   } else {
-    status.hidden += fmt::format("the body passes through, except {} with names that others have", names_.left_over);
+    status.hidden +=
+        fmt::format("the body passes through, except {} that it cannot tell by their names", names_.left_over);
   }
 }
 
