@@ -161,6 +161,9 @@ void Layers::show_list() {
 
 bool Layers::handle(const Adapter& event, osgGA::GUIActionAdapter& /*action*/) {
   graphics::Hud& hud = stage_.hud();
+  // A button that was pressed here belongs to the list until its release, even if the list was closed meanwhile.
+  if (event.getEventType() == Adapter::RELEASE) return std::exchange(is_down_, false);
+  if (event.getEventType() == Adapter::PUSH) is_down_ = false;
   if (event.getHandled() || !shown_ || roamer_.mouseGrab() || hud.help_shown()) return false;
   const double x = event.getXnormalized(), y = event.getYnormalized();
   const bool here = hud.list_covers(x, y);
@@ -171,8 +174,6 @@ bool Layers::handle(const Adapter& event, osgGA::GUIActionAdapter& /*action*/) {
       is_down_ = true;
       click(hud.list_at(x, y));
       return true;
-    case Adapter::RELEASE:
-      return std::exchange(is_down_, false);
     case Adapter::DRAG:
       return is_down_;
     case Adapter::MOVE:
