@@ -68,12 +68,17 @@ void Layers::add_to(Commands& commands) {
 
 void Layers::update() {
   follow();
-  note_vain_patterns();
+  note_vain_patterns(false);
   show_list();
 }
 
 /// Makes the spaces match what is hidden.
 void Layers::follow() {
+  if (passes_ && arrival_.pager() != nullptr) {
+    passes_ = false;
+    rows_changed_ = true;
+    tell_of_store();
+  }
   std::shared_ptr<const SceneObjects::Flags> flags = scene_.objects().flags();
   std::shared_ptr<const World> world = arrival_.world();
   if (flags == flags_ && world == world_) return;
@@ -105,27 +110,29 @@ void Layers::follow() {
 }
 
 void Layers::pass_through(bool passes) {
-  if (passes && world_ == nullptr) {
-    news_.tell("a store keeps its objects: build one with --ignore to leave some out");
-    return;
-  }
+  if (passes && arrival_.pager() != nullptr) return tell_of_store();
   if (passes && !may_pass_) {
     news_.tell("objects stay walls while all moves are verified, or follow a path");
     return;
   }
   passes_ = passes;
   rows_changed_ = true;
+  // While the walls are being loaded, the wish waits for them.
   if (world_ == nullptr) return;
   const std::shared_ptr<const Space> space = passes && visible_ != nullptr ? visible_ : world_;
   if (roamer_.space() != space) roamer_.setSpace(space);
 }
 
-void Layers::note_vain_patterns() {
+void Layers::tell_of_store() { news_.tell("a store keeps its objects: build one with --ignore to leave some out"); }
+
+void Layers::note_vain_patterns(bool at_end) {
   // Pages may bring further names.
-  if (patterns_told_ || !scene_.report() || scene_.is_paged()) return;
+  const bool all_known = scene_.report() && !scene_.is_paged();
+  if (patterns_told_ || !(all_known || at_end)) return;
   patterns_told_ = true;
   for (const std::string& pattern : scene_.objects().unmatched()) {
-    news_.note(fmt::format("No object's name matches '{}'; nothing was hidden.", printable(pattern)));
+    news_.note(fmt::format("No object's name{} matches '{}'; nothing was hidden.",
+                           all_known ? "" : " that was read so far", printable(pattern)));
   }
 }
 

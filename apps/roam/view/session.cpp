@@ -258,6 +258,7 @@ bool Session::run(const std::string& command) {
 }
 
 ViewReport Session::finish() {
+  layers_->finish();
   ViewReport report;
   report.scene = options_.scene.names();
   report.notes = news_.notes();
