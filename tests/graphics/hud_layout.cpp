@@ -20,7 +20,7 @@ const std::vector<StatusLine> usual{{"", "walk  1.4 m/s  in the air"},
                                     {"body", "radius 0.30 m, height 1.80 m, support disc 0.64 m, crouched"}};
 const std::vector<StatusLine> measuring{
     {"", "walk  0.0 m/s"},
-    {"hidden", "12 of 640 objects; the body passes through, except 2 with names that others have"},
+    {"hidden", "12 of 640 objects; the body passes through, except 2 that it cannot tell by their names"},
     {"clear", "over 7.62 m wide, 2.50 m high"},
     {"A", "-0.729, -1.439, 0.895, aws_robomaker_residential_SofaC_01, slope 12.4\u00b0"},
     {"B", "-0.921, -0.398, 0.003, aws_robomaker_residential_Carpet_01, slope 0\u00b0"},

@@ -2,14 +2,27 @@
 #include "view/gamepad.h"
 
 #include <gtest/gtest.h>
+#include <sys/socket.h>
+#include <sys/un.h>
+#include <unistd.h>
 
+#include <array>
+#include <chrono>
 #include <cmath>
 #include <csignal>
+#include <cstdint>
+#include <cstdlib>
+#include <cstring>
+#include <memory>
 #include <string>
+#include <thread>
 
 #ifdef ROAM_WITH_SDL
 #include <SDL.h>
 #endif
+
+#include "view/controllers.h"
+#include "view_stores.h"
 
 namespace {
 
@@ -83,6 +96,77 @@ TEST(Gamepad, IsJoinedByASpaceMouse) {
   EXPECT_DOUBLE_EQ(both.right, 0.25);
   EXPECT_DOUBLE_EQ(both.forward, 1.0);
   EXPECT_TRUE(both.crouch);
+}
+
+/// What SpaceMice speak to, at a socket of its own.
+class Daemon {
+ public:
+  explicit Daemon(const std::string& path) : socket_(socket(AF_UNIX, SOCK_STREAM, 0)) {
+    sockaddr_un address{};
+    address.sun_family = AF_UNIX;
+    std::strncpy(address.sun_path, path.c_str(), sizeof address.sun_path - 1);
+    unlink(path.c_str());
+    EXPECT_EQ(bind(socket_, reinterpret_cast<const sockaddr*>(&address), sizeof address), 0);
+    EXPECT_EQ(listen(socket_, 1), 0);
+  }
+  ~Daemon() {
+    close(client_);
+    close(socket_);
+  }
+  Daemon(const Daemon&) = delete;
+  Daemon& operator=(const Daemon&) = delete;
+
+  void push_forward() {
+    client_ = accept(socket_, nullptr, nullptr);
+    const std::array<std::int32_t, 8> motion{0, 0, 0, 350, 0, 0, 0, 10};
+    EXPECT_EQ(write(client_, motion.data(), sizeof motion), static_cast<ssize_t>(sizeof motion));
+  }
+
+ private:
+  int socket_ = -1, client_ = -1;
+};
+
+TEST(Gamepad, ComesToRestWhenTheDaemonOfSpaceMiceEnds) {
+  const TestFolder folder;
+  const std::string path = folder.file("spnav.sock");
+  setenv("SPNAV_SOCKET", path.c_str(), 1);
+  auto daemon = std::make_unique<Daemon>(path);
+  Gamepads devices;
+  if (devices.puck().present) {
+    daemon->push_forward();
+    EXPECT_EQ(devices.puck().forward, 1.0);
+    daemon.reset();
+    EXPECT_EQ(devices.puck().forward, 0.0) << "the body would run away";
+    EXPECT_FALSE(devices.puck().present);
+    daemon = std::make_unique<Daemon>(path);
+    const auto end = std::chrono::steady_clock::now() + std::chrono::minutes(1);
+    while (!devices.puck().present && std::chrono::steady_clock::now() < end) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    }
+    EXPECT_TRUE(devices.puck().present) << "it has been started again";
+  }
+  unsetenv("SPNAV_SOCKET");
+  if (!devices.puck().present) GTEST_SKIP() << "built without SpaceMice";
+}
+
+TEST(Gamepad, TypesNothingIntoAQuestion) {
+  view_stores::Driven d;
+  d.write_scene();
+  d.begin();
+  d.run(0.5);
+  const osg::ref_ptr<Prompt> prompt = new Prompt(d.session->stage());
+  Controllers controllers(d.session->stage(), d.session->roamer(), *prompt, 1.0);
+  PadState pad;
+  pad.present = true;
+  pad.left = {0.0, -1.0};
+  pad.buttons[static_cast<std::size_t>(PadButton::start)] = true;
+  prompt->ask("Name", {}, [](const std::string&) {});
+  d.events().clear();
+  controllers.take(pad, {}, true);
+  EXPECT_TRUE(d.events().empty());
+  const double before = d.place().x;
+  d.run(0.5);
+  EXPECT_DOUBLE_EQ(d.place().x, before) << "nor does it lead";
 }
 
 #ifdef ROAM_WITH_SDL

@@ -144,6 +144,19 @@ TEST(Layers, StayWallsWhileAllMovesAreVerified) {
   EXPECT_EQ(d.session->roamer().space(), space);
 }
 
+TEST(Layers, ArePassedAsSoonAsTheWallsAreLoaded) {
+  view_stores::Driven d;
+  d.write_scene();
+  d.options.at = {10, 0, 0.95, 0};
+  d.options.hide = {"front"};
+  d.session.emplace(d.options, make_plan(d.options, {}), ViewSettings{});
+  d.session->layers().pass_through(true);
+  ASSERT_TRUE(d.until([&] { return d.session->roaming() && d.session->layers().visible() != nullptr; }));
+  EXPECT_EQ(d.session->roamer().space().get(), d.session->layers().visible());
+  EXPECT_FALSE(contains(d.hud(), "a store")) << d.hud();
+  EXPECT_TRUE(contains(d.hud(), "the body passes through")) << d.hud();
+}
+
 TEST(Layers, OfAStoreAreHiddenButStayWalls) {
   Layered d({}, true);
   ASSERT_TRUE(d.on_store());
@@ -165,8 +178,53 @@ TEST(Layers, AreHiddenFromTheStartByAnOption) {
   const ViewReport report = d.session->finish();
   EXPECT_EQ(report.hidden_objects, 2u);
   EXPECT_EQ(
-      std::count(report.notes.begin(), report.notes.end(), "No object's name matches 'nothing'; nothing was hidden."),
-      1);
+      std::count_if(report.notes.begin(), report.notes.end(),
+                    [](const std::string& note) { return contains(note, "matches 'nothing'; nothing was hidden"); }),
+      1)
+      << "however short the session was";
+}
+
+TEST(Layers, OfTooGreatANumberArePassedByNoProbe) {
+  std::string obj = room_obj();
+  for (int i = 0; i < 1001; ++i) obj += "o shelf_" + std::to_string(i) + "\nf 1 2 3\n";
+  view_stores::Driven d;
+  d.write_scene(obj);
+  d.options.at = {10, 0, 0.95, 0};
+  d.options.hide = {"shelf_*"};
+  d.begin();
+  d.session->layers().pass_through(true);
+  d.tap('t');
+  d.session->stage().draw();
+  const osgGA::GUIEventAdapter& now = *d.events().getCurrentEventState();
+  const float x = 0.5f * (now.getXmin() + now.getXmax()), y = 0.5f * (now.getYmin() + now.getYmax());
+  d.events().mouseButtonPress(x, y, 1);
+  d.events().mouseButtonRelease(x, y, 1);
+  d.run(0.1);
+  d.session->run("probe");
+  EXPECT_TRUE(contains(d.hud(), "Too many objects are hidden for a probe")) << d.hud();
+}
+
+TEST(Layers, KeepAButtonNoLongerThanItIsDown) {
+  Layered d;
+  d.show_list();
+  d.run(0.1);
+  d.session->stage().draw();
+  const osgGA::GUIEventAdapter& now = *d.events().getCurrentEventState();
+  const auto at = [&](float across) { return now.getXmin() + across * (now.getXmax() - now.getXmin()); };
+  const float y = 0.5f * (now.getYmin() + now.getYmax());
+  d.events().mouseButtonPress(at(0.95f), y, 1);
+  d.run(0.1);
+  d.show_list();  // hides it
+  d.events().mouseButtonRelease(at(0.95f), y, 1);
+  d.run(0.1);
+  d.show_list();
+  d.run(0.1);
+  const double before = d.session->roamer().yaw();
+  d.events().mouseButtonPress(at(0.2f), y, 1);
+  for (const float across : {0.25f, 0.3f, 0.35f}) d.events().mouseMotion(at(across), y);
+  d.run(0.1);
+  d.events().mouseButtonRelease(at(0.35f), y, 1);
+  EXPECT_NE(d.session->roamer().yaw(), before) << "a drag outside of the list turns the head";
 }
 
 TEST(Layers, AreNotFoundByClicksWhenHidden) {

@@ -91,10 +91,11 @@ TEST(SceneObjects, OfHiddenNamesHaveNoVisibleNamesake) {
   SceneObjects objects;
   const auto numbers = objects.add(house_names);
   objects.set_hidden(node_of(objects, "floor 1"), true);
-  EXPECT_EQ(objects.hidden_names().names, std::set<std::string>{"Door_1"}) << "a wall of floor 2 is to be seen";
+  EXPECT_EQ(objects.hidden_names().names, (std::map<std::string, std::size_t>{{"Door_1", 1}}))
+      << "a wall of floor 2 is to be seen";
   EXPECT_EQ(objects.hidden_names().left_over, 1u);
   objects.set_hidden(numbers[2], true);
-  EXPECT_EQ(objects.hidden_names().names, (std::set<std::string>{"Door_1", "Wall"}));
+  EXPECT_EQ(objects.hidden_names().names, (std::map<std::string, std::size_t>{{"Door_1", 1}, {"Wall", 2}}));
   EXPECT_EQ(objects.hidden_names().left_over, 0u);
 }
 
@@ -105,6 +106,20 @@ TEST(SceneObjects, BeyondAnyNumberShareOneNode) {
   (void)objects.add(many);
   EXPECT_LE(objects.count().objects, SceneObjects::most_nodes + 1);
   EXPECT_EQ(objects.entries({}, "further objects").size(), 1u);
+}
+
+TEST(SceneObjects, BeyondAnyNumberMayHaveAHiddenName) {
+  SceneObjects objects;
+  std::vector<std::string> many{"Wall"};
+  for (std::size_t i = many.size(); i + 1 < SceneObjects::most_nodes; ++i) many.push_back(std::to_string(i));
+  const auto numbers = objects.add(many);
+  objects.set_hidden(numbers[0], true);
+  EXPECT_EQ(objects.hidden_names().names, (std::map<std::string, std::size_t>{{"Wall", 1}}));
+  const auto more = objects.add({path({"house", "Wall"})});
+  EXPECT_TRUE(objects.hidden_names().names.empty()) << "that wall is to be seen";
+  EXPECT_EQ(objects.hidden_names().left_over, 1u);
+  objects.set_hidden(more[0], true);
+  EXPECT_TRUE(objects.hidden_names().names.contains("Wall"));
 }
 
 }  // namespace

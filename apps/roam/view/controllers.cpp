@@ -2,8 +2,8 @@
 
 namespace roam::app {
 
-Controllers::Controllers(Stage& stage, osgRoam::Manipulator& roamer, double sensitivity)
-    : stage_(stage), roamer_(roamer), sensitivity_(sensitivity) {}
+Controllers::Controllers(Stage& stage, osgRoam::Manipulator& roamer, const Prompt& prompt, double sensitivity)
+    : stage_(stage), roamer_(roamer), prompt_(prompt), sensitivity_(sensitivity) {}
 
 bool Controllers::update(bool leads) {
   if (stage_.headless() || !Gamepads::supported()) return false;
@@ -15,11 +15,14 @@ bool Controllers::update(bool leads) {
 
 void Controllers::take(const PadState& pad, const PuckState& puck, bool leads) {
   using Axes = osgRoam::Manipulator::Axes;
-  roamer_.setAxes(leads ? sum_of(axes_of(pad, sensitivity_, roamer_.lookInverted()), axes_of(puck, sensitivity_))
-                        : Axes{});
+  // The keys of buttons would be text.
+  const bool asks = prompt_.is_asking();
+  roamer_.setAxes(leads && !asks
+                      ? sum_of(axes_of(pad, sensitivity_, roamer_.lookInverted()), axes_of(puck, sensitivity_))
+                      : Axes{});
   for (std::size_t i = 0; i < pad_buttons; ++i) {
     const char* const command = command_of(static_cast<PadButton>(i));
-    if (command == nullptr || !pad.buttons[i] || before_.buttons[i]) continue;
+    if (command == nullptr || asks || !pad.buttons[i] || before_.buttons[i]) continue;
     press_key_of(roamer_.controls(), command, *stage_.viewer().getEventQueue());
   }
   before_ = pad;

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "view/gamepad.h"
+#include "view/prompt.h"
 #include "view/stage.h"
 
 namespace roam::app {
@@ -12,8 +13,8 @@ namespace roam::app {
 /// Call all members from the thread that draws, between two frames.
 class Controllers {
  public:
-  /// `sensitivity`: of the mouse.
-  Controllers(Stage& stage, osgRoam::Manipulator& roamer, double sensitivity);
+  /// `sensitivity`: of the mouse. While `prompt` asks, they do nothing.
+  Controllers(Stage& stage, osgRoam::Manipulator& roamer, const Prompt& prompt, double sensitivity);
 
   /// Call it in each frame before the events. `leads`: the body's camera receives the keys. The devices are looked for
   /// at the first call in a window. Returns whether a gamepad came or went.
@@ -25,6 +26,7 @@ class Controllers {
  private:
   Stage& stage_;
   osgRoam::Manipulator& roamer_;
+  const Prompt& prompt_;
   double sensitivity_;
   std::unique_ptr<Gamepads> devices_;
   PadState before_;

@@ -1,5 +1,6 @@
 // The devices behind Gamepads. Without a library, they are at rest.
 #include <algorithm>
+#include <cerrno>
 
 #include "view/gamepad.h"
 
@@ -8,7 +9,10 @@
 #include <dlfcn.h>
 #endif
 #ifdef ROAM_WITH_SPNAV
+#include <poll.h>
 #include <spnav.h>
+
+#include <chrono>
 #endif
 
 namespace roam::app {
@@ -118,14 +122,33 @@ struct Gamepads::Sdl {
 
 #ifdef ROAM_WITH_SPNAV
 struct Gamepads::Spacenav {
-  Spacenav() : ready(spnav_open() != -1) {}
+  Spacenav() { open(); }
   ~Spacenav() {
     if (ready) spnav_close();
   }
   Spacenav(const Spacenav&) = delete;
   Spacenav& operator=(const Spacenav&) = delete;
 
+  void open() {
+    tried_at = std::chrono::steady_clock::now();
+    ready = spnav_open() != -1;
+    last = {.present = ready};
+  }
+
+  /// Whether the daemon has ended. A puck that was pushed then would never come to rest.
+  [[nodiscard]] static bool is_lost() {
+    pollfd connection{spnav_fd(), POLLIN, 0};
+    return poll(&connection, 1, 0) < 0 ? errno != EINTR : (connection.revents & (POLLHUP | POLLERR | POLLNVAL)) != 0;
+  }
+
   PuckState state() {
+    if (ready && is_lost()) {
+      spnav_close();
+      ready = false;
+      last = {};
+    }
+    constexpr std::chrono::seconds pause(1);
+    if (!ready && std::chrono::steady_clock::now() - tried_at >= pause) open();
     constexpr double range = 350.0;  // of the daemon's numbers
     spnav_event event;
     while (ready && spnav_poll_event(&event) != 0) {
@@ -138,7 +161,8 @@ struct Gamepads::Spacenav {
   }
 
   bool ready = false;
-  PuckState last{.present = ready};
+  PuckState last;
+  std::chrono::steady_clock::time_point tried_at;
 };
 #else
 struct Gamepads::Spacenav {

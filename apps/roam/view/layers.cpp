@@ -68,12 +68,17 @@ void Layers::add_to(Commands& commands) {
 
 void Layers::update() {
   follow();
-  note_vain_patterns();
+  note_vain_patterns(false);
   show_list();
 }
 
 /// Makes the spaces match what is hidden.
 void Layers::follow() {
+  if (passes_ && arrival_.pager() != nullptr) {
+    passes_ = false;
+    rows_changed_ = true;
+    tell_of_store();
+  }
   std::shared_ptr<const SceneObjects::Flags> flags = scene_.objects().flags();
   std::shared_ptr<const World> world = arrival_.world();
   if (flags == flags_ && world == world_) return;
@@ -90,8 +95,10 @@ void Layers::follow() {
     }
   }
   std::vector<ObjectId> without;
-  for (const std::string& name : names_.names) {
+  for (const auto& [name, objects] : names_.names) {
     const auto [begin, end] = ids_.equal_range(name);
+    // The body meets what its world has by another name.
+    if (begin == end && world_ != nullptr) names_.left_over += objects;
     for (auto at = begin; at != end; ++at) without.push_back(at->second);
   }
   visible_.reset();
@@ -103,27 +110,29 @@ void Layers::follow() {
 }
 
 void Layers::pass_through(bool passes) {
-  if (passes && world_ == nullptr) {
-    news_.tell("a store keeps its objects: build one with --ignore to leave some out");
-    return;
-  }
+  if (passes && arrival_.pager() != nullptr) return tell_of_store();
   if (passes && !may_pass_) {
     news_.tell("objects stay walls while all moves are verified, or follow a path");
     return;
   }
   passes_ = passes;
   rows_changed_ = true;
+  // While the walls are being loaded, the wish waits for them.
   if (world_ == nullptr) return;
   const std::shared_ptr<const Space> space = passes && visible_ != nullptr ? visible_ : world_;
   if (roamer_.space() != space) roamer_.setSpace(space);
 }
 
-void Layers::note_vain_patterns() {
+void Layers::tell_of_store() { news_.tell("a store keeps its objects: build one with --ignore to leave some out"); }
+
+void Layers::note_vain_patterns(bool at_end) {
   // Pages may bring further names.
-  if (patterns_told_ || !scene_.report() || scene_.is_paged()) return;
+  const bool all_known = scene_.report() && !scene_.is_paged();
+  if (patterns_told_ || !(all_known || at_end)) return;
   patterns_told_ = true;
   for (const std::string& pattern : scene_.objects().unmatched()) {
-    news_.note(fmt::format("No object's name matches '{}'; nothing was hidden.", printable(pattern)));
+    news_.note(fmt::format("No object's name{} matches '{}'; nothing was hidden.",
+                           all_known ? "" : " that was read so far", printable(pattern)));
   }
 }
 
@@ -159,6 +168,9 @@ void Layers::show_list() {
 
 bool Layers::handle(const Adapter& event, osgGA::GUIActionAdapter& /*action*/) {
   graphics::Hud& hud = stage_.hud();
+  // A button that was pressed here belongs to the list until its release, even if the list was closed meanwhile.
+  if (event.getEventType() == Adapter::RELEASE) return std::exchange(is_down_, false);
+  if (event.getEventType() == Adapter::PUSH) is_down_ = false;
   if (event.getHandled() || !shown_ || roamer_.mouseGrab() || hud.help_shown()) return false;
   const double x = event.getXnormalized(), y = event.getYnormalized();
   const bool here = hud.list_covers(x, y);
@@ -169,8 +181,6 @@ bool Layers::handle(const Adapter& event, osgGA::GUIActionAdapter& /*action*/) {
       is_down_ = true;
       click(hud.list_at(x, y));
       return true;
-    case Adapter::RELEASE:
-      return std::exchange(is_down_, false);
     case Adapter::DRAG:
       return is_down_;
     case Adapter::MOVE:
@@ -221,7 +231,7 @@ void Layers::search() {
 std::vector<std::string> Layers::passed() const {
   std::vector<std::string> patterns;
   if (!passes_) return patterns;
-  for (const std::string& name : names_.names) {
+  for (const auto& [name, objects] : names_.names) {
     if (ids_.contains(name)) patterns.push_back(pattern_of(name));
   }
   return patterns;
@@ -236,7 +246,8 @@ void Layers::fill(Status& status) const {
   } else if (names_.left_over == 0) {
     status.hidden += "the body passes through";
   } else {
-    status.hidden += fmt::format("the body passes through, except {} with names that others have", names_.left_over);
+    status.hidden +=
+        fmt::format("the body passes through, except {} that it cannot tell by their names", names_.left_over);
   }
 }
 

@@ -35,10 +35,13 @@ class Layers : public osgGA::GUIEventHandler {
   void add_to(Commands& commands);
   /// Call it in each frame.
   void update();
+  /// Notes for the report, before it is made, the patterns that have matched no name.
+  void finish() { note_vain_patterns(true); }
   [[nodiscard]] bool is_shown() const { return shown_; }
   void close() { shown_ = false; }
 
-  /// Lets the body pass through hidden objects, or no longer. Says why not if that is impossible.
+  /// Lets the body pass through hidden objects, or no longer. Says why not if that is impossible. While the walls are
+  /// being loaded, it waits for them.
   void pass_through(bool passes);
   /// The space without hidden objects; null if none is hidden, or their triangles are not known.
   [[nodiscard]] const Space* visible() const { return visible_.get(); }
@@ -56,7 +59,8 @@ class Layers : public osgGA::GUIEventHandler {
 
  private:
   void follow();
-  void note_vain_patterns();
+  void tell_of_store();
+  void note_vain_patterns(bool at_end);
   void show_list();
   void click(const std::string& part);
   void search();

@@ -21,6 +21,8 @@ class Prompt : public osgGA::GUIEventHandler {
   /// Begins to ask. `text`: what is to be edited. `answer` gets a text that is not empty.
   void ask(std::string question, std::string text, Answer answer);
 
+  [[nodiscard]] bool is_asking() const { return answer_ != nullptr; }
+
   using osgGA::GUIEventHandler::handle;
   bool handle(const osgGA::GUIEventAdapter& event, osgGA::GUIActionAdapter& action) override;
 

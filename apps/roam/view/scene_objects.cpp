@@ -38,7 +38,7 @@ SceneObjects::Number SceneObjects::add_one(const std::string& names) {
     const std::size_t end = std::min(rest.find(DisplayPart::name_separator), rest.size());
     const Number next = child(at, rest.substr(0, end));
     if (next == 0) {
-      at = child(0, others_name);
+      at = others_ = child(0, others_name);
       break;
     }
     at = next;
@@ -185,16 +185,21 @@ SceneObjects::HiddenNames SceneObjects::hidden_names() const {
   const std::lock_guard lock(mutex_);
   if (nodes_[0].count.hidden == 0) return {};
   HiddenNames hidden;
+  // Objects without a node of their own may have any name.
+  if (others_ != 0 && nodes_[others_].count.hidden < nodes_[others_].count.objects) {
+    hidden.left_over = nodes_[0].count.hidden;
+    return hidden;
+  }
   std::set<std::string> shown;
   for (const Node& node : nodes_) {
     const bool all = node.count.objects > 0 && node.count.hidden == node.count.objects;
     if (!all) {
       shown.insert(node.name);
     } else if (node.is_object) {
-      hidden.names.insert(node.name);
+      ++hidden.names[node.name];
     }
   }
-  std::erase_if(hidden.names, [&](const std::string& name) { return shown.contains(name); });
+  std::erase_if(hidden.names, [&](const auto& one) { return shown.contains(one.first); });
   hidden.left_over = static_cast<std::size_t>(std::count_if(nodes_.begin(), nodes_.end(), [&](const Node& node) {
     return node.is_object && node.hidden && !hidden.names.contains(node.name);
   }));

@@ -62,8 +62,8 @@ class SceneObjects {
   [[nodiscard]] std::vector<Entry> entries(const std::set<Number>& open, std::string_view search) const;
   /// Names of objects that are hidden wherever they occur: nothing that has such a name is to be seen.
   struct HiddenNames {
-    std::set<std::string> names;
-    std::size_t left_over = 0;  ///< hidden objects with a name that something visible has, too
+    std::map<std::string, std::size_t> names;  ///< and the number of objects of each
+    std::size_t left_over = 0;                 ///< hidden objects with a name that something visible has, or may have
   };
   [[nodiscard]] HiddenNames hidden_names() const;
   /// The patterns that no name has matched yet.
@@ -100,6 +100,7 @@ class SceneObjects {
   std::vector<bool> matched_;
   std::vector<Node> nodes_{1};  ///< the first is the root, which has no name
   std::map<Key, Number, Before> numbers_;
+  Number others_ = 0;  ///< the node that further objects share; 0: there are none
   std::uint64_t version_ = 1;
   mutable std::shared_ptr<const Flags> flags_;  ///< null: to be made
 };

@@ -54,7 +54,7 @@ Session::Session(const ViewOptions& options, const ViewPlan& plan, const ViewSet
       prompt_(new Prompt(stage_)),
       layers_(new Layers(stage_, scene_, arrival_, *roamer_, *prompt_, news_, plan_.path.empty() && !options.verify)),
       tools_(new Tools(stage_, scene_, *roamer_, *layers_, what_, options.program, plan_.section)),
-      controllers_(stage_, *roamer_, plan_.sensitivity),
+      controllers_(stage_, *roamer_, *prompt_, plan_.sensitivity),
       building_(what_, options.program, *roamer_, news_),
       rereading_(what_, options_, arrival_, *roamer_, display_, news_) {
   for (const std::string& note : {plan_.note, link_beside(what_)}) {
@@ -258,6 +258,7 @@ bool Session::run(const std::string& command) {
 }
 
 ViewReport Session::finish() {
+  layers_->finish();
   ViewReport report;
   report.scene = options_.scene.names();
   report.notes = news_.notes();
