@@ -151,7 +151,8 @@ void Layers::show_list() {
                      false,
                      0,
                      passes_ ? ListRow::Box::on : ListRow::Box::off});
-    if (count.hidden > 0) rows_.push_back({"show all", all_row, {}, false, 0, ListRow::Box::none});
+    // Always there: rows must not move under the mouse.
+    rows_.push_back({"show all", all_row, {}, false, 0, ListRow::Box::none});
     for (const SceneObjects::Entry& entry : scene_.objects().entries(open_, search_)) rows_.push_back(row_of(entry));
   }
   const std::size_t room = std::max<std::size_t>(1, hud.list_rows());
