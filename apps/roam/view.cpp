@@ -19,6 +19,7 @@
 #include "text/printable.h"
 #include "verbs.h"
 #include "verify/verify_stored.h"
+#include "view/gamepad.h"
 #include "view/notices.h"
 #include "view/session.h"
 
@@ -103,6 +104,7 @@ std::string go_on(ViewOptions& options, const NextSession& next, const std::vect
 
 ExitStatus view(ViewOptions options) {
   make_notices_printable();
+  Gamepads::need_no_bus();
   const ViewSettings settings = read_settings_for(options);
   const std::string keys = keys_of(settings);
   if (options.keys) {

@@ -59,6 +59,9 @@ class Gamepads {
 
   /// Whether roam was built with a library for them.
   [[nodiscard]] static bool supported();
+  /// Changes the environment: call it before other threads run. Where there is no session bus, SDL would start one, and
+  /// wait until every process that began meanwhile, such as a reader, has ended.
+  static void need_no_bus();
   /// The first gamepad; at rest if there is none.
   [[nodiscard]] PadState pad();
   /// The SpaceMouse; at rest if there is none, or its daemon (spacenavd) does not run.

@@ -1,6 +1,7 @@
 // The devices behind Gamepads. Without a library, they are at rest.
 #include <algorithm>
 #include <cerrno>
+#include <cstdlib>
 
 #include "view/gamepad.h"
 
@@ -180,6 +181,8 @@ bool Gamepads::supported() {
   return false;
 #endif
 }
+
+void Gamepads::need_no_bus() { ::setenv("DBUS_SESSION_BUS_ADDRESS", "disabled:", 0); }
 
 PadState Gamepads::pad() { return sdl_->state(); }
 
