@@ -69,7 +69,7 @@ struct StoreBuildReport {
   std::uint64_t triangles = 0;     ///< of the scene
   std::uint64_t shards = 0;        ///< of the store
   std::uint64_t shards_built = 0;  ///< by this call
-  // Of the plan; 0 without one:
+  // The plan has these; all are 0 without a plan.
   std::uint64_t shards_to_build = 0, triangles_to_build = 0;
   std::uint64_t tasks = 0;
   std::uint64_t longest_task = 0;  ///< triangles

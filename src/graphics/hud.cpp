@@ -35,7 +35,7 @@ class Hud::Panels : public osg::NodeCallback {
   bool status_changed = true, message_changed = true, help_changed = true, crosshair_changed = true;
   bool hint_changed = true, recording_changed = true, labels_changed = true, button_changed = true;
   bool list_changed = true;
-  // Of the last frame.
+  // Where the last frame drew these.
   std::vector<Target> help_targets, button_targets, list_targets;
   Rectangle message_place, hint_place, recording_place, button_place, list_place, help_place;
 

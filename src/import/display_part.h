@@ -52,7 +52,7 @@ struct DisplayLook {
   float cutoff = 0.5f;     ///< 0..1
   float roughness = 1.0f;  ///< 0 (a mirror) .. 1 (dull)
   float metalness = 0.0f;  ///< 0..1
-  /// Of roughness (grey) and metalness (opacity), multiplied with the two.
+  /// Holds roughness as grey and metalness as opacity; they multiply the two values above.
   std::uint32_t gloss_texture = no_texture;
   std::array<std::uint8_t, 3> emission{};       ///< the colour in which it shines by itself
   std::uint32_t emission_texture = no_texture;  ///< multiplied with the emission

@@ -1,4 +1,4 @@
-// What smooth surfaces, metals and surfaces that shine by themselves look like.
+// The looks of smooth, metallic and shining surfaces.
 
 #include <osg/Texture2D>
 

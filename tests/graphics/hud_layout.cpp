@@ -11,7 +11,7 @@ namespace {
 
 using namespace graphics;
 
-/// What a session shows at most, in the words of a real one.
+/// The longest display of a session, with a real one's words.
 const std::vector<StatusLine> usual{{"", "walk  1.4 m/s  in the air"},
                                     {"feet", "-12531.56, 1539.00, 181.77"},
                                     {"height", "0.42 m above the floor"},

@@ -36,7 +36,7 @@ inline roam::Profile full_profile() {
   return p;
 }
 
-/// What is said of a file that cannot be used; empty when it can.
+/// The error message of a use that fails; empty if it succeeds.
 inline std::string complaint(const std::function<void()>& use) {
   try {
     use();

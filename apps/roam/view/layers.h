@@ -83,7 +83,7 @@ class Layers : public osgGA::GUIEventHandler {
   bool rows_changed_ = true;
   std::vector<graphics::ListRow> rows_;
 
-  // What the list is for.
+  // The inputs of the last follow().
   std::shared_ptr<const SceneObjects::Flags> flags_;
   SceneObjects::HiddenNames names_;
   std::shared_ptr<const World> world_;

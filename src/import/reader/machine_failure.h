@@ -19,7 +19,7 @@ namespace roam::reader {
 class MachineFailure : public std::runtime_error {
  public:
   explicit MachineFailure(Error error) : std::runtime_error(error.what()), error_(std::move(error)) {}
-  /// What the user reads.
+  /// The message for the user.
   [[nodiscard]] const Error& error() const { return error_; }
 
  private:

@@ -67,7 +67,7 @@ std::uint64_t temporary_bytes(const Request& request) {
   std::filesystem::path file = request.scope.scene;
   std::error_code none;
   const auto folder = std::filesystem::is_directory(file, none) ? file : file.parent_path();
-  // Of a part of a tileset, its content counts.
+  // A part of a tileset counts with its content.
   if (const auto content = content_of(request.settings.tile, folder)) file = request.scope.find(content->file);
   const auto bytes = std::filesystem::is_regular_file(file, none) ? std::filesystem::file_size(file, none) : 0;
   return 8 * std::min<std::uint64_t>(none ? 0 : bytes, any_memory) + 2 * std::min(memory_limit, any_memory);
