@@ -20,7 +20,7 @@ NAVIGATION = {
     "Look around": ["viewing", "importing", "stores", "cluster", "pictures", "installing"],
     "What fits": ["probing", "training", "cracks", "profile"],
     "Write a program": ["python", "coming_from", "walking", "json", "architecture", "dependencies", "compatibility"],
-    "Trust it": ["algorithm", "proofs", "benchmarks", "format", "paper"],
+    "Trust it": ["guarantees", "algorithm", "proofs", "benchmarks", "format", "paper"],
 }
 # Documents beside README.md, and the sections that they end.
 OTHERS = {"SECURITY.md": "Trust it", "CONTRIBUTING.md": "Change it", "CHANGELOG.md": "Change it"}

@@ -78,6 +78,7 @@ class Patchwork final : public LiveSpace {
 
   /// Takes delivered patches into use; finer ones must leave `body` free at `place`. Returns whether a triangle or an
   /// unknown box came or went. Throws roam::Error, and takes nothing, for a body or position that no query takes.
+  /// After std::bad_alloc patches may be missing. Then all space is unknown, and every update() throws roam::Error.
   bool update(const Body& body, const Vec3& place);
   bool update(const Body& body, const Vec3& place, const Vec3& /*velocity*/) override { return update(body, place); }
   bool update();                                    ///< the same without a body

@@ -32,6 +32,9 @@ std::uint32_t index_of(PatchId patch) { return static_cast<std::uint32_t>(patch)
 
 std::string number(PatchId patch) { return "patch " + std::to_string(static_cast<std::uint64_t>(patch)); }
 
+/// Larger than the box of any patch.
+constexpr Box everywhere{Vec3(-2.0 * coordinate_limit), Vec3(2.0 * coordinate_limit)};
+
 /// A message since the last update; messages are in order.
 struct Message {
   enum class Kind : std::uint8_t { expected, delivered, failed, forgotten };
@@ -75,6 +78,7 @@ struct Patchwork::State {
   std::vector<Leaving> leaving;
   BoxTree tree;
   std::uint64_t revision = 0;
+  bool lost = false;  ///< an update ran out of memory: patches may be missing, so all space is unknown
 
   /// Posts a message and returns the worlds to free. The caller holds the lock, and frees them after releasing it.
   [[nodiscard]] std::vector<World> post(Message message) {
@@ -157,6 +161,7 @@ struct Patchwork::State {
     const DefaultFloatingPoint guard;
     // Errors must be thrown before the messages are taken, because these are not sent again.
     if (body) query::check({*body, place});
+    if (lost) throw Error("this patchwork lost patches when memory ran out, and is solid: make a new one");
     std::vector<Message> messages;
     {
       const std::lock_guard lock(mutex);
@@ -165,11 +170,22 @@ struct Patchwork::State {
     if (messages.empty() && !patches.unsettled() && leaving.empty()) return false;
     // A body that overlaps something already has nothing to protect.
     const bool guarded = body && self.clearance(*body, place, room_kept).distance > 0.0;
+    try {
+      return settle(std::move(messages), guarded ? body : nullptr, body, place);
+    } catch (...) {
+      lost = true;
+      ++revision;
+      throw;
+    }
+  }
+
+  /// Takes the messages into use. `guarded` is the body if it is to be kept free.
+  bool settle(std::vector<Message> messages, const Body* guarded, const Body* body, const Vec3& place) {
     take(std::move(messages));
     forget(body, place);
     Patches::Fits fits;
-    if (guarded) {
-      fits = [&](const World& world) { return world.clearance(*body, place, room_kept).distance >= room_kept; };
+    if (guarded != nullptr) {
+      fits = [&](const World& world) { return world.clearance(*guarded, place, room_kept).distance >= room_kept; };
     }
     const std::vector<std::uint32_t> changed = patches.settle(fits);
     if (!changed.empty()) mend(changed);
@@ -225,8 +241,10 @@ PatchId Patchwork::expect(const Box& where, PatchId refines) {
   if (static_cast<std::uint64_t>(refines) > s.delivered.size()) {
     throw Error("cannot expect a patch that refines " + number(refines) + ": that one is not expected");
   }
-  s.delivered.push_back(false);
+  // A number without its message would shift the numbers of all patches after it.
+  if (s.delivered.size() == s.delivered.capacity()) s.delivered.reserve(2 * s.delivered.size() + 64);
   replaced = s.post({Message::Kind::expected, refines, where});
+  s.delivered.push_back(false);
   return PatchId{s.delivered.size()};
 }
 
@@ -241,8 +259,9 @@ void Patchwork::deliver(PatchId patch, World world) {
   State& s = *state_;
   std::vector<World> replaced;  // freed after the lock is released
   const std::lock_guard lock(s.mutex);
-  s.delivered[s.check(patch, "deliver", false)] = true;
+  const std::size_t index = s.check(patch, "deliver", false);
   replaced = s.post({Message::Kind::delivered, patch, {}, std::move(world)});
+  s.delivered[index] = true;
 }
 
 void Patchwork::fail(PatchId patch, const std::string& reason) {
@@ -257,8 +276,9 @@ void Patchwork::forget(PatchId patch) {
   State& s = *state_;
   std::vector<World> replaced;  // freed after the lock is released
   const std::lock_guard lock(s.mutex);
-  s.delivered[s.check(patch, "forget", true)] = false;
+  const std::size_t index = s.check(patch, "forget", true);
   replaced = s.post({Message::Kind::forgotten, patch});
+  s.delivered[index] = false;
 }
 
 bool Patchwork::update(const Body& body, const Vec3& place) { return state_->update(*this, &body, place); }
@@ -268,6 +288,12 @@ bool Patchwork::update() { return state_->update(*this, nullptr, Vec3(0.0)); }
 FirstImpact Patchwork::find_first(const Query& query, Vicinity* /*vicinity*/) const {
   const State& s = *state_;
   FirstImpact first;
+  if (s.lost) {
+    first = met_unknown(everywhere, query);
+    first.triangle += first_side;
+    if (first.contact) first.contact->triangle = first.triangle;
+    return first;
+  }
   double until = 1.0;
   s.tree.along(query::reached(query, 0.0, margin), until, [&](std::uint32_t index, const Interval& when) {
     const Patch& patch = s.patches[index];
@@ -288,6 +314,12 @@ void Patchwork::find_near(const Query& query, Collector& collector, Vicinity* /*
   }
   // With a tolerance the last digits would depend on the order in which patches came.
   collector.demand(0.0);
+  if (state_->lost) {
+    if (!collector.takes_unknown(everywhere, query.body.radius, margin)) return;
+    Contact all = unknown::nearest(everywhere, margin, query.body, query.from, query.motion);
+    all.triangle += first_side;
+    return collector.offer(all, margin);
+  }
   state_->collect(query, collector);
 }
 
@@ -296,6 +328,7 @@ SpaceFacts Patchwork::facts() const {
 }
 
 Object Patchwork::object(TriangleId triangle) const {
+  if (state_->lost) return {no_object, "memory ran out"};
   const Patches& patches = state_->patches;
   const auto number = static_cast<std::uint64_t>(patch(triangle));
   if (number == 0 || number > patches.size() || patches.is_replaced(static_cast<std::uint32_t>(number - 1))) return {};

@@ -3,7 +3,7 @@
 #   instruction_counts.sh check PROGRAM BASELINE TOOLS    compares with the baseline; status 77 where it cannot
 #   instruction_counts.sh renew PROGRAM BASELINE TOOLS    writes what is counted into the baseline
 # TOOLS names compiler and Highway with their versions: others make other code, and have a section of their own.
-# docs/benchmarks.md says when a baseline may be renewed.
+# CONTRIBUTING.md says when a baseline may be renewed.
 set -euo pipefail
 what=$1 program=$(realpath "$2") baseline=$3 tools=$4
 band=3 # per cent

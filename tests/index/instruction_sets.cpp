@@ -4,6 +4,7 @@
 #include <hwy/targets.h>
 
 #include "clutter.h"
+#include "roam/walker.h"
 #include "roam/world.h"
 
 namespace {
@@ -12,7 +13,23 @@ struct Answers {
   std::vector<roam::Impact> sweeps;
   std::vector<roam::Clearance> clearances;
   std::vector<double> gaps;
+  std::vector<roam::Vec3> way;  ///< of a walker and a flier
 };
+
+/// Segment by segment, from place to place.
+void walk(const roam::World& world, roam::Mode mode, std::vector<roam::Vec3>& way) {
+  clutter::Random random(12);
+  roam::Walker walker(world, {}, mode, roam::Vec3(0.0));
+  roam::Vec3 wish(0.0);
+  for (int i = 0; i < 1500; ++i) {
+    if (i % 100 == 0) walker.place(random.in_box(15.0));
+    if (i % 15 == 0) wish = 5.0 * random.direction();
+    for (const roam::Segment& segment : walker.step({.velocity = wish}, 1.0 / 60.0).segments) {
+      way.push_back(segment.position);
+      way.emplace_back(segment.axis_clearance);
+    }
+  }
+}
 
 Answers ask(const roam::World& world) {
   clutter::Random random(11);
@@ -26,14 +43,16 @@ Answers ask(const roam::World& world) {
     out.clearances.push_back(world.clearance(body, from, way, 0.5));
     out.gaps.push_back(world.gap_bound(body, from, way, 0.5));
   }
+  for (const roam::Mode mode : {roam::Mode::walk, roam::Mode::fly}) walk(world, mode, out.way);
   return out;
 }
 
-TEST(InstructionSets, GiveTheSameBits) {
+void expect_the_same_bits(bool lossless) {
   clutter::Random random(10);
   const roam::Mesh mesh = clutter::make(random, {20000, 20.0, 0.01, 5.0, roam::Vec3(0.0)});
-  const roam::World world = roam::World::build({&mesh, 1});
+  const roam::World world = roam::World::build({&mesh, 1}, {.lossless = lossless});
   const Answers best = ask(world);
+  EXPECT_GT(best.way.size(), 1000U);
   int tried = 0;
   const auto supported = hwy::SupportedTargets();
   for (auto left = supported; left != 0; left &= left - 1) {
@@ -52,11 +71,16 @@ TEST(InstructionSets, GiveTheSameBits) {
       ASSERT_EQ(best.clearances[q].triangle, other.clearances[q].triangle) << q;
       ASSERT_EQ(best.gaps[q], other.gaps[q]) << q;
     }
+    ASSERT_EQ(best.way, other.way);
     ++tried;
   }
   hwy::SetSupportedTargetsForTest(0);
   hwy::GetChosenTarget().DeInit();
   EXPECT_GT(tried, 1) << "this machine has one instruction set only: nothing was compared";
 }
+
+TEST(InstructionSets, GiveTheSameBits) { expect_the_same_bits(false); }
+
+TEST(InstructionSets, GiveTheSameBitsInALosslessWorld) { expect_the_same_bits(true); }
 
 }  // namespace

@@ -74,13 +74,14 @@ struct Course {
   double speed = 1.4;
   int steps = 2000;
   int teleport_each = 0;  ///< steps; 0: never
+  int resize_each = 0;    ///< steps; 0: never
   int judge_each = 6;     ///< steps
   int us = 200;           ///< of the clock, that a step takes
 };
 
 struct Tally {
   double length = 0.0;
-  long held = 0, slowed = 0, embedded = 0;
+  long held = 0, slowed = 0, embedded = 0, resized = 0;
 };
 
 /// Free steps are judged by all triangles. Who was free does not come to be in the unknown by an update.
@@ -94,6 +95,11 @@ Tally walk(Maze& maze, Pager& pager, const Course& course, std::uint64_t seed) {
     if (course.teleport_each > 0 && i % course.teleport_each == course.teleport_each - 1) {
       w.place({random.between(2.0, 198.0), random.between(2.0, 198.0), 1.0});
     }
+    if (course.resize_each > 0 && i % course.resize_each == 0) {
+      const double radius = w.settings().radius;
+      w.resize(random.between(0.1, 0.6), 0.0);
+      tally.resized += w.settings().radius != radius ? 1 : 0;
+    }
     const Vec3 before = w.position();
     const double rise = course.mode == Mode::fly ? 1.3 - before.z : 0.0;
     w.step({.velocity = {course.speed * std::cos(heading), course.speed * std::sin(heading), rise}}, frame);
@@ -101,7 +107,9 @@ Tally walk(Maze& maze, Pager& pager, const Course& course, std::uint64_t seed) {
     tally.slowed += w.report().has(EventKind::slowed) ? 1 : 0;
     tally.length += glm::length(w.position() - before);
     if (!w.held() && i % course.judge_each == 0) {
-      EXPECT_GE(margin(maze.judge, w.report(), w.settings().radius), 0.0) << i;
+      const double least =
+          course.resize_each > 0 ? margin(maze.judge, w.report()) : margin(maze.judge, w.report(), w.settings().radius);
+      EXPECT_GE(least, 0.0) << i;
       if (testing::Test::HasFailure()) return tally;
     }
     const bool free = pager.clearance(w.body(), w.position(), 0.01).distance > 0.0;
@@ -140,6 +148,19 @@ TEST(PagerWalk, WithSlowReadsTheBodyGoesSlowlyAndNeverThrough) {
   EXPECT_EQ(tally.embedded, 0);
   EXPECT_GT(tally.slowed, 0);
   EXPECT_GT(tally.length, 5.0);
+}
+
+TEST(PagerWalk, InAnotherSizeAgainAndAgain) {
+  for (const Mode mode : {Mode::walk, Mode::fly}) {
+    Maze maze("pager_sizes", 6);
+    Pager pager(maze.store, {.memory = Pager::least_memory});
+    const Tally tally =
+        walk(maze, pager, {.mode = mode, .speed = 15.0, .steps = 1000, .resize_each = 7, .judge_each = 7}, 7);
+    EXPECT_EQ(tally.embedded, 0);
+    EXPECT_GT(tally.length, 20.0);
+    EXPECT_GT(tally.resized, 30);
+    EXPECT_GT(pager.stats().loads, 20U);
+  }
 }
 
 TEST(PagerWalk, PutAnywhereAgainAndAgain) {

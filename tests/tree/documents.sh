@@ -6,6 +6,7 @@
 # Checked are README.md, SECURITY.md, CONTRIBUTING.md, CHANGELOG.md and docs/**/*.md:
 #   - a relative link leads to a file or folder, and its #anchor to a heading, by GitHub's rules for anchors;
 #   - docs/NAME.md in code, tests and CMake files exists, and so does the heading in: docs/NAME.md, "Heading";
+#   - a test that a document names, `Suite.Test` or `Suite.*`, exists;
 #   - README.md and docs have at most 34,000 words together;
 #   - a line has at most 120 columns, without the targets of its links, unless it is code or a table.
 set -euo pipefail
@@ -75,7 +76,7 @@ normal() { realpath --canonicalize-missing --no-symlinks --relative-to=. -- "$1"
 
 check() {
   cd "$1"
-  local failed=0 links=0 mentions=0 kind file line target path anchor
+  local failed=0 links=0 mentions=0 tests=0 kind file line target path anchor
   fail() { echo "$1"; failed=1; }
   declare -A headings=()
   local -a names
@@ -116,11 +117,19 @@ check() {
   done < <(find apps bench baseline cmake examples include src tests CMakeLists.txt check demo -type f \
     ! -name documents.sh -exec grep -noHE 'docs/[A-Za-z0-9_/-]+\.md(, "[^"]+")?' {} + 2> /dev/null)
 
+  # Tests, as GoogleTest names them.
+  while IFS=: read -r file line target; do
+    target=${target//\`/}
+    tests=$((tests + 1))
+    grep -qrE "^TEST(_F|_P)?\(${target%.*}, *$(sed 's/^\*$/[A-Za-z]*/' <<< "${target##*.}")\)" tests 2> /dev/null ||
+      fail "$file:$line names $target, and there is no such test"
+  done < <(grep -noHE '`[A-Z][A-Za-z]+\.([A-Z][A-Za-z]+|\*)`' "${names[@]}")
+
   local words
   words=$(find README.md docs -name '*.md' -exec cat {} + | wc -w)
   ((words <= most_words)) || fail "README.md and docs have $words words, more than $most_words"
   ((failed == 0)) || return 1
-  echo "${#names[@]} documents: $links links, $mentions mentions, $words words"
+  echo "${#names[@]} documents: $links links, $mentions mentions, $tests tests, $words words"
 }
 
 if (($# == 1)); then
@@ -130,7 +139,7 @@ fi
 
 work=$2
 rm -rf "$work"
-mkdir -p "$work/tree/docs/deep" "$work/tree/src"
+mkdir -p "$work/tree/docs/deep" "$work/tree/src" "$work/tree/tests"
 cd "$work/tree"
 cat > README.md << 'END'
 # A house
@@ -160,6 +169,8 @@ END
 sed -i 's/ – / /' docs/rooms.md
 echo '# Cellar' > docs/deep/cellar.md
 echo '// See docs/rooms.md, "Again", and docs/deep/cellar.md.' > src/house.h
+echo 'TEST_F(House, Stands) {' > tests/house.cpp
+echo '`House.Stands`, `House.*`, `House.h`' >> docs/deep/cellar.md
 touch docs/picture.svg
 
 # planted FILE LINE EXPECTED: the same with one line more must fail, and say EXPECTED.
@@ -184,6 +195,8 @@ planted docs/rooms.md '[gone](README.md)' 'there is no docs/README.md'
 planted docs/deep/cellar.md '[gone](rooms.md)' 'there is no docs/deep/rooms.md'
 planted src/house.h '// docs/gone.md' 'src/house.h:2 mentions docs/gone.md, which is not there'
 planted src/house.h '// docs/rooms.md, "Gone"' 'there is no such heading'
+planted docs/rooms.md '`House.Burns`' 'docs/rooms.md:10 names House.Burns, and there is no such test'
+planted docs/rooms.md '`Hous.*`' 'there is no such test'
 planted README.md "$(printf 'x%.0s' {1..121})" 'README.md:13 has 121 columns'
 planted docs/deep/cellar.md "$(yes word | head -34000)" 'more than 34000'
 # As long as a line may be, with letters of two bytes and a link.

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "clutter.h"
+#include "counted_allocations.h"
 #include "roam/error.h"
 #include "roam/world.h"
 
@@ -151,6 +152,36 @@ TEST(WorldBuild, TellsItsProgressAndStopsWhenAsked) {
   const BuildOptions stop{.threads = 0, .lossless = false, .progress = [](double f) { return f < 0.5; }};
   EXPECT_THROW((void)build(mesh, stop), roam::Cancelled);
 }
+
+// Instrumented builds have an operator new of their own.
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+TEST(WorldBuild, ThrowsWhereverAnAllocationFails) {
+  clutter::Random random(8);
+  const Mesh mesh = clutter::make(random, {2000, 40.0, 0.01, 20.0, Vec3(0.0)});
+  for (const int threads : {1, 2}) {
+    const auto make = [&] { return build(mesh, {.threads = threads, .lossless = false, .progress = {}}); };
+    const World whole = make();
+    ASSERT_GT(whole.stats().tiles, 1U);
+    long failing = 0, thrown = 0;
+    for (bool reached = true; reached;) {
+      allocations = 0;
+      failing_allocation = ++failing;
+      try {
+        const World world = make();
+        failing_allocation = 0;
+        reached = allocations >= failing;
+        // Nothing may hide that memory ran out, unless the world is whole all the same.
+        ASSERT_EQ(world.stats().triangles, whole.stats().triangles) << failing;
+        ASSERT_EQ(world.stats().bytes, whole.stats().bytes) << failing;
+      } catch (const std::bad_alloc&) {
+        failing_allocation = 0;
+        ++thrown;
+      }
+    }
+    EXPECT_GT(thrown, 20) << threads;
+  }
+}
+#endif
 
 TEST(WorldBuild, RefusesWhatItCannotHold) {
   Mesh mesh = floor_mesh(1, 1.0, {0.0, 0.0, 0.0});

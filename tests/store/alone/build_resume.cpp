@@ -127,6 +127,41 @@ TEST(StoreBuildResume, AfterBeingKilledAtAnyStepOnTheDisk) {
   }
 }
 
+TEST(StoreBuildResume, AnUpdateThatIsKilledLeavesTheOldStoreOrTheNew) {
+  const TestFolder folder;
+  const std::vector<std::string> scene{write_ply(folder.file("a.ply"), field(60, 0.5, {0.0, 0.0, 0.0})),
+                                       write_ply(folder.file("b.ply"), field(40, 0.5, {100.0, 0.0, 0.0}))};
+  const auto build = [&](const std::string& output) { roam::build_store(options(scene, output)); };
+  const auto triangles = [](const std::string& store) { return roam::Store::open(store)->info().triangles; };
+  const std::string old = folder.file("old"), updated = folder.file("updated"), output = folder.file("killed");
+  ASSERT_EQ(in_child([&] { build(old); }), 0);
+  write_ply(scene[1], field(50, 0.5, {100.0, 0.0, 0.0}));
+  const auto begin_again = [&] {
+    fs::remove_all(output);
+    fs::copy(old, output, fs::copy_options::recursive);
+  };
+  begin_again();
+  const int count = calls_of(folder.file("count"), [&] { build(output); });
+  ASSERT_GT(count, 10);
+  ASSERT_EQ(in_child([&] { build(updated); }), 0);
+  expect_same(updated, output);
+  int old_ones = 0;
+  const int samples = std::min(count, kills(24));
+  for (int i = 0; i < samples; ++i) {
+    begin_again();
+    const int at = 1 + (count - 1) * i / (samples - 1);
+    ASSERT_TRUE(was_killed(in_child([&] { build(output); }, at, i % 2 == 1))) << at;
+    expect_whole(output);
+    const bool is_old = triangles(output) == triangles(old);
+    EXPECT_TRUE(is_old || triangles(output) == triangles(updated)) << at;
+    old_ones += is_old ? 1 : 0;
+    ASSERT_EQ(in_child([&] { build(output); }), 0);
+    expect_same(updated, output);
+  }
+  EXPECT_GT(old_ones, samples / 4);
+  EXPECT_LT(old_ones, samples);
+}
+
 TEST(StoreBuildResume, SaysThatTheDiskIsFullAndGoesOnWhenItIsNot) {
   const TestFolder folder;
   const std::string scene = write_ply(folder.file("a.ply"), field(60, 0.5, {0.0, 0.0, 0.0}));

@@ -1,0 +1,201 @@
+// Builds whose machine loses its power: of all that was not synced, each part may be on the disk or not. The store is
+// the old one, the new one or none, and the same command continues the build.
+
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <sys/syscall.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <cstdlib>
+#include <functional>
+#include <mutex>
+#include <optional>
+#include <random>
+#include <utility>
+
+#include "store_builds.h"
+
+namespace {
+
+using Inode = std::pair<dev_t, ino_t>;
+
+Inode inode_of(int file) {
+  struct stat status {};
+  ::fstat(file, &status);
+  return {status.st_dev, status.st_ino};
+}
+
+/// A disk that keeps its writes to itself until they are synced.
+struct Disk {
+  struct Rename {
+    Inode folder_inode;
+    int folder;
+    std::string from, to;
+    std::optional<std::string> replaced;  ///< the content that `to` had
+  };
+
+  std::mutex mutex;
+  std::map<Inode, int> unsynced;  ///< files, by descriptors of their own
+  std::vector<Rename> renames;    ///< in folders that are not synced
+  int calls = 0;
+  int fatal_call = 0;  ///< the power goes before this one; 0: never
+  std::minstd_rand random;
+
+  void step() {
+    if (++calls != fatal_call) return;
+    for (const auto& [inode, file] : unsynced) {
+      const auto size = ::lseek(file, 0, SEEK_END);
+      if (const auto kept = random() % 3; kept < 2) static_cast<void>(!::ftruncate(file, size * off_t(kept) / 2));
+    }
+    for (auto it = renames.rbegin(); it != renames.rend(); ++it) {
+      if (random() % 2 == 0) continue;
+      ::syscall(SYS_renameat, it->folder, it->to.c_str(), it->folder, it->from.c_str());
+      if (!it->replaced) continue;
+      const int file = ::openat(it->folder, it->to.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0666);
+      ::syscall(SYS_write, file, it->replaced->data(), it->replaced->size());
+    }
+    ::kill(::getpid(), SIGKILL);
+  }
+
+  static std::optional<std::string> content(int folder, const char* name) {
+    const int file = ::openat(folder, name, O_RDONLY);
+    if (file < 0) return std::nullopt;
+    std::string text(static_cast<std::size_t>(::lseek(file, 0, SEEK_END)), '\0');
+    static_cast<void>(!::pread(file, text.data(), text.size(), 0));
+    ::close(file);
+    return text;
+  }
+};
+
+/// Of a process that builds; none in the test itself.
+Disk* disk = nullptr;
+
+template <class Call>
+auto written(int file, Call&& call) {
+  if (disk == nullptr) return call();
+  const std::lock_guard lock(disk->mutex);
+  disk->step();
+  if (const Inode inode = inode_of(file); !disk->unsynced.contains(inode)) disk->unsynced[inode] = ::dup(file);
+  return call();
+}
+
+}  // namespace
+
+// These take the place of the C library's in this program.
+extern "C" ssize_t write(int file, const void* bytes, std::size_t size) {
+  return written(file, [&] { return static_cast<ssize_t>(::syscall(SYS_write, file, bytes, size)); });
+}
+extern "C" ssize_t pwrite(int file, const void* bytes, std::size_t size, off_t offset) {
+  return written(file, [&] { return static_cast<ssize_t>(::syscall(SYS_pwrite64, file, bytes, size, offset)); });
+}
+extern "C" int fsync(int file) {
+  if (disk == nullptr) return static_cast<int>(::syscall(SYS_fsync, file));
+  const std::lock_guard lock(disk->mutex);
+  disk->step();
+  const Inode inode = inode_of(file);
+  if (const auto it = disk->unsynced.find(inode); it != disk->unsynced.end()) {
+    ::close(it->second);
+    disk->unsynced.erase(it);
+  }
+  std::erase_if(disk->renames, [&](const Disk::Rename& it) {
+    if (it.folder_inode != inode) return false;
+    ::close(it.folder);
+    return true;
+  });
+  return 0;
+}
+extern "C" int renameat(int from_folder, const char* from, int to_folder, const char* to) noexcept {
+  const auto call = [&] { return static_cast<int>(::syscall(SYS_renameat, from_folder, from, to_folder, to)); };
+  if (disk == nullptr) return call();
+  const std::lock_guard lock(disk->mutex);
+  disk->step();
+  disk->renames.push_back({inode_of(to_folder), ::dup(to_folder), from, to, Disk::content(to_folder, to)});
+  return call();
+}
+extern "C" int unlinkat(int folder, const char* file, int flags) noexcept {
+  if (disk != nullptr) {
+    const std::lock_guard lock(disk->mutex);
+    disk->step();
+  }
+  return static_cast<int>(::syscall(SYS_unlinkat, folder, file, flags));
+}
+
+namespace {
+
+using namespace store_builds;
+
+/// Runs in a process of its own, whose power goes at a call that changes the disk; returns its wait status, and writes
+/// the number of calls into the file `count`, if any.
+int in_child(const std::function<void()>& work, int fatal_call = 0, int seed = 0, const std::string& count = {}) {
+  const pid_t child = ::fork();
+  if (child == 0) {
+    disk = new Disk;
+    disk->fatal_call = fatal_call;
+    disk->random.seed(static_cast<unsigned>(seed + 1));
+    int status = 0;
+    try {
+      work();
+    } catch (const std::exception& e) {
+      fprintf(stderr, "%s\n", e.what());
+      status = 1;
+    }
+    const int calls = std::exchange(disk, nullptr)->calls;
+    if (!count.empty()) std::ofstream(count) << calls;
+    ::_exit(status);
+  }
+  int status = 0;
+  ::waitpid(child, &status, 0);
+  return status;
+}
+
+/// How many cuts a test makes: ROAM_TEST_CUTS where that is set.
+int cuts() {
+  const char* text = std::getenv("ROAM_TEST_CUTS");
+  return text != nullptr ? std::atoi(text) : 30;
+}
+
+TEST(StoreBuildPower, ACutAtAnyStepLeavesTheOldStoreTheNewOrNone) {
+  const TestFolder folder;
+  const std::vector<std::string> scene{write_ply(folder.file("a.ply"), field(60, 0.5, {0.0, 0.0, 0.0})),
+                                       write_ply(folder.file("b.ply"), field(40, 0.5, {100.0, 0.0, 0.0}))};
+  const auto build = [&](const std::string& output) { roam::build_store(options(scene, output)); };
+  const auto triangles = [](const std::string& store) { return roam::Store::open(store)->info().triangles; };
+  const std::string old = folder.file("old"), updated = folder.file("updated"), output = folder.file("cut");
+  ASSERT_EQ(in_child([&] { build(old); }), 0);
+  write_ply(scene[1], field(50, 0.5, {100.0, 0.0, 0.0}));
+  ASSERT_EQ(in_child([&] { build(updated); }), 0);
+  int old_ones = 0, new_ones = 0;
+  for (const bool updating : {false, true}) {
+    const auto begin_again = [&] {
+      fs::remove_all(output);
+      if (updating) fs::copy(old, output, fs::copy_options::recursive);
+    };
+    begin_again();
+    ASSERT_EQ(in_child([&] { build(output); }, 0, 0, folder.file("count")), 0);
+    const int count = std::atoi(folder.read("count").c_str());
+    ASSERT_GT(count, 20);
+    for (int i = 0; i < cuts(); ++i) {
+      begin_again();
+      const int at = 1 + (count - 1) * i / (cuts() - 1);
+      SCOPED_TRACE((updating ? "update, call " : "call ") + std::to_string(at) + " of " + std::to_string(count));
+      // The order of calls may differ from run to run, and so may their number.
+      in_child([&] { build(output); }, at, i);
+      if (updating || fs::exists(output + "/CURRENT")) {
+        expect_whole(output);
+        const bool is_old = updating && triangles(output) == triangles(old);
+        EXPECT_TRUE(is_old || triangles(output) == triangles(updated));
+        ++(is_old ? old_ones : new_ones);
+      }
+      ASSERT_EQ(in_child([&] { build(output); }), 0);
+      expect_same(updated, output);
+      if (HasFailure()) return;
+    }
+  }
+  EXPECT_GT(old_ones, cuts() / 4);
+  EXPECT_GT(new_ones, 0);
+}
+
+}  // namespace

@@ -1,0 +1,101 @@
+// A patchwork whose memory runs out lets nobody through: patches are as announced, or all of it is solid.
+
+#include <gtest/gtest.h>
+
+#include <new>
+
+#include "counted_allocations.h"
+#include "roam/patchwork.h"
+#include "roam/walker.h"
+#include "walker_scenes.h"
+
+// Instrumented builds have an operator new of their own.
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+
+namespace {
+
+using roam::Body;
+using roam::PatchId;
+using roam::Patchwork;
+using roam::Vec3;
+
+constexpr Body ball{0.2, 0.0};
+const roam::Box box{Vec3(-5.0), Vec3(5.0)};
+
+/// Returns whether it threw because this allocation failed.
+template <class Call>
+bool fails(long allocation, const Call& call) {
+  allocations = 0;
+  failing_allocation = allocation;
+  bool threw = false;
+  try {
+    call();
+  } catch (const std::bad_alloc&) {
+    threw = true;
+  }
+  failing_allocation = 0;
+  return threw;
+}
+
+roam::Mesh wall() {
+  roam::Mesh mesh;
+  scenes::add_wall(mesh, 0.0, -4.0, 0.0, 4.0, -4.0, 4.0);
+  return mesh;
+}
+
+TEST(PatchworkMemory, WhereAnUpdateRunsOutOfItAllIsSolid) {
+  int lost = 0;
+  for (long failing = 1;; ++failing) {
+    Patchwork space;
+    const PatchId known = space.expect({Vec3(10.0), Vec3(11.0)});
+    space.update();
+    space.deliver(known, scenes::build(wall()));
+    roam::Walker walker(space, roam::WalkerSettings::sphere(0.2), roam::Mode::fly, {-9.0, 0.0, 0.0});
+    ASSERT_FALSE(walker.held());
+    const auto revision = space.facts().revision;
+    static_cast<void>(space.expect(box));
+    if (!fails(failing, [&] { space.update(ball, {-9.0, 0.0, 0.0}); })) break;
+    ++lost;
+    EXPECT_NE(space.facts().revision, revision);
+    EXPECT_THROW(space.update(), roam::Error);
+    for (const Vec3& from : {Vec3(-9.0, 0.0, 0.0), Vec3(0.0), Vec3(900.0, 1e6, -3e8)}) {
+      const roam::Impact met = space.sweep(ball, from, {18.0, 0.0, 0.0});
+      EXPECT_TRUE(met.hit && met.unknown && met.time == 0.0) << failing;
+      EXPECT_EQ(space.object_name(met.triangle), "memory ran out");
+      EXPECT_LE(space.gap_bound(ball, from, {1.0, 0.0, 0.0}, 1.0), 0.0);
+      EXPECT_TRUE(space.clearance(ball, from, 1.0).unknown);
+    }
+    for (int i = 0; i < 3; ++i) walker.step({.velocity = {100.0, 0.0, 0.0}}, 0.1);
+    EXPECT_TRUE(walker.held() && walker.report().met_unknown);
+    EXPECT_EQ(walker.position(), Vec3(-9.0, 0.0, 0.0));
+  }
+  EXPECT_GT(lost, 5);
+}
+
+TEST(PatchworkMemory, WhereAMessageRunsOutOfItNothingIsAnnounced) {
+  int unannounced = 0, undelivered = 0;
+  for (long failing = 1; failing < 20; ++failing) {
+    Patchwork space;
+    unannounced += fails(failing, [&] { static_cast<void>(space.expect({Vec3(10.0), Vec3(11.0)})); }) ? 1 : 0;
+    const PatchId patch = space.expect(box);
+    space.update();
+    EXPECT_TRUE(space.sweep(ball, {-9.0, 0.0, 0.0}, {18.0, 0.0, 0.0}).unknown);
+    roam::World world = scenes::build(wall());
+    if (fails(failing, [&] { space.deliver(patch, std::move(world)); })) {
+      ++undelivered;
+      space.update();
+      EXPECT_TRUE(space.sweep(ball, {-9.0, 0.0, 0.0}, {18.0, 0.0, 0.0}).unknown);
+      space.deliver(patch, scenes::build(wall()));
+    }
+    space.update();
+    const roam::Impact met = space.sweep(ball, {-9.0, 0.0, 0.0}, {18.0, 0.0, 0.0});
+    EXPECT_TRUE(met.hit && !met.unknown);
+    EXPECT_EQ(Patchwork::patch(met.triangle), patch);
+  }
+  EXPECT_GT(unannounced, 0);
+  EXPECT_GT(undelivered, 0);
+}
+
+}  // namespace
+
+#endif
