@@ -98,8 +98,8 @@ HWY_INLINE void keep_off_planes(const Triangles& t, const V3& way, VF end, VF ke
 /// precision. A Ray first drops the triangles that its line certainly misses. With `first_only`, an arrival drops the
 /// triangles whose turn certainly comes later: the earliest impact stays the same to the bit.
 template <class Line, bool first_only>
-HWY_INLINE void sweep_leaf(const Leaf& leaf, const FineLeaf* low, const Frame& frame, const Motion& motion, const Line& line, float radius,
-                           float hit_limit, float t_entry, float t_max, Met& out) {
+HWY_INLINE void sweep_leaf(const Leaf& leaf, const FineLeaf* low, const Frame& frame, const Motion& motion,
+                           const Line& line, float radius, float hit_limit, float t_entry, float t_max, Met& out) {
   out.arrived = out.open = 0;
   const V3 way{set(motion.way[0]), set(motion.way[1]), set(motion.way[2])};
   const VF keep = set(radius * (1.0F + radius_roundings * float_unit));
@@ -220,8 +220,8 @@ HWY_INLINE VF off_planes(const Triangles& t, const V3& way, float half_height) {
 /// the nearest point of the swept axis. It is perpendicular to the motion and to the axis unless that point is at one
 /// of their ends.
 template <class Bounds>
-HWY_INLINE void near_leaf(const Leaf& leaf, const FineLeaf* low, const Frame& frame, const Way& way, float reach, const Bounds& bounds,
-                          VF& left, Children& out, float* most) {
+HWY_INLINE void near_leaf(const Leaf& leaf, const FineLeaf* low, const Frame& frame, const Way& way, float reach,
+                          const Bounds& bounds, VF& left, Children& out, float* most) {
   out.mask = 0;
   const VF zero = hn::Zero(kF), one = set(1.0F), h = set(way.half_height);
   const V3 m{set(way.way[0]), set(way.way[1]), set(way.way[2])};

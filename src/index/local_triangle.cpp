@@ -34,7 +34,8 @@ certified::LocalTriangle local_triangle(const Index& index, const Place& place, 
   const double step = tile.step;
   const Vec3 offset = tile.origin - start;
   const FineLeaf* const all = fine_leaves(index, tile);
-  if (all == nullptr) return placed(leaf, place.triangle, offset, [&](int k, int v) { return step * leaf.vertex[k][v]; });
+  if (all == nullptr)
+    return placed(leaf, place.triangle, offset, [&](int k, int v) { return step * leaf.vertex[k][v]; });
   const FineLeaf* const low = all + (place.leaf - tile.leaves);
   const double fine = step / double(fine_steps);
   return placed(leaf, place.triangle, offset,

@@ -104,8 +104,8 @@ class SweepTraversal {
       if (piece.body.radius > wide_body) return;
       const bool precise = low != nullptr && t.fine_error < 0.5F * fine_hit_distance;
       const auto limit = double(precise ? fine_hit_distance : hit_limit_distance);
-      hit_limit = static_cast<float>(piece.body.radius + limit - double(t.fine_error)) *
-                  (1.0F - radius_roundings * float_unit);
+      hit_limit =
+          static_cast<float>(piece.body.radius + limit - double(t.fine_error)) * (1.0F - radius_roundings * float_unit);
     }
   };
 

@@ -113,10 +113,10 @@ void sweep_every_triangle(bool capsule) {
     const float beyond = has_low ? roam::index::fine_hit_distance : roam::index::hit_limit_distance;
     const float limit = q % 2 == 0 ? -1.0F : touch.radius + beyond;
     lanes::Met met, all;
-    lanes::sweep_leaf<lanes::NoRay, true>(touch.scene.leaf, touch.scene.low, touch.frame, motion, lanes::NoRay(motion), touch.radius,
-                                          limit, 0.0F, 1.0F, met);
-    lanes::sweep_leaf<lanes::NoRay, false>(touch.scene.leaf, touch.scene.low, touch.frame, motion, lanes::NoRay(motion), touch.radius,
-                                           limit, 0.0F, 1.0F, all);
+    lanes::sweep_leaf<lanes::NoRay, true>(touch.scene.leaf, touch.scene.low, touch.frame, motion, lanes::NoRay(motion),
+                                          touch.radius, limit, 0.0F, 1.0F, met);
+    lanes::sweep_leaf<lanes::NoRay, false>(touch.scene.leaf, touch.scene.low, touch.frame, motion, lanes::NoRay(motion),
+                                           touch.radius, limit, 0.0F, 1.0F, all);
     expect_same_first(met, all);
     for (int i = 0; i < node_width; ++i) {
       ++tested;
@@ -228,8 +228,8 @@ TEST(LeafFilter, KnowsHowNearASliverIs) {
     lanes::VF left = lanes::set(0.0F);
     lanes::Children triangles;
     alignas(64) float most[node_width];
-    lanes::near_leaf(sliver.leaf, nullptr, frame, lanes::Way(Vec3(0.0), 0.0), 200.0F, lanes::Tight(0.0, 0.0, 0.0, 0.0), left,
-                     triangles, most);
+    lanes::near_leaf(sliver.leaf, nullptr, frame, lanes::Way(Vec3(0.0), 0.0), 200.0F, lanes::Tight(0.0, 0.0, 0.0, 0.0),
+                     left, triangles, most);
     ASSERT_EQ(triangles.mask & 1U, 1U) << q;
     const long double least = oracle::distance(Body{0.0, 0.0}, place, t);
     ASSERT_GE(least, (long double)(triangles.key[0])) << q;
@@ -254,8 +254,8 @@ TEST(LeafFilter, ArrivesAtASliverInTime) {
     const float delta = 0.00085F, radius = static_cast<float>(body.radius) + delta;
     const float limit = static_cast<float>(body.radius) + 0.00114F;
     lanes::Met met;
-    lanes::sweep_leaf<lanes::NoRay, true>(sliver.leaf, nullptr, frame, motion, lanes::NoRay(motion), radius, limit, 0.0F, 1.0F,
-                                          met);
+    lanes::sweep_leaf<lanes::NoRay, true>(sliver.leaf, nullptr, frame, motion, lanes::NoRay(motion), radius, limit,
+                                          0.0F, 1.0F, met);
     const bool here = (met.arrived & 1U) != 0;
     arrived += here ? 1 : 0;
     const double free = here || (met.open & 1U) != 0 ? double(met.time[0]) : double(met.until);
