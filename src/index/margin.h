@@ -65,12 +65,8 @@ inline constexpr float fine_hit_distance = 9e-6F;
 /// Metres. Longer motions are swept in pieces, so that the frame of a piece stays small.
 inline constexpr double longest_piece = 64.0;
 
-/// At least this many children of a node, met by a motion of up to short_motion, are bounded by a second plane. Not
-/// used for rays.
-inline constexpr int many_children = 4;
-
-/// Up to this many children of a node over tiles, met by such a motion, are visited in any order: sorting would take as
-/// long as the visits. See few_tiles.
+/// Up to this many children of a node over tiles, met by a motion of up to short_motion, are visited in any order:
+/// sorting would take as long as the visits. See few_tiles.
 inline constexpr int few_tile_count = 3;
 
 /// Metres. The box around a longer motion is too wide to exclude much.

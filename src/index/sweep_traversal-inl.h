@@ -123,11 +123,11 @@ class SweepTraversal {
     push_children(root, children, nodes, leaves, stack_);
   }
 
-  /// Selects among several children that a short motion may meet, and computes times.
+  /// Selects among the children `met`, and computes times.
   HWY_INLINE void choose(const Node& node, const Frame& frame, std::uint32_t met, float grown, Children& out) const {
     sweep_node(node, frame, motion_, grown, t_max_, out);
     out.mask &= met;
-    if (std::popcount(out.mask) >= many_children) delay_children(node, frame, motion_, grown, t_max_, out);
+    if ((out.mask & (out.mask - 1)) != 0) delay_children(node, frame, motion_, grown, t_max_, out);
   }
 
   /// The result of a descent: a single leaf, or the children of one node.
@@ -147,7 +147,7 @@ class SweepTraversal {
     out.single = false;
     out.node = &nodes[number].node;
     if (!Line::is_ray && !short_) {
-      sweep_node(*out.node, frame, motion_, grown, t_max_, out.children);
+      choose(*out.node, frame, ~0U, grown, out.children);
       return out;
     }
     for (;;) {
