@@ -98,20 +98,21 @@ HWY_INLINE void keep_off_planes(const Triangles& t, const V3& way, VF end, VF ke
 /// precision. A Ray first drops the triangles that its line certainly misses. With `first_only`, an arrival drops the
 /// triangles whose turn certainly comes later: the earliest impact stays the same to the bit.
 template <class Line, bool first_only>
-HWY_INLINE void sweep_leaf(const Leaf& leaf, const Frame& frame, const Motion& motion, const Line& line, float radius,
-                           float hit_limit, float t_entry, float t_max, Met& out) {
+HWY_INLINE void sweep_leaf(const Leaf& leaf, const FineLeaf* low, const Frame& frame, const Motion& motion,
+                           const Line& line, float radius, float hit_limit, float t_entry, float t_max, Met& out) {
   out.arrived = out.open = 0;
   const V3 way{set(motion.way[0]), set(motion.way[1]), set(motion.way[2])};
   const VF keep = set(radius * (1.0F + radius_roundings * float_unit));
   const VF zero = hn::Zero(kF);
   VF end = set(t_max);
+  const Vertices vertices(leaf, low, frame);
   for (int first = 0; first < leaf.triangle_count; first += lane_count) {
     MF active = hn::FirstN(kF, static_cast<std::size_t>(leaf.triangle_count - first));
     if constexpr (Line::is_ray) {
-      active = pierced(leaf, frame, line, first, active);
+      active = pierced(leaf, vertices, line, first, active);
       if (hn::AllFalse(kF, active)) continue;
     }
-    Triangles t = load_triangles(leaf, frame, first);
+    Triangles t = load_triangles(leaf, vertices, first);
     VF time = set(t_entry);
     keep_off_planes(t, way, end, keep, leaf_error(t, set(t_max * motion.longest), frame, motion.half_height),
                     motion.longest, motion.half_height, time, active);
@@ -219,14 +220,15 @@ HWY_INLINE VF off_planes(const Triangles& t, const V3& way, float half_height) {
 /// the nearest point of the swept axis. It is perpendicular to the motion and to the axis unless that point is at one
 /// of their ends.
 template <class Bounds>
-HWY_INLINE void near_leaf(const Leaf& leaf, const Frame& frame, const Way& way, float reach, const Bounds& bounds,
-                          VF& left, Children& out, float* most) {
+HWY_INLINE void near_leaf(const Leaf& leaf, const FineLeaf* low, const Frame& frame, const Way& way, float reach,
+                          const Bounds& bounds, VF& left, Children& out, float* most) {
   out.mask = 0;
   const VF zero = hn::Zero(kF), one = set(1.0F), h = set(way.half_height);
   const V3 m{set(way.way[0]), set(way.way[1]), set(way.way[2])};
+  const Vertices vertices(leaf, low, frame);
   const int rounds = way.moves || way.half_height > 0.0F ? near_rounds : 1;
   for (int first = 0; first < leaf.triangle_count; first += lane_count) {
-    Triangles t = load_triangles(leaf, frame, first);
+    Triangles t = load_triangles(leaf, vertices, first);
     const VF error = hn::Add(leaf_error(t, set(way.longest), frame, way.half_height),
                              set(speed_roundings * float_unit * way.longest));
     const MF triangle = hn::FirstN(kF, static_cast<std::size_t>(leaf.triangle_count - first));

@@ -33,8 +33,10 @@ certified::LocalTriangle local_triangle(const Index& index, const Place& place, 
   const Leaf& leaf = index.blocks[place.leaf].leaf;
   const double step = tile.step;
   const Vec3 offset = tile.origin - start;
-  if (!tile.fine) return placed(leaf, place.triangle, offset, [&](int k, int v) { return step * leaf.vertex[k][v]; });
-  const auto* const low = reinterpret_cast<const FineLeaf*>(index.fine + tile.fine_leaves) + (place.leaf - tile.leaves);
+  const FineLeaf* const all = fine_leaves(index, tile);
+  if (all == nullptr)
+    return placed(leaf, place.triangle, offset, [&](int k, int v) { return step * leaf.vertex[k][v]; });
+  const FineLeaf* const low = all + (place.leaf - tile.leaves);
   const double fine = step / double(fine_steps);
   return placed(leaf, place.triangle, offset,
                 [&](int k, int v) { return step * leaf.vertex[k][v] + fine * low->vertex[k][v]; });

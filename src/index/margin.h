@@ -56,19 +56,17 @@ inline constexpr double thin_body = 1e-5;
 /// Metres. A body this close to touching, apart from its error bound, has arrived. Only speed depends on it.
 inline constexpr float arrival_tolerance = 2e-5F;
 
-/// Metres. In exact arithmetic a hit in a tile without low bits is at most this far from the radius. The rest up to the
-/// 2 mm that World promises covers the rounding of the limit itself.
+/// Metres. In exact arithmetic a hit is at most this far from the radius. The rest up to the 2 mm that World promises
+/// covers the rounding of the limit itself.
 inline constexpr float hit_limit_distance = 1.99e-3F;
+/// The same for vertices with low bits that are known at least twice as well: of the 1e-5 m of a lossless world.
+inline constexpr float fine_hit_distance = 9e-6F;
 
 /// Metres. Longer motions are swept in pieces, so that the frame of a piece stays small.
 inline constexpr double longest_piece = 64.0;
 
-/// At least this many children of a node, met by a motion of up to short_motion, are bounded by a second plane. Not
-/// used for rays.
-inline constexpr int many_children = 4;
-
-/// Up to this many children of a node over tiles, met by such a motion, are visited in any order: sorting would take as
-/// long as the visits. See few_tiles.
+/// Up to this many children of a node over tiles, met by a motion of up to short_motion, are visited in any order:
+/// sorting would take as long as the visits. See few_tiles.
 inline constexpr int few_tile_count = 3;
 
 /// Metres. The box around a longer motion is too wide to exclude much.

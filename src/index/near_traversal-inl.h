@@ -164,11 +164,13 @@ class NearTraversal {
     const Frame frame(t.origin, t.step, piece_.start);
     const Block* nodes = index_.blocks + t.nodes;
     const Block* leaves = index_.blocks + t.leaves;
-    const auto error = double(t.error);
-    const Bounds bounds(near_.part, piece_.body.radius, error, near_.reach);
-    float reach = axis_reach(error);
+    // Boxes enclose the vertices without their low bits.
+    const auto error = double(t.error), fine_error = double(t.fine_error);
+    const FineLeaf* low = fine_leaves(index_, t);
+    const Bounds bounds(near_.part, piece_.body.radius, fine_error, near_.reach);
+    float reach = axis_reach(error), leaf_reach = axis_reach(fine_error);
     const float grown = margin(tile_steps, frame);
-    Passed passed;
+    Passed passed, passed_triangles;
     const auto beyond = [&](float key) { return passed.over(key, reach); };
     const Around around = around_of(frame, reach, error);
     const auto look = [&](std::uint32_t at, Children& children) -> const Node& {
@@ -178,13 +180,15 @@ class NearTraversal {
       looked_ = true;
       Children triangles;
       alignas(64) float most[node_width];
-      near_leaf(leaves[leaf].leaf, frame, way_, reach, bounds, passed.lanes, triangles, most);
+      near_leaf(leaves[leaf].leaf, low == nullptr ? nullptr : low + leaf, frame, way_, leaf_reach, bounds,
+                passed_triangles.lanes, triangles, most);
       while (triangles.mask != 0) {
         const std::uint32_t nearest = nearest_of(triangles);
-        if (beyond(triangles.key[nearest])) break;
+        if (passed_triangles.over(triangles.key[nearest], leaf_reach)) break;
         triangles.mask &= ~(1U << nearest);
         reach_ = visit_(context_, {number, t.leaves + leaf, nearest}, {triangles.key[nearest], most[nearest]});
         reach = axis_reach(error);
+        leaf_reach = axis_reach(fine_error);
       }
     };
     if (gathered != nullptr) {
@@ -201,6 +205,7 @@ class NearTraversal {
       push_children(node, children, nodes, leaves, stack_);
     });
     note(passed, error);
+    note(passed_triangles, fine_error);
   }
 
   /// Starts from the gathered root of a tile: tests the nearest child first if it is a leaf, and then pushes the

@@ -98,15 +98,14 @@ HWY_INLINE void ray_node(const Node& node, const Frame& frame, const Motion& mot
 ///
 /// With any numbers p and q and the directions u and v, w = p u + q v is perpendicular to the motion and is a valid
 /// direction.
-HWY_INLINE MF pierced(const Leaf& leaf, const Frame& frame, const Ray& ray, int first, MF active) {
+HWY_INLINE MF pierced(const Leaf& leaf, const Vertices& vertices, const Ray& ray, int first, MF active) {
   const Corners corners(leaf, first);
   VF at[2][3];
   for (int i = 0; i < 2; ++i) {
     const V3 w{set(ray.across[i][0]), set(ray.across[i][1]), set(ray.across[i][2])};
     corners.pick(
         [&](int from) {
-          return dot(w, {vertices_of(leaf, frame, 0, from), vertices_of(leaf, frame, 1, from),
-                         vertices_of(leaf, frame, 2, from)});
+          return dot(w, {vertices.at(0, from), vertices.at(1, from), vertices.at(2, from)});
         },
         at[i]);
     const VF least = hn::Min(hn::Min(at[i][0], at[i][1]), at[i][2]);

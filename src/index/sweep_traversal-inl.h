@@ -62,33 +62,52 @@ class SweepTraversal {
   void tile(std::uint32_t number, const Root* gathered = nullptr) {
     const Tile& t = index_.tiles[number];
     if (t.absent()) return take(index_.absent->sweep(index_.absent->context, number, best_.time), {number, 0, 0});
-    const Frame frame(t.origin, t.step, piece_.start);
-    const Swept swept(frame, reach_, t.error);
-    const float radius = round_up(piece_.body.radius + double(t.error));
-    const float grown = grown_for(radius, tile_steps, frame);
-    // Beyond it, a distance to a stored triangle does not prove that the true distance is within the limit.
-    const bool exact = t.fine || piece_.body.radius > wide_body;
-    const float hit_limit =
-        exact ? -1.0F
-              : static_cast<float>(piece_.body.radius + double(hit_limit_distance) - double(t.error)) *
-                    (1.0F - radius_roundings * float_unit);
-    if constexpr (Line::is_ray) line_.enter(frame, motion_, radius, tile_steps);
+    const Inside in(t, number, index_, piece_);
+    const Swept swept(in.frame, reach_, t.error);
+    // Boxes enclose the vertices without their low bits.
+    const float grown = grown_for(round_up(piece_.body.radius + double(t.error)), tile_steps, in.frame);
+    if constexpr (Line::is_ray) line_.enter(in.frame, motion_, in.radius, tile_steps);
     const Block* nodes = index_.blocks + t.nodes;
-    const Block* leaves = index_.blocks + t.leaves;
     const auto beyond = [this](float key) { return key >= t_max_; };
     const auto visit = [&](const Stack::Entry& e) {
       std::uint32_t only = e.number;
       if (!e.leaf) {
-        const Descent met = descend(nodes, e.number, frame, swept, grown, 1);
-        if (!met.single) return push_children(*met.node, met.children, nodes, leaves, stack_);
+        const Descent met = descend(nodes, e.number, in.frame, swept, grown, 1);
+        if (!met.single) return push_children(*met.node, met.children, nodes, in.leaves, stack_);
         only = met.first;
       }
-      leaf(number, t, leaves[only].leaf, only, frame, radius, hit_limit, e.key);
+      leaf(in, only, e.key);
     };
     if (gathered == nullptr) return search(stack_, beyond, visit);
-    begin(*gathered, frame, swept, grown, nodes, leaves);
+    begin(*gathered, in.frame, swept, grown, nodes, in.leaves);
     go_on(stack_, beyond, visit);
   }
+
+  /// A tile as its leaves need it.
+  struct Inside {
+    const Tile& tile;
+    std::uint32_t number;
+    const Block* leaves;
+    const FineLeaf* low;
+    Frame frame;
+    float radius, hit_limit;  ///< see sweep_leaf()
+
+    HWY_INLINE Inside(const Tile& t, std::uint32_t n, const Index& index, const Piece& piece)
+        : tile(t),
+          number(n),
+          leaves(index.blocks + t.leaves),
+          low(fine_leaves(index, t)),
+          frame(t.origin, t.step, piece.start),
+          radius(round_up(piece.body.radius + double(t.fine_error))),
+          hit_limit(-1.0F) {
+      // Beyond it, a distance to a stored triangle does not prove that the true distance is within the limit.
+      if (piece.body.radius > wide_body) return;
+      const bool precise = low != nullptr && t.fine_error < 0.5F * fine_hit_distance;
+      const auto limit = double(precise ? fine_hit_distance : hit_limit_distance);
+      hit_limit =
+          static_cast<float>(piece.body.radius + limit - double(t.fine_error)) * (1.0F - radius_roundings * float_unit);
+    }
+  };
 
   /// Starts from the gathered root of a tile.
   HWY_INLINE void begin(const Root& root, const Frame& frame, const Swept& swept, float grown, const Block* nodes,
@@ -104,11 +123,11 @@ class SweepTraversal {
     push_children(root, children, nodes, leaves, stack_);
   }
 
-  /// Selects among several children that a short motion may meet, and computes times.
+  /// Selects among the children `met`, and computes times.
   HWY_INLINE void choose(const Node& node, const Frame& frame, std::uint32_t met, float grown, Children& out) const {
     sweep_node(node, frame, motion_, grown, t_max_, out);
     out.mask &= met;
-    if (std::popcount(out.mask) >= many_children) delay_children(node, frame, motion_, grown, t_max_, out);
+    if ((out.mask & (out.mask - 1)) != 0) delay_children(node, frame, motion_, grown, t_max_, out);
   }
 
   /// The result of a descent: a single leaf, or the children of one node.
@@ -128,7 +147,7 @@ class SweepTraversal {
     out.single = false;
     out.node = &nodes[number].node;
     if (!Line::is_ray && !short_) {
-      sweep_node(*out.node, frame, motion_, grown, t_max_, out.children);
+      choose(*out.node, frame, ~0U, grown, out.children);
       return out;
     }
     for (;;) {
@@ -160,13 +179,13 @@ class SweepTraversal {
     return out;
   }
 
-  void leaf(std::uint32_t tile_number, const Tile& t, const Leaf& leaf, std::uint32_t number, const Frame& frame,
-            float radius, float hit_limit, float entry) {
+  void leaf(const Inside& in, std::uint32_t number, float entry) {
     Met met;
-    sweep_leaf<Line, !skips>(leaf, frame, motion_, line_, radius, hit_limit, entry, t_max_, met);
+    sweep_leaf<Line, !skips>(in.leaves[number].leaf, in.low == nullptr ? nullptr : in.low + number, in.frame, motion_,
+                             line_, in.radius, in.hit_limit, entry, t_max_, met);
     for (std::uint32_t left = met.arrived; left != 0; left &= left - 1) {
       const auto i = static_cast<std::uint32_t>(std::countr_zero(left));
-      const Place place{tile_number, t.leaves + number, i};
+      const Place place{in.number, in.tile.leaves + number, i};
       if constexpr (skips) {
         if (index_.skip->skips(index_.skip->context, place)) continue;
       }
@@ -175,11 +194,11 @@ class SweepTraversal {
     for (std::uint32_t left = met.open; left != 0; left &= left - 1) {
       const auto i = static_cast<std::uint32_t>(std::countr_zero(left));
       if (double(met.time[i]) >= best_.time) continue;
-      const Place place{tile_number, t.leaves + number, i};
+      const Place place{in.number, in.tile.leaves + number, i};
       if constexpr (skips) {
         if (index_.skip->skips(index_.skip->context, place)) continue;
       }
-      decide(t, place, double(met.time[i]));
+      decide(in.tile, place, double(met.time[i]));
     }
   }
 

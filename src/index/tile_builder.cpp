@@ -14,14 +14,10 @@ namespace {
 /// Metres. Typical growth of a box's sides by a query: the body and its motion in one step.
 constexpr double query_margin = 0.2;
 
-/// The three corners of a triangle in fine steps.
-using Corners = std::array<std::array<std::int64_t, 3>, 3>;
-
-/// A vertex of a leaf as one number; numbers are equal exactly if the stored vertices are. It has 32 bits per axis with
-/// low bits, else 16.
+/// A stored vertex: three coordinates in fine steps if its tile has low bits, else in whole steps.
 struct VertexKey {
   std::uint64_t xy, z;
-  auto operator<=>(const VertexKey&) const = default;
+  bool operator==(const VertexKey&) const = default;
 };
 
 class TileBuilder {
@@ -61,17 +57,19 @@ class TileBuilder {
       for (int c = 0; c < 3; ++c) {
         const Vec3& v = triangles_[i][c];
         const auto f = grid_.fine(v);
-        corners_[i][c] = f;
+        std::array<std::int64_t, 3> whole;
         double error = 0.0, error_fine = 0.0;
         StepBox point;
         for (int k = 0; k < 3; ++k) {
-          const std::int64_t w = Grid::whole(f[k]);
-          point.lower[k] = point.upper[k] = static_cast<std::int32_t>(w);
+          whole[k] = Grid::whole(f[k]);
+          point.lower[k] = point.upper[k] = static_cast<std::int32_t>(whole[k]);
           const double at = v[k] - grid_.origin[k];
-          const double e = at - grid_.step * double(w), ef = at - fine_step * double(f[k]);
+          const double e = at - grid_.step * double(whole[k]), ef = at - fine_step * double(f[k]);
           error += e * e;
           error_fine += ef * ef;
         }
+        const auto& stored = fine_ ? f : whole;
+        corners_[i][c] = {std::uint64_t(stored[0]) << 32 | std::uint64_t(stored[1]), std::uint64_t(stored[2])};
         boxes_[i].include(point);
         worst = std::max(worst, error);
         worst_fine = std::max(worst_fine, error_fine);
@@ -91,20 +89,13 @@ class TileBuilder {
     out_.tile.fine_error = fine_ ? round_up(worst_fine) : out_.tile.error;
   }
 
-  [[nodiscard]] VertexKey key(std::uint32_t triangle, int corner) const {
-    const auto& f = corners_[triangle][corner];
-    if (fine_) return {std::uint64_t(f[0]) << 32 | std::uint64_t(f[1]), std::uint64_t(f[2])};
-    return {std::uint64_t(Grid::whole(f[0])) << 32 | std::uint64_t(Grid::whole(f[1])),
-            std::uint64_t(Grid::whole(f[2]))};
-  }
-
   /// Collects the distinct vertices of the triangles in order of first use. False if there are more than a leaf holds.
   bool distinct(std::span<const std::uint32_t> items, std::array<VertexKey, node_width>& keys, int& count,
                 Leaf* leaf) const {
     count = 0;
     for (std::size_t i = 0; i < items.size(); ++i) {
       for (int c = 0; c < 3; ++c) {
-        const VertexKey v = key(items[i], c);
+        const VertexKey& v = corners_[items[i]][c];
         int found = 0;
         while (found < count && keys[found] != v) ++found;
         if (found == count) {
@@ -174,7 +165,7 @@ class TileBuilder {
   std::span<const Triangle> triangles_;
   std::span<const std::uint32_t> ids_;
   bool fine_ = false;
-  std::vector<Corners> corners_;
+  std::vector<std::array<VertexKey, 3>> corners_;
   std::vector<StepBox> boxes_;
   Grid grid_;
   BuiltTile out_;

@@ -88,7 +88,7 @@ struct Impact {
 [[nodiscard]] Impact first_impact(const Index& index, std::span<const Root> roots, const Piece& piece,
                                   double until = 1.0);
 
-/// Distance between a stored triangle, without its low bits, and the body's axis during its motion, metres.
+/// Distance between a stored triangle and the body's axis during its motion, metres.
 struct Nearness {
   float least;  ///< certified lower bound
   float most;   ///< estimate of an upper bound
@@ -114,6 +114,11 @@ double visit_near(const Index& index, const Piece& piece, const Near& near, Visi
 /// The same, beginning at gathered roots. Everything within the reach must lie in their box too.
 double visit_near(const Index& index, std::span<const Root> roots, const Piece& piece, const Near& near, Visit visit,
                   void* context);
+
+/// The low bits of a tile's leaves, in their order; null if the tile has none.
+[[nodiscard]] inline const FineLeaf* fine_leaves(const Index& index, const Tile& tile) {
+  return tile.fine ? reinterpret_cast<const FineLeaf*>(index.fine + tile.fine_leaves) : nullptr;
+}
 
 /// The stored triangle in coordinates relative to `start`.
 [[nodiscard]] certified::LocalTriangle local_triangle(const Index& index, const Place& place, const Vec3& start);

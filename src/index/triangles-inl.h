@@ -7,6 +7,7 @@
 #define ROAM_INDEX_TRIANGLES_INL_H_
 #endif
 
+#include "index/grid.h"
 #include "index/lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -45,12 +46,41 @@ HWY_INLINE V3 Triangles::away(const V3& p) const {
   return select(inside, scale(normal, hn::Mul(dot(normal, pa), inv_normal2)), w);
 }
 
-/// One coordinate of vertices from .. from + lane_count - 1 of a leaf, metres from the start.
-HWY_INLINE VF vertices_of(const Leaf& leaf, const Frame& frame, int k, int from) {
-  const hn::Rebind<std::uint16_t, F> words;
-  const VI whole = hn::Sub(hn::PromoteTo(kI, hn::LoadU(words, leaf.vertex[k] + from)), hn::Set(kI, frame.whole[k]));
-  return hn::Mul(hn::Sub(hn::ConvertTo(kF, whole), set(frame.rest[k])), set(frame.step));
-}
+/// The vertices of a leaf, metres from the start.
+class Vertices {
+ public:
+  /// `low`: their low bits; null if the tile has none.
+  HWY_INLINE Vertices(const Leaf& leaf, const FineLeaf* low, const Frame& frame) {
+    const hn::Rebind<std::int16_t, F> words;
+    if (low == nullptr) {
+      place(leaf, frame, [&](int k, int) { return set(frame.rest[k]); });
+    } else {
+      place(leaf, frame, [&](int k, int from) {
+        const VI steps = hn::PromoteTo(kI, hn::LoadU(words, low->vertex[k] + from));
+        const VF part = hn::Mul(hn::ConvertTo(kF, steps), set(1.0F / static_cast<float>(fine_steps)));
+        return hn::Sub(set(frame.rest[k]), part);
+      });
+    }
+  }
+  /// Coordinate `k` of vertices from .. from + lane_count - 1.
+  [[nodiscard]] HWY_INLINE VF at(int k, int from) const { return at_[k][from / lane_count]; }
+
+ private:
+  /// `rest(k, from)`: what a coordinate in whole steps exceeds the true one by.
+  template <class Rest>
+  HWY_INLINE void place(const Leaf& leaf, const Frame& frame, const Rest& rest) {
+    const hn::Rebind<std::uint16_t, F> words;
+    for (int k = 0; k < 3; ++k) {
+      for (int from = 0; from < node_width; from += lane_count) {
+        const VI whole =
+            hn::Sub(hn::PromoteTo(kI, hn::LoadU(words, leaf.vertex[k] + from)), hn::Set(kI, frame.whole[k]));
+        at_[k][from / lane_count] = hn::Mul(hn::Sub(hn::ConvertTo(kF, whole), rest(k, from)), set(frame.step));
+      }
+    }
+  }
+
+  VF at_[3][node_width / lane_count];
+};
 
 /// The vertex numbers of the corners of triangles first .. first + lane_count - 1 of a leaf.
 class Corners {
@@ -93,12 +123,12 @@ class Corners {
 };
 
 /// Triangles first .. first + lane_count - 1 of a leaf.
-HWY_INLINE Triangles load_triangles(const Leaf& leaf, const Frame& frame, int first) {
+HWY_INLINE Triangles load_triangles(const Leaf& leaf, const Vertices& vertices, int first) {
   const Corners corners(leaf, first);
   VF x[3], y[3], z[3];
-  corners.pick([&](int from) { return vertices_of(leaf, frame, 0, from); }, x);
-  corners.pick([&](int from) { return vertices_of(leaf, frame, 1, from); }, y);
-  corners.pick([&](int from) { return vertices_of(leaf, frame, 2, from); }, z);
+  corners.pick([&](int from) { return vertices.at(0, from); }, x);
+  corners.pick([&](int from) { return vertices.at(1, from); }, y);
+  corners.pick([&](int from) { return vertices.at(2, from); }, z);
   Triangles t;
   t.a = {x[0], y[0], z[0]};
   t.b = {x[1], y[1], z[1]};

@@ -141,7 +141,7 @@ struct Visitor {
     const Visitor& v = *static_cast<Visitor*>(self);
     const index::Tile& tile = v.index.tiles[place.tile];
     if (v.collector.bounds_only()) {
-      const auto error = double(tile.error);
+      const auto error = double(tile.fine_error);
       const double least = double(near.least) - v.piece.body.radius - error;
       const double most = double(near.most) - v.piece.body.radius + error;
       const bool tight = !tile.fine && near.most - near.least <= tight_bound;

@@ -17,6 +17,7 @@ namespace {
 using roam::Body;
 using roam::Triangle;
 using roam::Vec3;
+using roam::index::fine_steps;
 using roam::index::Leaf;
 using roam::index::node_width;
 namespace lanes = roam::index::HWY_NAMESPACE;
@@ -27,9 +28,12 @@ const Vec3 curve_origin(-13739.0, 253.0, 182.0);
 
 struct Scene {
   Leaf leaf{};
+  roam::index::FineLeaf fine{};
+  const roam::index::FineLeaf* low;
   Triangle triangles[node_width];
 
-  explicit Scene(clutter::Random& random) {
+  /// `has_low`: vertices have low bits.
+  Scene(clutter::Random& random, bool has_low) : low(has_low ? &fine : nullptr) {
     leaf.triangle_count = node_width;
     // Up to eight metres wide, as fits the tile.
     const double half = std::pow(10.0, random.between(-1.0, 0.6));
@@ -39,7 +43,8 @@ struct Scene {
       const Vec3 at = (middle + random.in_box(half)) / step_size;
       for (int k = 0; k < 3; ++k) {
         leaf.vertex[k][v] = static_cast<std::uint16_t>(at[k]);
-        vertices[v][k] = curve_origin[k] + step_size * leaf.vertex[k][v];
+        if (has_low) fine.vertex[k][v] = static_cast<std::int16_t>(random.engine() & 0xffffU);
+        vertices[v][k] = curve_origin[k] + step_size * (leaf.vertex[k][v] + fine.vertex[k][v] / double(fine_steps));
       }
     }
     for (int i = 0; i < node_width; ++i) {
@@ -60,7 +65,7 @@ struct Touch {
   float radius = 0.0F;
   bool some = false;  ///< there is one
 
-  Touch(clutter::Random& random, bool capsule, bool rests) : scene(random) {
+  Touch(clutter::Random& random, bool has_low, bool capsule, bool rests) : scene(random, has_low) {
     const Triangle& t = scene.triangles[random.engine() % node_width];
     if (!(clutter::length(clutter::cross(t[1] - t[0], t[2] - t[0])) > 1e-3)) return;
     some = true;
@@ -101,15 +106,17 @@ void sweep_every_triangle(bool capsule) {
   clutter::Random random(51);
   int tested = 0, missed = 0, arrived = 0;
   for (int q = 0; q < 10000; ++q) {
-    const Touch touch(random, capsule, false);
+    const bool has_low = q % 3 == 0;
+    const Touch touch(random, has_low, capsule, false);
     if (!touch.some) continue;
     const lanes::Motion motion(touch.graze.motion, touch.graze.body.half_height);
-    const float limit = q % 2 == 0 ? -1.0F : touch.radius + roam::index::hit_limit_distance;
+    const float beyond = has_low ? roam::index::fine_hit_distance : roam::index::hit_limit_distance;
+    const float limit = q % 2 == 0 ? -1.0F : touch.radius + beyond;
     lanes::Met met, all;
-    lanes::sweep_leaf<lanes::NoRay, true>(touch.scene.leaf, touch.frame, motion, lanes::NoRay(motion), touch.radius,
-                                          limit, 0.0F, 1.0F, met);
-    lanes::sweep_leaf<lanes::NoRay, false>(touch.scene.leaf, touch.frame, motion, lanes::NoRay(motion), touch.radius,
-                                           limit, 0.0F, 1.0F, all);
+    lanes::sweep_leaf<lanes::NoRay, true>(touch.scene.leaf, touch.scene.low, touch.frame, motion, lanes::NoRay(motion),
+                                          touch.radius, limit, 0.0F, 1.0F, met);
+    lanes::sweep_leaf<lanes::NoRay, false>(touch.scene.leaf, touch.scene.low, touch.frame, motion, lanes::NoRay(motion),
+                                           touch.radius, limit, 0.0F, 1.0F, all);
     expect_same_first(met, all);
     for (int i = 0; i < node_width; ++i) {
       ++tested;
@@ -140,14 +147,14 @@ void bound_every_triangle(bool capsule) {
   clutter::Random random(52);
   int tested = 0, left_out = 0;
   for (int q = 0; q < 6000; ++q) {
-    const Touch touch(random, capsule, q % 3 == 0);
+    const Touch touch(random, q % 2 == 0, capsule, q % 3 == 0);
     if (!touch.some) continue;
     const lanes::Way way(touch.graze.motion, touch.graze.body.half_height);
     const Bounds bounds(1.0 / 8.0, 0.0, 0.0, 100.0);
     lanes::VF left = lanes::set(std::numeric_limits<float>::infinity());
     lanes::Children triangles;
     alignas(64) float most[node_width], lanes_left[lanes::lane_count];
-    lanes::near_leaf(touch.scene.leaf, touch.frame, way, touch.radius, bounds, left, triangles, most);
+    lanes::near_leaf(touch.scene.leaf, touch.scene.low, touch.frame, way, touch.radius, bounds, left, triangles, most);
     lanes::hn::Store(left, lanes::kF, lanes_left);
     const float others = *std::min_element(lanes_left, lanes_left + lanes::lane_count);
     ASSERT_GT(others, touch.radius);
@@ -221,8 +228,8 @@ TEST(LeafFilter, KnowsHowNearASliverIs) {
     lanes::VF left = lanes::set(0.0F);
     lanes::Children triangles;
     alignas(64) float most[node_width];
-    lanes::near_leaf(sliver.leaf, frame, lanes::Way(Vec3(0.0), 0.0), 200.0F, lanes::Tight(0.0, 0.0, 0.0, 0.0), left,
-                     triangles, most);
+    lanes::near_leaf(sliver.leaf, nullptr, frame, lanes::Way(Vec3(0.0), 0.0), 200.0F, lanes::Tight(0.0, 0.0, 0.0, 0.0),
+                     left, triangles, most);
     ASSERT_EQ(triangles.mask & 1U, 1U) << q;
     const long double least = oracle::distance(Body{0.0, 0.0}, place, t);
     ASSERT_GE(least, (long double)(triangles.key[0])) << q;
@@ -247,8 +254,8 @@ TEST(LeafFilter, ArrivesAtASliverInTime) {
     const float delta = 0.00085F, radius = static_cast<float>(body.radius) + delta;
     const float limit = static_cast<float>(body.radius) + 0.00114F;
     lanes::Met met;
-    lanes::sweep_leaf<lanes::NoRay, true>(sliver.leaf, frame, motion, lanes::NoRay(motion), radius, limit, 0.0F, 1.0F,
-                                          met);
+    lanes::sweep_leaf<lanes::NoRay, true>(sliver.leaf, nullptr, frame, motion, lanes::NoRay(motion), radius, limit,
+                                          0.0F, 1.0F, met);
     const bool here = (met.arrived & 1U) != 0;
     arrived += here ? 1 : 0;
     const double free = here || (met.open & 1U) != 0 ? double(met.time[0]) : double(met.until);

@@ -127,6 +127,10 @@ void sweep_all(const roam::World& world, Queries queries) {
   for (const Query& q : queries) kept += world.sweep(q.body, q.from, q.motion).time;
 }
 
+void clear_all(const roam::World& world, Queries queries) {
+  for (const Query& q : queries) kept += world.clearance(q.body, q.from, 1.0).distance;
+}
+
 void step_all(roam::Walker& walker, int steps, double speed) {
   for (int i = 0; i < steps; ++i) {
     const double angle = 0.02 * i;
@@ -142,13 +146,13 @@ void step_all(roam::Walker& walker, int steps, double speed) {
 ROAM_ROW row_build(roam::World& world, const roam::Mesh& mesh) {
   world = roam::World::build({&mesh, 1}, {.threads = 1, .progress = {}});
 }
+ROAM_ROW row_sweep_lossless(const roam::World& world, Queries queries) { sweep_all(world, queries); }
+ROAM_ROW row_clearance_lossless(const roam::World& world, Queries queries) { clear_all(world, queries); }
 ROAM_ROW row_sweep_random(const roam::World& world, Queries queries) { sweep_all(world, queries); }
 ROAM_ROW row_sweep_coherent(const roam::World& world, Queries queries) { sweep_all(world, queries); }
 ROAM_ROW row_sweep_capsule(const roam::World& world, Queries queries) { sweep_all(world, queries); }
 ROAM_ROW row_ray(const roam::World& world, Queries queries) { sweep_all(world, queries); }
-ROAM_ROW row_clearance(const roam::World& world, Queries queries) {
-  for (const Query& q : queries) kept += world.clearance(q.body, q.from, 1.0).distance;
-}
+ROAM_ROW row_clearance(const roam::World& world, Queries queries) { clear_all(world, queries); }
 ROAM_ROW row_clearance_of_way(const roam::World& world, Queries queries) {
   for (const Query& q : queries) kept += world.clearance(q.body, q.from, q.motion, 1.0).distance;
 }
@@ -204,6 +208,12 @@ int main() try {
   row_contacts(world, ways);
   row("floor", spheres.size());
   row_floor(world, spheres);
+
+  const roam::World lossless = roam::World::build({&mesh, 1}, {.threads = 1, .lossless = true, .progress = {}});
+  row("sweep_lossless", ways.size());
+  row_sweep_lossless(lossless, ways);
+  row("clearance_lossless", spheres.size());
+  row_clearance_lossless(lossless, spheres);
 
   constexpr int steps = 600;
   const Vec3 start{0.5 * width, 0.5 * width, 0.5 * height};
