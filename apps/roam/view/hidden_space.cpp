@@ -126,8 +126,8 @@ std::vector<std::string> HiddenSpace::passed() const {
 
 void HiddenSpace::fill(Status& status) const {
   if (!section_.empty()) {
-    status.section = section_text_ + (passes_ ? ", open for the body: it passes through all that is hidden whole"
-                                              : "; the body meets what is hidden");
+    status.section = section_text_ +
+                     (passes_ ? "; the body passes through what is hidden whole" : "; the body meets what is hidden");
   }
   const SceneObjects::Count count = scene_.objects().count();
   if (count.hidden == 0) return;
