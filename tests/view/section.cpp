@@ -51,6 +51,13 @@ TEST(Section, IsMovedByTheWheel) {
   EXPECT_GT(json["section"][0]["distance_m"], -0.5);
 }
 
+ViewOptions with_section(const std::vector<std::string>& section, bool pass_hidden) {
+  ViewOptions options;
+  options.section = section;
+  options.pass_hidden = pass_hidden;
+  return options;
+}
+
 SectionShape section_of(const std::vector<std::string>& options) {
   SectionShape shape;
   for (const std::string& text : options) add_section(text, shape);
@@ -159,6 +166,14 @@ TEST(SectionBox, IsShrunkByTheWheelAndMovedByAClick) {
   EXPECT_GT(glm::distance(box_of(d)->center(), smaller.center()), 0.5);
 }
 
+TEST(SectionBox, LeavesThePlanes) {
+  Tooled d(with_section({"z<2.9"}, false));
+  tap_box(d);
+  tap_box(d);
+  EXPECT_TRUE(contains(d.hud(), "The rest of the section stays")) << d.hud();
+  EXPECT_EQ(d.session->tools().section().planes.size(), 1u);
+}
+
 TEST(SectionBox, KeepsItsLeastSide) {
   const Box box{{0, 0, 0}, {1, 2, 3}};
   const Box least = grown_at(middle_grip, box, -9.0, 0.5);
@@ -170,13 +185,6 @@ TEST(SectionBox, KeepsItsLeastSide) {
 }
 
 // ------------------------------------------------------------------------------------------------ open for the body
-
-ViewOptions with_section(const std::vector<std::string>& section, bool pass_hidden) {
-  ViewOptions options;
-  options.section = section;
-  options.pass_hidden = pass_hidden;
-  return options;
-}
 
 /// Where the body gets to, flying along +x for 9 s.
 double flies_to(Tooled& d) {

@@ -87,13 +87,17 @@ void Tools::probe() {
   }
 }
 
+std::string Tools::ended_text() const {
+  return section_.shape().empty() ? "All is shown again" : "The rest of the section stays";
+}
+
 void Tools::toggle_section() {
   constexpr double seconds = 4.0;
   const bool ends = tool_ == Tool::section;
   tool_ = ends ? Tool::none : Tool::section;
   if (ends) section_.clear_planes();
   const std::string key = key_of(roamer_.controls(), "section");
-  stage_.hint(ends ? "All is shown again"
+  stage_.hint(ends ? ended_text()
                    : fmt::format("Section: click what is to be hidden, turn the wheel to cut deeper; {} ends", key),
               seconds);
 }
@@ -110,7 +114,7 @@ void Tools::toggle_box() {
   }
   const std::string key = key_of(roamer_.controls(), "section_box");
   stage_.hint(
-      ends ? "All is shown again"
+      ends ? ended_text()
            : fmt::format("Box: drag its points, turn the wheel to shrink it, click where it is to be; {} ends", key),
       seconds);
 }

@@ -67,6 +67,7 @@ class Tools : public osgGA::GUIEventHandler {
   void toggle_measuring();
   void toggle_section();
   void toggle_box();
+  [[nodiscard]] std::string ended_text() const;
   void probe();
   [[nodiscard]] std::optional<Pick> pick_at(const Point& at) const;
   [[nodiscard]] Box box_ahead() const;
