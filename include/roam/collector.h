@@ -41,7 +41,7 @@ class Collector {
   /// For Kind::one_contact: the first impact whose triangle alone is wanted, at the query's position. Else null.
   [[nodiscard]] const FirstImpact* only() const { return only_; }
 
-  /// Offers a triangle. The collector measures it unless its object is ignored.
+  /// Offers a triangle. The collector measures it unless it is ignored.
   void offer(const Query& query, const Triangle& triangle, TriangleId id, ObjectId object = no_object);
   /// Offers a measured contact: its distance is certified, at most `doubt` too low. Kind::floor_clearance takes floor.
   void offer(const Contact& contact, double doubt = 0.0) {

@@ -1,13 +1,14 @@
 #pragma once
 /// \file
-/// A space without some of its objects, for one body: an open door, a layer that the body passes.
+/// A space without some of its objects and triangles, for one body: an open door, a layer or a part of a house that
+/// the body passes.
 ///
 ///     roam::Filtered open(world);
 ///     open.ignore(door);  // the number of the door's mesh, or Impact::object of a ray that hit it
 ///     roam::Walker walker(open, settings, roam::Mode::walk, start);
 ///
-/// The promises of space.h hold for the other objects. Unknown space is never ignored; a Pager has no numbers of
-/// objects.
+/// The promises of space.h hold for the rest. Unknown space is never ignored. A Pager has no numbers of objects, and
+/// ignores no half space; nor do instances.
 
 #include <cstdint>
 #include <span>
@@ -31,6 +32,11 @@ class Filtered final : public LiveSpace {
   void stop_ignoring(ObjectId object);
   void ignore_only(std::span<const ObjectId> objects);  ///< replaces the set of ignored objects
   [[nodiscard]] bool ignores(ObjectId object) const;
+  /// Ignores, too, every triangle whose corners all lie in one of these half spaces; it replaces those of before.
+  /// Corners are as stored. A triangle that is only partly in it stays as a whole. Throws roam::Error for values that
+  /// are not finite.
+  void ignore_beyond(std::span<const HalfSpace> half_spaces);
+  [[nodiscard]] std::span<const HalfSpace> beyond() const { return beyond_; }
   [[nodiscard]] const Space& space() const { return *space_; }
   /// Updates the LiveSpace that this was made from; false if it was made from a plain Space.
   bool update(const Body& body, const Vec3& place, const Vec3& velocity) override;
@@ -42,12 +48,14 @@ class Filtered final : public LiveSpace {
   void find_near(const Query& query, Collector& collector, Vicinity* vicinity) const override;
 
  private:
-  [[nodiscard]] ObjectFilter filter(const Query& query) const { return {ignored_, query.ignored}; }
+  [[nodiscard]] ObjectFilter filter(const Query& query) const { return {ignored_, query.ignored, beyond_}; }
+  [[nodiscard]] bool ignores_nothing() const { return ignored_.empty() && beyond_.empty(); }
 
   const Space* space_;
   LiveSpace* live_ = nullptr;
   std::vector<ObjectId> ignored_;  ///< ascending
-  std::uint64_t state_;            ///< another number after each change, in all of the program
+  std::vector<HalfSpace> beyond_;
+  std::uint64_t state_;  ///< another number after each change, in all of the program
 };
 
 }  // namespace roam

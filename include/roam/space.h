@@ -52,13 +52,37 @@ struct Object {
   std::uint64_t user_data = 0;  ///< from Mesh::user_data
 };
 
-/// Objects that a query ignores. For a moving body use Filtered (roam/filtered.h).
+/// The points p with dot(normal, p) > distance.
+struct HalfSpace {
+  Vec3 normal{0.0, 0.0, 1.0};  ///< of length 1
+  double distance = 0.0;       ///< metres
+  [[nodiscard]] bool holds(const Vec3& p) const { return normal.x * p.x + normal.y * p.y + normal.z * p.z > distance; }
+  bool operator==(const HalfSpace&) const = default;
+};
+
+/// Objects and half spaces that a query ignores. For a moving body use Filtered (roam/filtered.h).
 struct ObjectFilter {
-  std::span<const ObjectId> objects;   ///< ascending
-  const ObjectFilter* also = nullptr;  ///< more of them
+  std::span<const ObjectId> objects;       ///< ascending
+  const ObjectFilter* also = nullptr;      ///< more of them
+  std::span<const HalfSpace> beyond = {};  ///< a triangle with all its corners, as stored, in one of them is ignored
   [[nodiscard]] bool ignores(ObjectId object) const {
     for (const ObjectFilter* f = this; f != nullptr; f = f->also) {
       if (std::binary_search(f->objects.begin(), f->objects.end(), object)) return true;
+    }
+    return false;
+  }
+  [[nodiscard]] bool ignores(const Triangle& corners) const {
+    for (const ObjectFilter* f = this; f != nullptr; f = f->also) {
+      for (const HalfSpace& half : f->beyond) {
+        if (half.holds(corners[0]) && half.holds(corners[1]) && half.holds(corners[2])) return true;
+      }
+    }
+    return false;
+  }
+  /// Whether ignores() of some triangle can be true.
+  [[nodiscard]] bool has_beyond() const {
+    for (const ObjectFilter* f = this; f != nullptr; f = f->also) {
+      if (!f->beyond.empty()) return true;
     }
     return false;
   }

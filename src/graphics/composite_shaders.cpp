@@ -102,7 +102,8 @@ uniform sampler2D roam_occlusion;
 const vec3 shade = vec3(0.05, 0.055, 0.075);  // the colour of full occlusion: not quite black
 const float outline = 0.30;                   // darkest line at an outline or convex edge
 const float crease = 0.10;                    // and in a concave one
-const float finest = 0.012, coarsest = 0.25;  // metres a pixel: lines fade out between these
+// Metres a pixel: lines fade out between these, bends first, because far terrain is full of them.
+const float finest = 0.012, coarsest_bend = 0.15, coarsest_step = 0.2, coarsest_end = 0.25;
 
 float occlusion_at(float depth) {
   vec2 half_size = ceil(0.5 * roam_size);
@@ -123,15 +124,43 @@ float occlusion_at(float depth) {
   return sum / weights;
 }
 
-// Sine of the bend of the surface between two neighbours: > 0 where it is concave or behind a step.
-float bend(vec2 pixel, vec2 to, float here) {
+float fading(float pixel_size, float most) { return 1.0 - smoothstep(finest, most, pixel_size); }
+
+// How dark a bend of the surface from slope a to slope b is drawn: x if it is convex, y if it is concave.
+vec2 drawn(float a, float b) {
+  float sine = (b - a) * inversesqrt((1.0 + a * a) * (1.0 + b * b));
+  return smoothstep(0.3, 0.75, vec2(-sine, sine));
+}
+
+// The edge between a pixel and the next: `middle` is the slope between them, `next` that beyond, `last` that before.
+// A bend lies where the middle slope is the mean of the two beside it, and each pixel has its share of the line: drawn
+// whole in the pixel that bends most, slanting lines would be dotted. At a step, the pixel before it has the line.
+vec2 edge(float last, float middle, float next, float pixel_size) {
+  float beyond = max(middle - max(last, next), min(last, next) - middle);
+  if (beyond > 0.5) return drawn(last, middle) * fading(pixel_size, coarsest_step);
+  float share = clamp((last - middle) / (last - next), 0.0, 1.0);
+  return last == next ? vec2(0.0) : drawn(last, next) * share * fading(pixel_size, coarsest_bend);
+}
+
+// Lines across one direction, as above.
+vec2 lines(vec2 pixel, vec2 to, float here, float pixel_size) {
   float before = depth_at(pixel - to), after = depth_at(pixel + to);
   // Surfaces go on straight beyond the picture.
   if (any(lessThan(pixel - to, vec2(0.0)))) before = 2.0 * here - after;
   if (any(greaterThan(pixel + to, roam_size))) after = 2.0 * here - before;
+  float first = depth_at(pixel - 2.0 * to), last = depth_at(pixel + 2.0 * to);
+  if (any(lessThan(pixel - 2.0 * to, vec2(0.0)))) first = 2.0 * before - here;
+  if (any(greaterThan(pixel + 2.0 * to, roam_size))) last = 2.0 * after - here;
   float scale = 1.0 / (max(here, 1e-9) * pixel_angle());
-  float a = (here - before) * scale, b = (after - here) * scale;
-  return (b - a) * inversesqrt((1.0 + a * a) * (1.0 + b * b));
+  float a = (before - first) * scale, b = (here - before) * scale;
+  float c = (after - here) * scale, d = (last - after) * scale;
+  // Along a surface that is seen at a low angle, a pixel is long.
+  float long_pixel = pixel_size * sqrt(1.0 + min(b * b, c * c));
+  vec2 found = max(edge(b, c, d, long_pixel), edge(-c, -b, -a, long_pixel));
+  // There a far step is a small angle too, which varies from pixel to pixel.
+  float jump = (2.0 * here - before - after) / max(here, 1e-9);
+  found.x = max(found.x, smoothstep(0.08, 0.16, jump) * fading(pixel_size, coarsest_end));
+  return found;
 }
 
 void main() {
@@ -143,11 +172,9 @@ void main() {
   color.rgb = mix(shade * color.rgb, color.rgb, light);
 #endif
 #ifdef ROAM_EDGES
-  float across = bend(pixel, vec2(1.0, 0.0), depth), up = bend(pixel, vec2(0.0, 1.0), depth);
-  float line = outline * smoothstep(0.3, 0.75, -min(across, up));
-  line = max(line, crease * smoothstep(0.3, 0.75, max(across, up)));
-  float footprint = roam_near * pixel_angle() / max(depth, 1e-9);
-  line *= color.a * (1.0 - smoothstep(finest, coarsest, footprint));
+  float pixel_size = roam_near * pixel_angle() / max(depth, 1e-9);
+  vec2 found = max(lines(pixel, vec2(1.0, 0.0), depth, pixel_size), lines(pixel, vec2(0.0, 1.0), depth, pixel_size));
+  float line = color.a * max(outline * found.x, crease * found.y);
   color.rgb *= 1.0 - line;
 #endif
 #ifdef ROAM_SMOOTHING

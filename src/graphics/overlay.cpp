@@ -20,6 +20,9 @@ const osg::Vec4 contact_color(1.0f, 0.25f, 0.30f, 1.0f);
 const osg::Vec4 measure_color(0.95f, 0.15f, 0.75f, 1.0f);
 const osg::Vec4 triangle_color(1.0f, 0.72f, 0.20f, 0.95f);
 const osg::Vec4 face_color(1.0f, 0.72f, 0.20f, 0.28f);
+const osg::Vec4 box_color(0.25f, 0.55f, 1.0f, 1.0f);
+const osg::Vec4 grip_color(0.15f, 0.50f, 1.0f, 1.0f), grip_side_color(0.05f, 0.35f, 0.85f, 1.0f);
+const osg::Vec4 held_grip_color(1.0f, 0.80f, 0.25f, 1.0f);
 constexpr double normal_length = 0.3, cross_size = 0.05;  // metres
 constexpr int circle_corners = 48;
 constexpr double pi = 3.14159265358979323846;
@@ -124,13 +127,38 @@ void draw_triangle(const std::array<Vec3, 3>& corners, Strokes& lines, Strokes& 
   }
 }
 
-/// `depth_test` false: draws the parts behind walls faintly.
-osg::ref_ptr<osg::Group> make_pass(bool depth_test, osg::Node* content) {
+void draw_edges(const Box& box, Strokes& lines) {
+  for (int axis = 0; axis < 3; ++axis) {
+    for (int corner = 0; corner < 4; ++corner) {
+      Vec3 from = box.lower;
+      if ((corner & 1) != 0) from[(axis + 1) % 3] = box.upper[(axis + 1) % 3];
+      if ((corner & 2) != 0) from[(axis + 2) % 3] = box.upper[(axis + 2) % 3];
+      Vec3 to = from;
+      to[axis] = box.upper[axis];
+      lines.line(from, to, box_color);
+    }
+  }
+}
+
+/// An octahedron of two shades.
+void draw_grip(const GripMark& grip, Strokes& faces) {
+  for (int octant = 0; octant < 8; ++octant) {
+    const osg::Vec4& color = grip.held ? held_grip_color : (octant & 4) != 0 ? grip_color : grip_side_color;
+    for (int axis = 0; axis < 3; ++axis) {
+      Vec3 corner(0.0);
+      corner[axis] = (octant >> axis & 1) != 0 ? grip.radius : -grip.radius;
+      faces.add(grip.at + corner, color);
+    }
+  }
+}
+
+/// With a strength below 1: the parts behind walls, faintly. `bin`: after all transparent surfaces.
+osg::ref_ptr<osg::Group> make_pass(int bin, bool depth_test, float strength, osg::Node* content) {
   osg::ref_ptr<osg::Group> pass = new osg::Group;
   osg::StateSet& state = *pass->getOrCreateStateSet();
-  state.addUniform(new osg::Uniform("roam_strength", depth_test ? 1.0f : 0.22f));
-  // After all transparent surfaces, with the depth comparison of Frame::space().
-  state.setRenderBinDetails(depth_test ? 21 : 20, "RenderBin");
+  state.addUniform(new osg::Uniform("roam_strength", strength));
+  // With the depth comparison of Frame::space().
+  state.setRenderBinDetails(bin, "RenderBin");
   if (!depth_test) state.setMode(GL_DEPTH_TEST, osg::StateAttribute::OFF);
   pass->addChild(content);
   return pass;
@@ -148,11 +176,14 @@ void make_state(osg::StateSet& state) {
 
 }  // namespace
 
-Overlay::Overlay(Frame& frame) : frame_(frame), parent_(frame.space()), group_(new osg::Group), marks_(new osg::Group) {
+Overlay::Overlay(Frame& frame)
+    : frame_(frame), parent_(frame.space()), group_(new osg::Group), marks_(new osg::Group), grips_(new osg::Group) {
   group_->setName("overlay");
   make_state(*group_->getOrCreateStateSet());
-  group_->addChild(make_pass(false, marks_));
-  group_->addChild(make_pass(true, marks_));
+  constexpr float faint = 0.22f;
+  group_->addChild(make_pass(20, false, faint, marks_));
+  group_->addChild(make_pass(21, true, 1.0f, marks_));
+  group_->addChild(make_pass(22, false, 1.0f, grips_));
   parent_->addChild(group_);
 }
 
@@ -164,13 +195,19 @@ void Overlay::set_marks(const Marks& marks) {
   if (std::exchange(line_width_, width) != width) {
     group_->getOrCreateStateSet()->setAttribute(new osg::LineWidth(width));
   }
-  Strokes lines(GL_LINES), faces(GL_TRIANGLES);
+  Strokes lines(GL_LINES), faces(GL_TRIANGLES), grips(GL_TRIANGLES);
   if (marks.body) draw_body(*marks.body, lines);
   for (const ContactMark& contact : marks.contacts) draw_contact(contact, lines);
   for (const std::array<Vec3, 3>& triangle : marks.triangles) draw_triangle(triangle, lines, faces);
   for (const auto& [from, to] : marks.lines) lines.line(from, to, measure_color);
   for (const Vec3& point : marks.points) draw_cross(point, measure_color, lines);
+  if (marks.box) {
+    draw_edges(marks.box->box, lines);
+    for (const GripMark& grip : marks.box->grips) draw_grip(grip, grips);
+  }
   marks_->removeChildren(0, marks_->getNumChildren());
+  grips_->removeChildren(0, grips_->getNumChildren());
+  grips.add_to(*grips_);
   faces.add_to(*marks_);
   lines.add_to(*marks_);
 }

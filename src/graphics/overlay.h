@@ -30,6 +30,19 @@ struct ContactMark {
   Vec3 normal{0.0};  ///< away from the wall, length 1; drawn 0.3 m long
 };
 
+/// A point that the mouse drags; nothing hides it.
+struct GripMark {
+  Vec3 at{0.0};         ///< metres, scene minus origin
+  double radius = 0.1;  ///< metres
+  bool held = false;    ///< drawn lighter
+};
+
+/// The edges of a box, and points to drag.
+struct BoxMark {
+  Box box;  ///< metres, scene minus origin
+  std::vector<GripMark> grips;
+};
+
 /// A text at a place. The overlay does not draw it: see Hud::set_labels().
 struct LabelMark {
   Vec3 at{0.0};  ///< metres, scene minus origin
@@ -44,6 +57,7 @@ struct Marks {
   std::vector<std::array<Vec3, 2>> lines{};      ///< measured lengths: ends, metres, scene minus origin
   std::vector<Vec3> points{};                    ///< measured points, metres, scene minus origin
   std::vector<LabelMark> labels{};
+  std::optional<BoxMark> box{};
 };
 
 /// Draws marks in a frame, with lines that get wider with it. Use it from the thread that calls viewer.frame(), between
@@ -60,7 +74,7 @@ class Overlay {
  private:
   Frame& frame_;
   float line_width_ = 0.0f;  ///< pixels
-  osg::ref_ptr<osg::Group> parent_, group_, marks_;
+  osg::ref_ptr<osg::Group> parent_, group_, marks_, grips_;
 };
 
 }  // namespace roam::graphics

@@ -81,22 +81,22 @@ osg::ref_ptr<osg::Group> make_scene_group() {
   return group;
 }
 
-void set_section(osg::Group& scene, std::span<const SectionPlane> planes) {
+void set_section(osg::Group& scene, std::span<const HalfSpace> hidden) {
   constexpr const char* define = "ROAM_SECTION";
   constexpr const char* name = "roam_section";
   osg::StateSet& state = *scene.getOrCreateStateSet();
   state.removeUniform(name);
-  if (planes.empty()) {
+  if (hidden.empty()) {
     state.removeDefine(define);
     return;
   }
-  osg::ref_ptr<osg::Uniform> values = new osg::Uniform(osg::Uniform::FLOAT_VEC4, name, static_cast<int>(planes.size()));
-  for (unsigned i = 0; i < planes.size(); ++i) {
-    const auto& [normal, distance] = planes[i];
+  osg::ref_ptr<osg::Uniform> values = new osg::Uniform(osg::Uniform::FLOAT_VEC4, name, static_cast<int>(hidden.size()));
+  for (unsigned i = 0; i < hidden.size(); ++i) {
+    const auto& [normal, distance] = hidden[i];
     values->setElement(i, osg::Vec4(osg::Vec3d(normal.x, normal.y, normal.z), static_cast<float>(-distance)));
   }
   state.addUniform(values);
-  state.setDefine(define, std::to_string(planes.size()));
+  state.setDefine(define, std::to_string(hidden.size()));
 }
 
 osg::ref_ptr<osg::Node> make_sky() {

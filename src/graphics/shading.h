@@ -23,6 +23,7 @@
 #include <span>
 
 #include "roam/math.h"
+#include "roam/space.h"
 
 namespace roam::graphics {
 
@@ -67,18 +68,11 @@ void apply(const Surface& surface, osg::StateSet& state);
 /// single zero normal means that each face uses its own. States other than opaque, untextured ones are made by apply().
 [[nodiscard]] osg::ref_ptr<osg::Group> make_scene_group();
 
-/// Hides every point p with dot(normal, p) > distance.
-struct SectionPlane {
-  Vec3 normal{0.0, 0.0, 1.0};  ///< of length 1
-  double distance = 0.0;       ///< metres
-  bool operator==(const SectionPlane&) const = default;
-};
+inline constexpr std::size_t most_section_planes = 12;
 
-inline constexpr std::size_t most_section_planes = 6;
-
-/// Hides what one of the planes hides, in the frame of the scene group; nothing without planes. Call it between two
+/// Hides all points of the half spaces, in the frame of the scene group; nothing without any. Call it between two
 /// frames, with at most most_section_planes.
-void set_section(osg::Group& scene, std::span<const SectionPlane> planes);
+void set_section(osg::Group& scene, std::span<const HalfSpace> hidden);
 
 /// A gradient from the ground over the horizon to the zenith, dark enough for white objects and light enough for black
 /// ones. It has no bounds.

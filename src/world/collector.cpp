@@ -38,7 +38,9 @@ void Collector::demand(double tolerance) {
 }
 
 void Collector::offer(const Query& query, const Triangle& triangle, TriangleId id, ObjectId object) {
-  if (query.ignored != nullptr && object != no_object && query.ignored->ignores(object)) return;
+  if (const ObjectFilter* const ignored = query.ignored) {
+    if ((object != no_object && ignored->ignores(object)) || ignored->ignores(triangle)) return;
+  }
   const certified::LocalTriangle local = certified::seen_from(query.from, triangle);
   const auto measure = [&](const certified::LocalTriangle& part) {
     Contact c = query::contact_with(part, query.body, query.from, query.motion);

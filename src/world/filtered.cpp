@@ -1,7 +1,9 @@
 #include "roam/filtered.h"
 
 #include <algorithm>
+#include <cmath>
 
+#include "math/finite.h"
 #include "math/mix.h"
 #include "world/data.h"
 
@@ -35,6 +37,15 @@ void Filtered::ignore_only(std::span<const ObjectId> objects) {
   state_ = next_revision();
 }
 
+void Filtered::ignore_beyond(std::span<const HalfSpace> half_spaces) {
+  for (const auto& [normal, distance] : half_spaces) {
+    if (!is_finite(normal) || !std::isfinite(distance)) throw Error("a half space to ignore is not finite");
+  }
+  if (std::equal(half_spaces.begin(), half_spaces.end(), beyond_.begin(), beyond_.end())) return;
+  beyond_.assign(half_spaces.begin(), half_spaces.end());
+  state_ = next_revision();
+}
+
 bool Filtered::ignores(ObjectId object) const { return ObjectFilter{ignored_, nullptr}.ignores(object); }
 
 bool Filtered::update(const Body& body, const Vec3& place, const Vec3& velocity) {
@@ -48,13 +59,13 @@ SpaceFacts Filtered::facts() const {
 }
 
 FirstImpact Filtered::find_first(const Query& query, Vicinity* vicinity) const {
-  if (ignored_.empty()) return find_first_of(*space_, query, vicinity);
+  if (ignores_nothing()) return find_first_of(*space_, query, vicinity);
   const ObjectFilter filter = this->filter(query);
   return find_first_of(*space_, {query.body, query.from, query.motion, &filter}, vicinity);
 }
 
 void Filtered::find_near(const Query& query, Collector& collector, Vicinity* vicinity) const {
-  if (ignored_.empty()) return find_near_of(*space_, query, collector, vicinity);
+  if (ignores_nothing()) return find_near_of(*space_, query, collector, vicinity);
   const ObjectFilter filter = this->filter(query);
   find_near_of(*space_, {query.body, query.from, query.motion, &filter}, collector, vicinity);
 }

@@ -43,10 +43,10 @@ const Space& unfiltered(const Space& space) {
   return *inner;
 }
 
-/// The query without filters that name only instances.
+/// The query without filters that only name instances.
 Query for_base(const Query& query) {
   for (const ObjectFilter* f = query.ignored; f != nullptr; f = f->also) {
-    if (!f->objects.empty() && f->objects.front() < first_instance) return query;
+    if (!f->beyond.empty() || (!f->objects.empty() && f->objects.front() < first_instance)) return query;
   }
   return {query.body, query.from, query.motion};
 }

@@ -35,11 +35,11 @@ std::span<const index::Root> all_of(const index::Roots& roots) {
   return {roots.root.data(), static_cast<std::size_t>(roots.count)};
 }
 
-/// A world's index without the objects that a filter names.
+/// A world's index without the triangles that a filter ignores.
 class Remaining {
  public:
   Remaining(const WorldData& world, const ObjectFilter& ignored)
-      : world_(world), ignored_(ignored), index_(world.index) {
+      : world_(world), ignored_(ignored), has_beyond_(ignored.has_beyond()), index_(world.index) {
     index_.skip = &skip_;
   }
   Remaining(const Remaining&) = delete;
@@ -50,11 +50,15 @@ class Remaining {
  private:
   static bool skips(const void* self, const index::Place& place) {
     const Remaining& r = *static_cast<const Remaining*>(self);
-    return r.ignored_.ignores(r.world_.object(number_at(r.world_.index, place)));
+    if (r.ignored_.ignores(r.world_.object(number_at(r.world_.index, place)))) return true;
+    if (!r.has_beyond_) return false;
+    const auto& [a, b, c] = index::local_triangle(r.world_.index, place, Vec3(0.0)).corner;
+    return r.ignored_.ignores(Triangle{a, b, c});
   }
 
   const WorldData& world_;
   const ObjectFilter& ignored_;
+  bool has_beyond_;
   index::Skip skip_{&Remaining::skips, this};
   index::Index index_;
 };

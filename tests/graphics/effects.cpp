@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <osg/Texture2D>
+#include <vector>
 
 #include "graphics_stage.h"
 
@@ -113,11 +114,59 @@ TEST(GraphicsEffects, EdgesAreDrawnAtAStepAndVanishWhenSwitchedOff) {
   }
 }
 
+/// How much darker the lines make each row between two, of the columns around the middle.
+std::vector<int> lines_of_rows(Stage& stage, int first, int last) {
+  const auto sum = [&](const osg::Image& picture, int y) {
+    int all = 0;
+    for (int x = 80; x < 240; ++x) all += at(picture, x, y).sum();
+    return all;
+  };
+  stage.frame.set_edges(true);
+  const auto with = stage.picture();
+  stage.frame.set_edges(false);
+  const auto without = stage.picture();
+  std::vector<int> rows;
+  for (int y = first; y < last; ++y) rows.push_back(sum(*without, y) - sum(*with, y));
+  return rows;
+}
+
+TEST(GraphicsEffects, ASlantingEdgeIsDrawnInEveryRow) {
+  for (const FrameSettings& settings : {with_full, with_light}) {
+    Stage stage(320, 180, settings);
+    const osg::Vec3d along(0.6, 0, 4), left(-4, 1.2, 0), right(4, 1.2, 0), middle(0, 4, 0);
+    stage.add(quad(middle + left, left, along));
+    stage.add(quad(middle + right, right, along));
+    std::vector<int> rows = lines_of_rows(stage, 40, 140);
+    std::sort(rows.begin(), rows.end());
+    const int median = rows[rows.size() / 2];
+    EXPECT_GT(median, 20);
+    EXPECT_GT(rows.front(), 0.5 * median) << "no gaps: no dots";
+    EXPECT_LT(rows.back(), 1.6 * median);
+  }
+}
+
+TEST(GraphicsEffects, TheEndOfLevelGroundIsDrawnWhole) {
+  for (const FrameSettings& settings : {with_full, with_light}) {
+    Stage stage(320, 180, settings);
+    stage.add(quad({0, 4, -0.6}, x_axis * 9, y_axis * 4));  // which ends at 8 m, seen at 4 degrees
+    stage.add(quad({0, 16, 0}, x_axis * 20, z_axis * 20));
+    const auto with = stage.picture();
+    stage.frame.set_edges(false);
+    const auto without = stage.picture();
+    for (int x = 0; x < 320; ++x) {
+      int darkest = 0;
+      for (int y = 60; y < 90; ++y) darkest = std::max(darkest, at(*without, x, y).sum() - at(*with, x, y).sum());
+      ASSERT_GT(darkest, 30) << x;
+    }
+  }
+}
+
 TEST(GraphicsEffects, APlaneOfManyTrianglesHasNoEdges) {
   for (const FrameSettings& settings : {with_full, with_light}) {
     Stage stage(320, 180, settings);
-    for (int i = -20; i < 20; ++i) {
-      stage.add(quad({0.5 * i, 2.0 + 0.4 * i, 0}, osg::Vec3d(0.25, 0.2, 0), z_axis * 9));
+    // Its end is too far away for a line.
+    for (int i = -20; i < 200; ++i) {
+      stage.add(quad({0.5 * i, 2.0 + 0.4 * i, 0}, osg::Vec3d(0.25, 0.2, 0), z_axis * 90));
     }
     const auto with = stage.picture();
     stage.frame.set_edges(false);

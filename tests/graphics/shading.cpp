@@ -171,9 +171,7 @@ TEST(GraphicsShading, ASectionHidesWhatIsBeyondItsPlanes) {
     const auto picture = stage.picture();
     return at(*picture, x, y).distance(at(*picture, 32, 32)) < 60;
   };
-  const auto cut = [&](const std::vector<graphics::SectionPlane>& planes) {
-    graphics::set_section(*stage.scene, planes);
-  };
+  const auto cut = [&](const std::vector<HalfSpace>& planes) { graphics::set_section(*stage.scene, planes); };
   EXPECT_TRUE(is_wall(8, 32) && is_wall(56, 32) && is_wall(32, 8) && is_wall(32, 56));
   cut({{{1, 0, 0}, 0.5}});
   EXPECT_TRUE(is_wall(8, 32) && is_wall(32, 8) && is_wall(32, 56));

@@ -161,7 +161,7 @@ TEST(GraphicsSun, GlassAndWhatASectionHidesThrowNoShadow) {
   EXPECT_GT(glazed.share(), 97);
   Yard cut;
   EXPECT_LT(cut.share(), 80);
-  graphics::set_section(*cut.stage.scene, std::vector<graphics::SectionPlane>{{{0, 0, 1}, 2.0}});
+  graphics::set_section(*cut.stage.scene, std::vector<HalfSpace>{{{0, 0, 1}, 2.0}});
   EXPECT_GT(cut.share(), 97);
   graphics::set_section(*cut.stage.scene, {});
   EXPECT_LT(cut.share(), 80);

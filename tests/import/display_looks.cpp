@@ -282,6 +282,33 @@ TEST(ImportDisplayLooks, ReadsRoughnessAndMetalnessOfGltf) {
   EXPECT_NE(both.look.texture, both.look.gloss_texture);
 }
 
+TEST(ImportDisplayLooks, ConvertsSpecularAndGlossinessOfGltf) {
+  const TemporaryFolder folder;
+  folder.write("wood.bmp", bmp({{10, 20, 30}}));
+  const auto show_glossy = [&](const std::string& members) {
+    const std::string material = R"({"extensions":{"KHR_materials_pbrSpecularGlossiness":{)" + members + "}}}";
+    return show({folder.write("a.gltf", gltf(material, "wood.bmp"))}).triangles.at(0);
+  };
+  const auto gold =
+      show_glossy(R"("diffuseFactor":[0,0,0,1],"specularFactor":[1,0.766,0.336],"glossinessFactor":0.75)");
+  EXPECT_EQ(gold.look.metalness, 1.0f);
+  EXPECT_EQ(gold.look.roughness, 0.25f);
+  EXPECT_EQ(gold.colours[0], (Colour{255, 227, 157, 255})) << "the specular colour, on a screen";
+  const auto plaster =
+      show_glossy(R"("diffuseFactor":[0.5,0.25,0.125,1],"specularFactor":[0.04,0.04,0.04],"glossinessFactor":0)");
+  EXPECT_EQ(plaster.look.metalness, 0.0f);
+  EXPECT_EQ(plaster.look.roughness, 1.0f);
+  EXPECT_EQ(plaster.colours[0], (Colour{188, 137, 99, 255})) << "the diffuse colour";
+  const auto picture = show_glossy(R"("diffuseTexture":{"index":0},"glossinessFactor":0.5)");
+  EXPECT_EQ(picture.look.texture, 0u);
+  EXPECT_EQ(picture.look.roughness, 0.5f);
+  EXPECT_EQ(picture.look.metalness, 0.0f);
+  EXPECT_EQ(picture.colours[0], (Colour{255, 255, 255, 255}));
+  const auto odd =
+      show_glossy(R"("specularFactor":[-9,1e300,1],"diffuseFactor":[1e300,0,0,-1],"glossinessFactor":1e9)");
+  EXPECT_EQ(odd.look.roughness, 0.0f);
+}
+
 TEST(ImportDisplayLooks, WithoutItsImageASurfaceOfGltfIsDull) {
   const TemporaryFolder folder;
   folder.write("wood.bmp", bmp({{10, 20, 30}}));

@@ -139,8 +139,8 @@ TEST(Layers, StayWallsWhileAllMovesAreVerified) {
   d.options.hide = {"front"};
   d.begin();
   const std::shared_ptr<const Space> space = d.session->roamer().space();
-  d.session->layers().pass_through(true);
-  EXPECT_TRUE(contains(d.hud(), "stay walls while all moves are verified")) << d.hud();
+  d.session->hidden().pass_through(true);
+  EXPECT_TRUE(contains(d.hud(), "stays a wall while all moves are verified")) << d.hud();
   EXPECT_EQ(d.session->roamer().space(), space);
 }
 
@@ -150,9 +150,9 @@ TEST(Layers, ArePassedAsSoonAsTheWallsAreLoaded) {
   d.options.at = {10, 0, 0.95, 0};
   d.options.hide = {"front"};
   d.session.emplace(d.options, make_plan(d.options, {}), ViewSettings{});
-  d.session->layers().pass_through(true);
-  ASSERT_TRUE(d.until([&] { return d.session->roaming() && d.session->layers().visible() != nullptr; }));
-  EXPECT_EQ(d.session->roamer().space().get(), d.session->layers().visible());
+  d.session->hidden().pass_through(true);
+  ASSERT_TRUE(d.until([&] { return d.session->roaming() && d.session->hidden().visible() != nullptr; }));
+  EXPECT_EQ(d.session->roamer().space().get(), d.session->hidden().visible());
   EXPECT_FALSE(contains(d.hud(), "a store")) << d.hud();
   EXPECT_TRUE(contains(d.hud(), "the body passes through")) << d.hud();
 }
@@ -165,7 +165,7 @@ TEST(Layers, OfAStoreAreHiddenButStayWalls) {
   d.click("front");
   EXPECT_EQ(d.drawn(), all - 2);
   d.click("the body passes through what is hidden");
-  EXPECT_TRUE(contains(d.hud(), "a store keeps its objects")) << d.hud();
+  EXPECT_TRUE(contains(d.hud(), "With a store, the body meets what is hidden")) << d.hud();
   d.walk(9.0);
   EXPECT_NEAR(d.place().x, 19.7, 0.02);
 }
@@ -192,7 +192,7 @@ TEST(Layers, OfTooGreatANumberArePassedByNoProbe) {
   d.options.at = {10, 0, 0.95, 0};
   d.options.hide = {"shelf_*"};
   d.begin();
-  d.session->layers().pass_through(true);
+  d.session->hidden().pass_through(true);
   d.tap('t');
   d.session->stage().draw();
   const osgGA::GUIEventAdapter& now = *d.events().getCurrentEventState();

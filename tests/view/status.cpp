@@ -13,6 +13,7 @@
 #include "view/commands.h"
 #include "view/loading.h"
 #include "view/store_choice.h"
+#include "view/thrift.h"
 #include "view/twice.h"
 
 namespace {
@@ -160,6 +161,21 @@ TEST(Twice, ConfirmsWithTheSecondOrderInTime) {
   EXPECT_FALSE(twice.confirms(13.0)) << "a new question";
   EXPECT_FALSE(twice.confirms(16.1)) << "too late";
   EXPECT_TRUE(twice.confirms(16.2));
+}
+
+TEST(Thrift, GivesTheMedianOfSlowFramesOnly) {
+  Thrift thrift;
+  const auto block = [&](double usual, double odd) {
+    std::optional<double> last;
+    for (std::size_t i = 0; i < Thrift::frames; ++i) {
+      EXPECT_FALSE(last) << "not before the end of the block";
+      last = thrift.take(i % 4 == 0 ? odd : usual);
+    }
+    return last;
+  };
+  EXPECT_FALSE(block(16.0, 900.0)) << "stills and loading are slow";
+  EXPECT_EQ(block(84.0, 1.0), 84.0);
+  EXPECT_FALSE(block(0.9 * Thrift::slowest, 2.0));
 }
 
 TEST(Stores, AreOfferedForLargeScenes) {

@@ -2,45 +2,15 @@
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
-#include "cli/exit_status.h"
 #include "roam/error.h"
 #include "view/plan_scan.h"
-#include "view/section.h"
-#include "view_stores.h"
+#include "view_tooled.h"
 
 namespace {
 
 using namespace roam;
 using namespace roam::app;
-
-/// A body in a room of 20 m x 4 m x 3 m, at (10, 0), looking along +x.
-class Tooled : public view_stores::Driven {
- public:
-  explicit Tooled(bool has_store = false) {
-    write_scene();
-    options.size = "640x360";  // the panel of the status leaves room for the plan
-    options.at = {10, 0, 0.95, 0};
-    if (has_store) build();
-    begin();
-    run(0.5);
-    EXPECT_EQ(on_store(), has_store);
-  }
-  /// At a point of the picture, from -1 to 1.
-  void click(double x, double y, int times = 1) {
-    session->stage().draw();  // one clicks on what one sees
-    const osgGA::GUIEventAdapter& now = *events().getCurrentEventState();
-    const float across = 0.5f * (1 + static_cast<float>(x)) * (now.getXmax() - now.getXmin()) + now.getXmin();
-    const bool upwards = now.getMouseYOrientation() == osgGA::GUIEventAdapter::Y_INCREASING_UPWARDS;
-    const float height = static_cast<float>(upwards ? y : -y);
-    const float up = 0.5f * (1 + height) * (now.getYmax() - now.getYmin()) + now.getYmin();
-    for (int i = 0; i < times; ++i) {
-      events().mouseButtonPress(across, up, 1);
-      events().mouseButtonRelease(across, up, 1);
-    }
-    run(1.0 / 60.0);
-  }
-  [[nodiscard]] std::vector<Measurement> measured() { return session->finish().measurements; }
-};
+using view_stores::Tooled;
 
 TEST(Tools, MeasureBetweenClickedPoints) {
   for (const bool on_store : {false, true}) {
@@ -256,84 +226,6 @@ TEST(Probing, SaysWhyThereIsNoWay) {
   d.tap('i');
   ASSERT_TRUE(d.until([&] { return contains(d.hud(), "way: ") && !contains(d.hud(), "searching"); })) << d.hud();
   EXPECT_FALSE(contains(d.hud(), "YES")) << d.hud();
-}
-
-TEST(Section, HidesAClickedSurfaceAndWhatIsBeforeIt) {
-  Tooled d;
-  d.tap('x');
-  EXPECT_TRUE(contains(d.hud(), "Section: click what is to be hidden, turn the wheel to cut deeper; X ends"))
-      << d.hud();
-  d.click(0, -0.9);
-  d.tap('t');
-  d.click(0.2, -0.9);  // at the same place it would be a double click
-  EXPECT_TRUE(contains(d.hud(), "There is no surface here")) << "the floor is hidden: " << d.hud();
-  d.click(0, 0);
-  EXPECT_TRUE(contains(d.hud(), "There is no surface here")) << "so is all that is above it: " << d.hud();
-  const Vec3 before = d.place();
-  d.run(1.0);
-  EXPECT_LT(glm::distance(d.place(), before), 1e-3) << "the body still stands on the floor";
-  d.tap('x');
-  d.tap('x');
-  EXPECT_TRUE(contains(d.hud(), "All is shown again")) << d.hud();
-  d.tap('t');
-  d.click(0, -0.9);
-  ASSERT_TRUE(d.until([&] { return contains(d.hud(), ", floor, slope 0"); })) << d.hud();
-  EXPECT_TRUE(json_report(d.session->finish())["section"].empty());
-}
-
-TEST(Section, IsMovedByTheWheel) {
-  Tooled d;
-  d.tap('x');
-  d.click(0, -0.9);
-  d.events().mouseScroll(osgGA::GUIEventAdapter::SCROLL_UP);
-  d.events().mouseScroll(osgGA::GUIEventAdapter::SCROLL_UP);
-  d.run(0.1);
-  const Json json = json_report(d.session->finish());
-  ASSERT_EQ(json["section"].size(), 1u);
-  EXPECT_NEAR(json["section"][0]["normal"][2], 1.0, 1e-6);
-  EXPECT_LT(json["section"][0]["distance_m"], -0.1) << "below the floor at 0";
-  EXPECT_GT(json["section"][0]["distance_m"], -0.5);
-}
-
-TEST(Section, IsGivenByOptions) {
-  const graphics::SectionPlane below = parse_section("z<2.5"), east = parse_section("x>-10");
-  EXPECT_EQ(below, (graphics::SectionPlane{{0, 0, 1}, 2.5}));
-  EXPECT_EQ(east, (graphics::SectionPlane{{-1, 0, 0}, 10}));
-  for (const char* text : {"", "z", "z<", "w<1", "z=1", "z<a", "z<nan", "z<1e300", "z<1 "}) {
-    EXPECT_THROW((void)parse_section(text), UsageError) << text;
-  }
-  ViewOptions options;
-  options.scene.scenes = {"room.obj"};
-  options.section.assign(7, "z<2");
-  EXPECT_THROW((void)make_plan(options, {}), UsageError);
-}
-
-/// A picture of the room from above; with a section, its roof is not shown.
-Shot from_above(const std::vector<std::string>& section) {
-  view_stores::Driven d;
-  d.write_scene();
-  d.options.at = {10, 0, 12, 0, -85};
-  d.options.mode = "ghost";
-  d.options.size = "320x180";
-  d.options.section = section;
-  d.begin();
-  d.run(0.2);
-  const std::string shot = d.folder.file("above.png");
-  d.session->stage().draw_picture(shot);
-  return Shot(shot);
-}
-
-TEST(Section, LetsOneLookIntoARoomFromAbove) {
-  const Shot closed = from_above({}), high = from_above({"z<10"}), open = from_above({"z<2.9"});
-  int same = 0, other = 0;
-  for (int y = 0; y < closed.height(); ++y) {
-    for (int x = 0; x < closed.width(); ++x) {
-      same += (closed.at(x, y) - high.at(x, y)).length() > 0.02;
-      other += (closed.at(x, y) - open.at(x, y)).length() > 0.02;
-    }
-  }
-  EXPECT_EQ(same, 0);
-  EXPECT_GT(other, 1000);
 }
 
 /// The middle of a line of the open help, found on a vertical line through it.

@@ -276,6 +276,30 @@ TEST(ViewWindow, DragsLookAround) {
   EXPECT_NE(report["end"]["pitch"], 0.0);
 }
 
+TEST(ViewWindow, DragsASideOfTheSectionsBox) {
+  Window w({"--at", "2,0,0.95,0"});
+  w.point(10, 190);
+  wait(0.5);
+  xdo("key ctrl+x");
+  wait(1.0);
+  // The box is about the wall, 18 m ahead; the point on its top is 6.3 m above the eye.
+  w.point(160, 45);
+  wait(0.5);
+  xdo("mousedown 1");
+  wait(0.3);
+  w.point(160, 60);
+  wait(0.3);
+  w.point(160, 75);
+  wait(0.3);
+  xdo("mouseup 1");
+  wait(0.5);
+  const nlohmann::json report = w.end();
+  ASSERT_TRUE(report["section_box"].is_object()) << report;
+  EXPECT_NEAR(report["section_box"]["upper"][2], 4.5, 1.0);
+  EXPECT_NEAR(report["section_box"]["lower"][2], -4.7, 0.3);
+  EXPECT_EQ(report["end"]["yaw"], 0.0);
+}
+
 TEST(ViewWindow, GoesToWhatIsDoubleClicked) {
   Window w({"--at", "2,0,0.95,0", "--verify"});
   w.point(160, 100);

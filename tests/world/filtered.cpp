@@ -4,11 +4,14 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <vector>
 
 #include "first_impacts.h"
 #include "judged_queries.h"
+#include "roam/instances.h"
 #include "roam/patchwork.h"
 #include "roam/walker.h"
 
@@ -71,6 +74,66 @@ TEST(Filtered, IsTheSpaceWithoutThoseObjects) {
   }
 }
 
+TEST(Filtered, IsTheSpaceWithoutTheTrianglesBeyondAPlane) {
+  const std::vector<Mesh> meshes = clutter_of(8);
+  const World world = World::build(meshes, {.lossless = true});
+  const double c = std::sqrt(0.5);
+  const std::vector<roam::HalfSpace> beyond{{{0, 0, 1}, 1.0}, {{-c, c, 0}, 2.0}};
+  Filtered some(world);
+  some.ignore_beyond(beyond);
+  EXPECT_EQ(some.beyond().size(), 2u);
+  some.ignore(3);
+  Mesh left;
+  long gone = 0, cut = 0;
+  for (ObjectId i = 0; i < meshes.size(); ++i) {
+    for (std::size_t t = 0; t < meshes[i].triangles.size() && i != 3; ++t) {
+      const roam::Triangle corners = meshes[i].triangle(t);
+      const roam::ObjectFilter filter{{}, nullptr, beyond};
+      const bool is_gone = filter.ignores(corners);
+      gone += is_gone;
+      if (is_gone) continue;
+      cut += std::any_of(corners.begin(), corners.end(), [&](const Vec3& p) { return beyond[0].holds(p); });
+      scenes::add_triangle(left, corners[0], corners[1], corners[2]);
+    }
+  }
+  ASSERT_GT(gone, 50);
+  ASSERT_GT(cut, 5) << "triangles that cross a plane stay whole";
+  judged::NearJudge judge(left);
+  std::array<roam::Contact, 64> contacts;
+  for (const Query& q : first_impacts::queries(25, 4.0, 1500)) {
+    const Impact s = some.sweep(q);
+    if (glm::length(q.motion) < 10.0) {
+      judged::judge_sweep(s, q.body, q.from, q.motion, judged::farthest_lossless, judge);
+      judged::judge_gap(some.gap_bound(q, 1.0), q.body, q.from, q.motion, 1.0, judge);
+    }
+    ASSERT_FALSE(HasFatalFailure());
+    // The same, said by the query itself.
+    const std::vector<ObjectId> objects{3};
+    const roam::ObjectFilter objects_too{objects}, filter{{}, &objects_too, beyond};
+    Query with = q;
+    with.ignored = &filter;
+    ASSERT_TRUE(course::same(world.sweep(with), s));
+    ASSERT_EQ(world.contacts(with, 0.5, contacts), some.contacts(q, 0.5, contacts));
+  }
+  EXPECT_GT(first_impacts::compare(some, first_impacts::queries(26, 4.0, 500)).hits, 100);
+}
+
+TEST(Filtered, ChangesItsRevisionWithItsHalfSpaces) {
+  const World world = World::build(clutter_of(2));
+  Filtered some(world);
+  const std::uint64_t first = *some.facts().revision;
+  const std::vector<roam::HalfSpace> beyond{{{0, 0, 1}, 1.0}};
+  some.ignore_beyond(beyond);
+  const std::uint64_t second = *some.facts().revision;
+  EXPECT_NE(second, first);
+  some.ignore_beyond(beyond);
+  EXPECT_EQ(*some.facts().revision, second);
+  some.ignore_beyond({});
+  EXPECT_NE(*some.facts().revision, second);
+  const std::vector<roam::HalfSpace> wrong{{{0, 0, 1}, std::nan("")}};
+  EXPECT_THROW(some.ignore_beyond(wrong), roam::Error);
+}
+
 TEST(Filtered, OfAFilteredIgnoresBoth) {
   const World world = World::build(clutter_of(6));
   Filtered outer_only(world), inner(world);
@@ -122,6 +185,19 @@ std::vector<Mesh> room_with_door() {
   meshes[1].name = "door";
   scenes::add_box(meshes[1], {-0.05, -5.0, 0.0}, {0.05, 5.0, 3.0});
   return meshes;
+}
+
+TEST(Filtered, CutsTheSpaceThatInstancesAreIn) {
+  const World world = World::build(room_with_door());
+  const roam::Instances all(world);
+  Filtered some(all);
+  const roam::Body ball{.radius = 0.1};
+  const auto falls = [&] { return !some.sweep(ball, {2.0, 0.0, 1.5}, {0.0, 0.0, -9.0}).hit; };
+  EXPECT_FALSE(falls());
+  const std::vector<roam::HalfSpace> below{{{0.0, 0.0, -1.0}, -0.5}};
+  some.ignore_beyond(below);
+  EXPECT_TRUE(falls());
+  EXPECT_TRUE(some.sweep(ball, {2.0, 0.0, 1.5}, {-9.0, 0.0, 0.0}).hit) << "the door stays: it reaches higher";
 }
 
 TEST(Filtered, LetsOneBodyThroughADoorThatStopsAnother) {

@@ -26,6 +26,8 @@ constexpr Line lines[] = {
     {"measure", "T", "measures between clicked points"},
     {"probe", "I", "finds a way from A to B, the measured points"},
     {"section", "X", "hides the clicked surface and all before it; wheel: deeper"},
+    {"section_box", "Ctrl+X", "shows only a box, with points to drag; wheel: smaller"},
+    {"pass_hidden", "Ctrl+N", "lets the body through what is hidden, or no longer"},
     {"layers", "Ctrl+L", "lists objects and groups, to hide and show them"},
     {"plan", "L", "shows a plan: small, large, none; click: goes there"},
     {"marks", "V", "shows the body and what it touches"},

@@ -24,16 +24,6 @@ constexpr char box_part = 'b', arrow_part = 'a';
 
 constexpr double notch_rows = 3.0;
 
-/// A world without some objects, which keeps it.
-struct Reduced {
-  Reduced(std::shared_ptr<const World> whole, std::span<const ObjectId> without)
-      : world(std::move(whole)), space(*world) {
-    space.ignore_only(without);
-  }
-  std::shared_ptr<const World> world;
-  Filtered space;
-};
-
 ListRow::Box box_of(SceneObjects::Hidden hidden) {
   return hidden == SceneObjects::Hidden::none  ? ListRow::Box::on
          : hidden == SceneObjects::Hidden::all ? ListRow::Box::off
@@ -52,78 +42,22 @@ ListRow row_of(const SceneObjects::Entry& entry) {
 
 }  // namespace
 
-Layers::Layers(Stage& stage, SceneGraph& scene, const Arrival& arrival, osgRoam::Manipulator& roamer, Prompt& prompt,
-               News& news, bool may_pass)
-    : stage_(stage),
-      scene_(scene),
-      arrival_(arrival),
-      roamer_(roamer),
-      prompt_(prompt),
-      news_(news),
-      may_pass_(may_pass) {}
+Layers::Layers(Stage& stage, SceneGraph& scene, HiddenSpace& hidden, const osgRoam::Manipulator& roamer, Prompt& prompt,
+               News& news)
+    : stage_(stage), scene_(scene), hidden_(hidden), roamer_(roamer), prompt_(prompt), news_(news) {}
 
 void Layers::add_to(Commands& commands) {
   commands.add("layers", [this] { shown_ = !shown_; });
 }
 
 void Layers::update() {
-  follow();
+  std::shared_ptr<const SceneObjects::Flags> flags = scene_.objects().flags();
+  rows_changed_ = rows_changed_ || flags != rows_flags_ || rows_pass_ != hidden_.passes();
+  rows_flags_ = std::move(flags);
+  rows_pass_ = hidden_.passes();
   note_vain_patterns(false);
   show_list();
 }
-
-/// Makes the spaces match what is hidden.
-void Layers::follow() {
-  if (passes_ && arrival_.pager() != nullptr) {
-    passes_ = false;
-    rows_changed_ = true;
-    tell_of_store();
-  }
-  std::shared_ptr<const SceneObjects::Flags> flags = scene_.objects().flags();
-  std::shared_ptr<const World> world = arrival_.world();
-  if (flags == flags_ && world == world_) return;
-  rows_changed_ = rows_changed_ || flags != flags_;
-  flags_ = std::move(flags);
-  names_ = scene_.objects().hidden_names();
-  if (world != world_) {
-    world_ = std::move(world);
-    ids_.clear();
-    passes_ = passes_ && world_ != nullptr;
-    if (world_ != nullptr) {
-      const std::vector<std::string>& names = arrival_.object_names();
-      for (ObjectId id = 0; id < names.size(); ++id) ids_.emplace(names[id], id);
-    }
-  }
-  std::vector<ObjectId> without;
-  for (const auto& [name, objects] : names_.names) {
-    const auto [begin, end] = ids_.equal_range(name);
-    // The body meets what its world has by another name.
-    if (begin == end && world_ != nullptr) names_.left_over += objects;
-    for (auto at = begin; at != end; ++at) without.push_back(at->second);
-  }
-  visible_.reset();
-  if (world_ != nullptr && !without.empty()) {
-    const auto reduced = std::make_shared<const Reduced>(world_, without);
-    visible_ = std::shared_ptr<const Space>(reduced, &reduced->space);
-  }
-  if (passes_) pass_through(true);
-}
-
-void Layers::pass_through(bool passes) {
-  if (passes && arrival_.pager() != nullptr) return tell_of_store();
-  if (passes && !may_pass_) {
-    news_.tell("objects stay walls while all moves are verified, or follow a path");
-    return;
-  }
-  passes_ = passes;
-  rows_changed_ = true;
-  // While the walls are being loaded, the wish waits for them.
-  if (world_ == nullptr) return;
-  const std::shared_ptr<const Space> space = passes && visible_ != nullptr ? visible_ : world_;
-  if (roamer_.space() != space) roamer_.setSpace(space);
-}
-
-void Layers::tell_of_store() { news_.tell("a store keeps its objects: build one with --ignore to leave some out"); }
 
 void Layers::note_vain_patterns(bool at_end) {
   // Pages may bring further names.
@@ -150,7 +84,7 @@ void Layers::show_list() {
                      {},
                      false,
                      0,
-                     passes_ ? ListRow::Box::on : ListRow::Box::off});
+                     rows_pass_ ? ListRow::Box::on : ListRow::Box::off});
     // Always there: rows must not move under the mouse.
     rows_.push_back({"show all", all_row, {}, false, 0, ListRow::Box::none});
     for (const SceneObjects::Entry& entry : scene_.objects().entries(open_, search_)) rows_.push_back(row_of(entry));
@@ -203,7 +137,7 @@ void Layers::scroll(double notches) {
 void Layers::click(const std::string& part) {
   SceneObjects& objects = scene_.objects();
   if (part == graphics::Hud::list_search) return search();
-  if (part == pass_row) return pass_through(!passes_);
+  if (part == pass_row) return hidden_.pass_through(!hidden_.passes());
   if (part == all_row) return objects.show_all();
   SceneObjects::Number node = 0;
   if (part.size() < 2 || std::from_chars(part.data() + 1, part.data() + part.size(), node).ec != std::errc()) return;
@@ -227,34 +161,6 @@ void Layers::search() {
     first_ = 0;
     rows_changed_ = true;
   });
-}
-
-std::vector<std::string> Layers::passed() const {
-  std::vector<std::string> patterns;
-  if (!passes_) return patterns;
-  for (const auto& [name, objects] : names_.names) {
-    if (ids_.contains(name)) patterns.push_back(pattern_of(name));
-  }
-  return patterns;
-}
-
-void Layers::fill(Status& status) const {
-  const SceneObjects::Count count = scene_.objects().count();
-  if (count.hidden == 0) return;
-  status.hidden = fmt::format("{} of {} objects; ", count.hidden, count.objects);
-  if (!passes_) {
-    status.hidden += "the body meets them";
-  } else if (names_.left_over == 0) {
-    status.hidden += "the body passes through";
-  } else {
-    status.hidden +=
-        fmt::format("the body passes through, except {} that it cannot tell by their names", names_.left_over);
-  }
-}
-
-void Layers::fill(ViewReport& report) const {
-  report.hidden_objects = scene_.objects().count().hidden;
-  report.passes_hidden = passes_;
 }
 
 }  // namespace roam::app

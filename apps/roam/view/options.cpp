@@ -218,11 +218,11 @@ void ViewOptions::add_to(CLI::App& verb) {
                   "The key P writes pictures N times as wide and high as the window (default: 1)")
       ->check(from_to(1.0, largest_picture_scale))
       ->type_name("N");
-  verb.add_option(
-          "--section", section,
-          "Show only this side of a plane, to look into buildings: 'z<2.5', 'x>10'; may be repeated. The body still "
-          "meets the rest")
-      ->type_name("PLANE")
+  verb.add_option("--section", section,
+                  "Show only this side of a plane, to look into buildings: 'z<2.5', 'x>10'; or only the inside of a "
+                  "box between "
+                  "two corners: 'box 0 0 0, 10 10 3'; may be repeated. The body still meets the rest")
+      ->type_name("PLANE|BOX")
       ->expected(1)
       ->take_all();
   verb.add_option("--hide", hide,
@@ -231,6 +231,10 @@ void ViewOptions::add_to(CLI::App& verb) {
       ->type_name("PATTERN")
       ->expected(1)
       ->take_all();
+  verb.add_flag("--pass-hidden", pass_hidden,
+                "The body passes through what --hide and --section hide: objects, and triangles that lie as a whole "
+                "beyond a plane or one side of the box. Not with a store")
+      ->excludes(replay);
   verb.add_flag("--headless", headless, "Draw without a screen");
   verb.add_option("--time", time_limit, "End after S seconds of roaming")
       ->excludes(replay)
@@ -258,7 +262,8 @@ void ViewOptions::add_to(CLI::App& verb) {
       ->type_name("N");
   verb.add_option("--record-path", record_path, "Write the way as a path file, as the key R does")->type_name("FILE");
   verb.add_option("--trace", trace, "Write every step to this CSV file (-: standard output)")->type_name("FILE");
-  verb.add_flag("--verify", verify, "At the end, check every move against all triangles, without the index");
+  verb.add_flag("--verify", verify, "At the end, check every move against all triangles, without the index")
+      ->excludes("--pass-hidden");
   verb.add_flag("--json", json, "At the end, print one JSON object");
   verb.option_defaults()->group(other_group);
   verb.add_option("--settings", settings,
@@ -294,10 +299,7 @@ ViewPlan make_plan(const ViewOptions& options, const ViewSettings& settings,
   plan.quality = options.quality.value_or(settings.quality.value_or(plan.quality));
   plan.picture_scale = options.picture_scale.value_or(settings.picture_scale.value_or(plan.picture_scale));
   plan.edges = settings.edges.value_or(plan.edges);
-  for (const std::string& text : options.section) plan.section.push_back(parse_section(text));
-  if (plan.section.size() > graphics::most_section_planes) {
-    throw UsageError("--section", fmt::format("there are at most {}", graphics::most_section_planes));
-  }
+  for (const std::string& text : options.section) add_section(text, plan.section);
   const auto [width, height] = parse_size(options.size);
   plan.film_rate = app::film_rate(options);
   if (options.turntable && !options.hud) plan.hud = HudMode::off;

@@ -7,7 +7,6 @@
 #include <string>
 #include <vector>
 
-#include "graphics/shading.h"
 #include "roam/walker.h"
 #include "scenes/body_options.h"
 #include "scenes/open_scene.h"
@@ -15,6 +14,7 @@
 #include "scenes/scene_options.h"
 #include "scenes/scene_profile.h"
 #include "view/pose.h"
+#include "view/section.h"
 #include "view/settings.h"
 
 namespace CLI {
@@ -36,6 +36,7 @@ struct ViewOptions {
   std::string bookmark;
   std::vector<std::string> section;
   std::vector<std::string> hide;  ///< patterns of names
+  bool pass_hidden = false;
   std::filesystem::path path;
   double dt = 1.0 / 60.0;
   std::filesystem::path screenshot, record, record_path, trace, settings;
@@ -67,7 +68,7 @@ struct ViewPlan {
   std::string quality = "auto";  ///< one of quality_names
   bool edges = true;
   double picture_scale = 1.0;  ///< of the pictures of the key P, times the window
-  std::vector<graphics::SectionPlane> section;
+  SectionShape section;
   int width = 0, height = 0;   ///< pixels
   int film_rate = 30;          ///< pictures a second
   std::vector<Waypoint> path;  ///< of --path; make_plan leaves it empty

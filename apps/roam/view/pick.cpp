@@ -14,8 +14,7 @@ namespace {
 
 /// The part of the segment from `from` to `from + motion` that the planes do not hide, as two fractions; the second is
 /// smaller than the first if there is none.
-std::pair<double, double> seen_part(std::span<const graphics::SectionPlane> planes, const Vec3& from,
-                                    const Vec3& motion) {
+std::pair<double, double> seen_part(std::span<const HalfSpace> planes, const Vec3& from, const Vec3& motion) {
   double first = 0.0, last = 1.0;
   for (const auto& [normal, distance] : planes) {
     const double over = glm::dot(normal, from) - distance, rise = glm::dot(normal, motion);
@@ -36,18 +35,31 @@ double slope_degrees(const Pick& pick) {
   return glm::degrees(std::acos(std::clamp(std::abs(pick.normal.z), 0.0, 1.0)));
 }
 
-std::optional<Pick> pick(const Space& space, const osg::Matrixd& view, const osg::Matrixd& projection,
-                         const Vec3& origin, double x, double y, std::span<const graphics::SectionPlane> hidden) {
-  const osg::Matrixd to_graph = osg::Matrixd::inverse(view);
-  const osg::Vec3d ahead = osg::Vec3d(x, y, -1.0) * osg::Matrixd::inverse(projection);
-  const Vec3 eye = osgRoam::to_roam(to_graph.getTrans()) + origin;
+std::optional<Sightline> sightline(const CameraView& camera, double x, double y) {
+  const osg::Matrixd to_graph = osg::Matrixd::inverse(camera.view);
+  const osg::Vec3d ahead = osg::Vec3d(x, y, -1.0) * osg::Matrixd::inverse(camera.projection);
+  const Vec3 eye = osgRoam::to_roam(to_graph.getTrans()) + camera.origin;
   const Vec3 direction = osgRoam::to_roam(osg::Matrixd::transform3x3(ahead, to_graph));
   const double length = glm::length(direction);
   if (!(length > 0.0) || !std::isfinite(length) || !std::isfinite(glm::length(eye))) return std::nullopt;
-  const Vec3 whole = sight(space, eye) / length * direction;
-  const auto [first, last] = seen_part(hidden, eye, whole);
+  return Sightline{eye, direction / length};
+}
+
+std::optional<std::array<double, 2>> seen_at(const CameraView& camera, const Vec3& point) {
+  const Vec3 p = point - camera.origin;
+  const osg::Vec4d clip = osg::Vec4d(p.x, p.y, p.z, 1.0) * camera.view * camera.projection;
+  if (!(clip.w() > 0.0)) return std::nullopt;
+  return std::array{clip.x() / clip.w(), clip.y() / clip.w()};
+}
+
+std::optional<Pick> pick(const Space& space, const CameraView& camera, double x, double y,
+                         std::span<const HalfSpace> hidden) {
+  const auto line = sightline(camera, x, y);
+  if (!line) return std::nullopt;
+  const Vec3 whole = sight(space, line->eye) * line->direction;
+  const auto [first, last] = seen_part(hidden, line->eye, whole);
   if (!(first < last)) return std::nullopt;
-  const Impact seen = space.ray(eye + first * whole, (last - first) * whole);
+  const Impact seen = space.ray(line->eye + first * whole, (last - first) * whole);
   if (!seen.hit || seen.unknown) return std::nullopt;
   return Pick{seen.point, seen.normal, space.object_name(seen.triangle), seen.triangle};
 }

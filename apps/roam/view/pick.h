@@ -2,12 +2,12 @@
 /// \file
 /// The surface behind a point of the picture.
 
+#include <array>
 #include <optional>
 #include <osg/Matrixd>
 #include <span>
 #include <string>
 
-#include "graphics/shading.h"
 #include "roam/space.h"
 
 namespace roam::app {
@@ -23,10 +23,26 @@ struct Pick {
 /// Degrees between the surface and the level, [0, 90].
 [[nodiscard]] double slope_degrees(const Pick& pick);
 
-/// The first known surface behind a point of the picture; x and y in [-1, 1], right and up. `view` and `projection` are
-/// the camera's matrices, in the graph's frame: the scene minus `origin`. Surfaces that the planes hide are not found.
-[[nodiscard]] std::optional<Pick> pick(const Space& space, const osg::Matrixd& view, const osg::Matrixd& projection,
-                                       const Vec3& origin, double x, double y,
-                                       std::span<const graphics::SectionPlane> hidden = {});
+/// A camera at this moment. Its matrices are in the graph's frame: the scene minus `origin`.
+struct CameraView {
+  osg::Matrixd view, projection;
+  Vec3 origin{0.0};
+};
+
+/// A line of sight in the scene's frame.
+struct Sightline {
+  Vec3 eye{0.0};
+  Vec3 direction{1.0, 0.0, 0.0};  ///< of length 1
+};
+
+/// The line through a point of the picture; x and y in [-1, 1], right and up. None for a camera without a view.
+[[nodiscard]] std::optional<Sightline> sightline(const CameraView& camera, double x, double y);
+
+/// The point of the picture where a point of the scene is seen; none behind the eye.
+[[nodiscard]] std::optional<std::array<double, 2>> seen_at(const CameraView& camera, const Vec3& point);
+
+/// The first known surface behind a point of the picture. Surfaces in the half spaces are not found.
+[[nodiscard]] std::optional<Pick> pick(const Space& space, const CameraView& camera, double x, double y,
+                                       std::span<const HalfSpace> hidden = {});
 
 }  // namespace roam::app

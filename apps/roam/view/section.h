@@ -1,7 +1,8 @@
 #pragma once
 /// \file
-/// Planes that hide a part of the picture, to look into buildings.
+/// Planes and a box that hide a part of the picture, to look into buildings.
 
+#include <optional>
 #include <osg/Group>
 #include <string>
 #include <vector>
@@ -11,29 +12,45 @@
 
 namespace roam::app {
 
-/// A plane of the option --section, in the scene's frame: "z<2.5" hides everything above. Throws UsageError for any
-/// other text.
-[[nodiscard]] graphics::SectionPlane parse_section(const std::string& text);
+/// Hides half spaces, and everything outside a box; in the scene's frame.
+struct SectionShape {
+  static constexpr std::size_t most_planes = graphics::most_section_planes - 6;  ///< the box has six sides
+  std::vector<HalfSpace> planes;                                                 ///< at most most_planes
+  std::optional<Box> box;
 
-/// A list of planes in the scene's frame. It hides parts of the picture; the body still meets them.
+  [[nodiscard]] bool empty() const { return planes.empty() && !box; }
+  /// All that is hidden.
+  [[nodiscard]] std::vector<HalfSpace> hidden() const;
+};
+
+/// Adds a section of the option --section: "z<2.5" hides everything above, "box 0 0 0, 10 10 3" everything outside the
+/// box between these corners. Throws UsageError for any other text, a second box, a box without volume, or too many
+/// planes.
+void add_section(const std::string& text, SectionShape& shape);
+
+/// A section that the mouse changes. It hides parts of the picture; HiddenSpace decides what the body meets.
 ///
 /// Call all members from the thread that draws, between two frames.
 class Section {
  public:
-  explicit Section(std::vector<graphics::SectionPlane> planes) : planes_(std::move(planes)) {}
+  static constexpr double least_side = 0.05;  ///< of the box, metres
 
-  [[nodiscard]] const std::vector<graphics::SectionPlane>& planes() const { return planes_; }
-  /// Hides a surface that was clicked, and everything before it. With most_section_planes, the last plane moves there.
+  explicit Section(SectionShape shape) : shape_(std::move(shape)) {}
+
+  [[nodiscard]] const SectionShape& shape() const { return shape_; }
+  [[nodiscard]] const std::optional<Box>& box() const { return shape_.box; }
+  void set_box(std::optional<Box> box) { shape_.box = box; }
+  /// Hides a surface that was clicked, and everything before it. With most_planes, the last plane moves there.
   void cut(const Pick& pick);
   /// Moves the last plane away from the side that it hides, by a fraction of its distance from the eye; < 0: back.
   void move(double notches, const Vec3& eye);
-  void clear();
-  /// Draws `scene` with the planes. The graph is the scene minus `origin`. Does nothing if it is drawn so already.
+  void clear_planes() { shape_.planes.clear(); }
+  /// Draws `scene` with the section. The graph is the scene minus `origin`. Does nothing if it is drawn so already.
   void show(osg::Group& scene, const Vec3& origin);
 
  private:
-  std::vector<graphics::SectionPlane> planes_;
-  std::vector<graphics::SectionPlane> shown_;  ///< in the frame of the graph
+  SectionShape shape_;
+  std::vector<HalfSpace> shown_;  ///< in the frame of the graph
 };
 
 }  // namespace roam::app

@@ -52,8 +52,9 @@ Session::Session(const ViewOptions& options, const ViewPlan& plan, const ViewSet
              objects_, stage_.headless() ? SceneGraph::Arrival::at_once : SceneGraph::Arrival::smooth),
       display_(stage_, scene_, *roamer_, news_, plan_.fov),
       prompt_(new Prompt(stage_)),
-      layers_(new Layers(stage_, scene_, arrival_, *roamer_, *prompt_, news_, plan_.path.empty() && !options.verify)),
-      tools_(new Tools(stage_, scene_, *roamer_, *layers_, what_, options.program, plan_.section)),
+      hidden_(scene_, arrival_, *roamer_, news_, plan_.path.empty() && !options.verify),
+      layers_(new Layers(stage_, scene_, hidden_, *roamer_, *prompt_, news_)),
+      tools_(new Tools(stage_, scene_, *roamer_, *layers_, hidden_, what_, options.program, plan_.section)),
       controllers_(stage_, *roamer_, *prompt_, plan_.sensitivity),
       building_(what_, options.program, *roamer_, news_),
       rereading_(what_, options_, arrival_, *roamer_, display_, news_) {
@@ -63,6 +64,8 @@ Session::Session(const ViewOptions& options, const ViewPlan& plan, const ViewSet
   stage_.add_to(commands_);
   display_.add_to(commands_);
   layers_->add_to(commands_);
+  hidden_.add_to(commands_);
+  if (options.pass_hidden) hidden_.pass_through(true);
   commands_.add("store", [this] { building_.toggle(arrival_.pager(), place(), arrival_.triangles()); });
   commands_.add("name_bookmark", [this] { records_.ask_name(*prompt_); });
   rereading_.add_to(commands_);
@@ -228,6 +231,7 @@ bool Session::is_at_its_end() const {
 void Session::show(bool at_once) {
   graphics::Marks marks;
   tools_->add_to(marks);
+  hidden_.update(tools_->section());
   layers_->update();
   tools_->update(roaming(), records_.places());
   display_.update(roaming(), roaming() && !arrival_.is_ghost_only() ? roamer_->leastEyeDistance() : plan_.walker.radius,
@@ -235,7 +239,7 @@ void Session::show(bool at_once) {
   if (!at_once && !display_.is_due()) return;
   arrival_.note_failures(stage_.now());
   Status status = display_.status(roaming());
-  if (const Space* const visible = layers_->visible(); visible != nullptr && roaming()) {
+  if (const Space* const visible = hidden_.visible(); visible != nullptr && roaming()) {
     status.around = surroundings(*roamer_, *visible);
   }
   if (roaming() && !roamer_leads()) status.camera = cameras_->present();
@@ -246,7 +250,7 @@ void Session::show(bool at_once) {
   arrival_.fill(status);
   building_.fill(status);
   records_.fill(status);
-  layers_->fill(status);
+  hidden_.fill(status);
   tools_->fill(status);
   if (learning_) learning_->fill(status);
   display_.show(std::move(status));
@@ -267,7 +271,7 @@ ViewReport Session::finish() {
   building_.fill(report);
   arrival_.fill(report);
   display_.fill(report);
-  layers_->fill(report);
+  hidden_.fill(report);
   tools_->fill(report);
   records_.finish();
   records_.fill(report);

@@ -12,6 +12,7 @@
 #include "view/commands.h"
 #include "view/controllers.h"
 #include "view/display.h"
+#include "view/hidden_space.h"
 #include "view/layers.h"
 #include "view/learning.h"
 #include "view/news.h"
@@ -37,8 +38,9 @@ namespace roam::app {
 ///     Records        the recorded path, bookmarks
 ///     Display        head-up display, marks, overview
 ///     Layers         objects on and off by name
+///     HiddenSpace    what the body and clicks meet of what is hidden
 ///     Controllers    gamepads
-///     Tools          measuring by clicks, the plan
+///     Tools          measuring by clicks, sections, the plan
 ///     Rereading      the end of the session for another one
 ///     Stage          window, time, pictures and films
 ///
@@ -73,6 +75,7 @@ class Session {
   [[nodiscard]] Stage& stage() { return stage_; }
   [[nodiscard]] const Tools& tools() const { return *tools_; }
   [[nodiscard]] Layers& layers() { return *layers_; }
+  [[nodiscard]] HiddenSpace& hidden() { return hidden_; }
   [[nodiscard]] const WalkLog& log() const { return log_; }
   [[nodiscard]] const Status& status() const { return display_.shown(); }
   /// Whether the body is in the scene, led by the person or the path.
@@ -108,6 +111,7 @@ class Session {
   SceneGraph scene_;
   Display display_;
   const osg::ref_ptr<Prompt> prompt_;
+  HiddenSpace hidden_;
   const osg::ref_ptr<Layers> layers_;
   const osg::ref_ptr<Tools> tools_;
   Controllers controllers_;

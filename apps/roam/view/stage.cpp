@@ -98,6 +98,7 @@ Stage::Stage(const ViewOptions& options, const ViewPlan& plan)
   settings.near = graphics::near_limit(plan.walker.radius, plan.fov, static_cast<double>(plan.width) / plan.height);
   settings.quality = quality(plan.quality, context_);
   frame_.emplace(*viewer_, context_, settings);
+  if (plan.quality == "auto" && !context_.headless && options.record.empty()) thrift_.emplace();
   frame_->set_edges(plan.edges);
   frame_->space()->addChild(graphics::make_sky());
   hud_.emplace(*frame_);
@@ -119,6 +120,7 @@ TextureQuality Stage::texture_quality() const {
 }
 
 std::string Stage::quality_note() const {
+  if (!drawn_less_.empty()) return drawn_less_;
   return context_.abilities.software && frame_->quality() == graphics::Quality::plain ? "plain: no graphics card" : "";
 }
 
@@ -261,7 +263,20 @@ void Stage::draw() {
   const double ns = std::chrono::duration<double, std::nano>(Clock::now() - begin).count();
   if (times_.count() > 0) last_ms_ = ns * 1e-6;
   times_.add(ns);
+  if (thrift_ && runs_) draw_less_if_slow(ns * 1e-6);
   if (std::exchange(enlarged_wanted_, false)) take_enlarged();
+}
+
+/// On a slow card. It stays so: a picture that changes back and forth is worse.
+void Stage::draw_less_if_slow(double ms) {
+  constexpr double seconds = 5.0;
+  using graphics::Quality;
+  const std::optional<double> median = thrift_->take(ms);
+  if (!median || frame_->quality() == Quality::plain) return;
+  const bool light = frame_->quality() == Quality::full;
+  frame_->set_quality(light ? Quality::light : Quality::plain);
+  drawn_less_ = fmt::format("{}: frames took {:.0f} ms", light ? "light" : "plain", *median);
+  hint("Drawing is now " + drawn_less_, seconds);
 }
 
 osg::ref_ptr<osg::Image> Stage::large_picture(int width, int height) {

@@ -25,6 +25,7 @@
 #include "view/film.h"
 #include "view/options.h"
 #include "view/status.h"
+#include "view/thrift.h"
 #include "view/view_report.h"
 
 namespace roam::app {
@@ -47,7 +48,7 @@ class Stage {
   [[nodiscard]] graphics::Overlay& overlay() { return *overlay_; }
   [[nodiscard]] bool headless() const { return context_.headless; }
   [[nodiscard]] TextureQuality texture_quality() const;
-  /// Says that drawing is light because there is no graphics card; else empty.
+  /// Says why drawing is not full, if that was not wished: no graphics card, or slow frames. Else empty.
   [[nodiscard]] std::string quality_note() const;
 
   /// Shows the lines and the message; does nothing if they are shown already.
@@ -98,6 +99,7 @@ class Stage {
   void cycle_hud();
   void fade_hint();
   void toggle_fullscreen();
+  void draw_less_if_slow(double ms);
 
   graphics::Context context_;
   osg::ref_ptr<osgViewer::Viewer> viewer_;
@@ -119,7 +121,9 @@ class Stage {
   Clock::time_point frame_begin_ = begin_;
   double now_ = 0.0;  ///< s
   bool runs_ = false;
-  Histogram times_;  ///< ns
+  Histogram times_;               ///< ns
+  std::optional<Thrift> thrift_;  ///< none: the quality is as wished
+  std::string drawn_less_;        ///< why
   double last_ms_ = 0.0;
   bool fullscreen_ = false;
   int width_ = 0, height_ = 0;  ///< pixels, of the window before full screen

@@ -133,6 +133,7 @@ std::vector<StatusText> status_lines(const Status& status) {
     lines.push_back({"keys", fmt::format("{:.3g} m/s", status.pace), false, true});
   }
   if (!status.hidden.empty()) lines.push_back({"hidden", status.hidden});
+  if (!status.section.empty()) lines.push_back({"section", status.section});
   lines.insert(lines.end(), status.tool.begin(), status.tool.end());
   if (status.triangles > 0) {
     lines.push_back({"triangles", short_count(static_cast<double>(status.triangles)), false, true});

@@ -65,6 +65,7 @@ struct Status {
   std::string recording;              ///< what is being recorded
   std::vector<StatusText> tool;       ///< of the tool that is on
   std::string hidden;                 ///< which objects are not shown, and whether they stop the body; may be empty
+  std::string section;                ///< what hides a part of the scene, and whether it stops the body; may be empty
   std::vector<Told> news;             ///< at this moment
   Told hold;
 };

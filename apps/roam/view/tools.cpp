@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <utility>
 
 #include "osgroam/pointer.h"
@@ -29,12 +31,13 @@ bool is_left(const Adapter& event) { return event.getButton() == Adapter::LEFT_M
 }  // namespace
 
 Tools::Tools(Stage& stage, SceneGraph& scene, osgRoam::Manipulator& roamer, const Layers& layers,
-             const SceneAndStore& what, const std::filesystem::path& program,
-             std::vector<graphics::SectionPlane> section)
+             const HiddenSpace& hidden, const SceneAndStore& what, const std::filesystem::path& program,
+             SectionShape section)
     : stage_(stage),
       scene_(scene),
       roamer_(roamer),
       layers_(layers),
+      hidden_(hidden),
       measuring_(roamer),
       probing_(program, what, roamer),
       section_(std::move(section)),
@@ -44,6 +47,7 @@ void Tools::add_to(Commands& commands) {
   commands.add("measure", [this] { toggle_measuring(); });
   commands.add("probe", [this] { probe(); });
   commands.add("section", [this] { toggle_section(); });
+  commands.add("section_box", [this] { toggle_box(); });
   commands.add("plan", [this] { plan_.cycle(); });
 }
 
@@ -66,10 +70,13 @@ void Tools::probe() {
     stage_.hint(fmt::format("First measure from A to B: {}, then two clicks", key), seconds);
     return;
   }
-  const std::vector<std::string> passed = layers_.passed();
+  const std::vector<std::string> passed = hidden_.passed();
   if (passed.size() > most_passed) {
     stage_.hint("Too many objects are hidden for a probe", seconds);
     return;
+  }
+  if (hidden_.is_section_open()) {
+    stage_.hint("A probe meets what the section hides", seconds);
   }
   const Vec3 a = beside(points->a, roamer_.settings().radius);
   if (points->b) {
@@ -80,15 +87,49 @@ void Tools::probe() {
   }
 }
 
+std::string Tools::ended_text() const {
+  return section_.shape().empty() ? "All is shown again" : "The rest of the section stays";
+}
+
 void Tools::toggle_section() {
   constexpr double seconds = 4.0;
   const bool ends = tool_ == Tool::section;
   tool_ = ends ? Tool::none : Tool::section;
-  if (ends) section_.clear();
+  if (ends) section_.clear_planes();
   const std::string key = key_of(roamer_.controls(), "section");
-  stage_.hint(ends ? "All is shown again"
+  stage_.hint(ends ? ended_text()
                    : fmt::format("Section: click what is to be hidden, turn the wheel to cut deeper; {} ends", key),
               seconds);
+}
+
+void Tools::toggle_box() {
+  constexpr double seconds = 6.0;
+  const bool ends = tool_ == Tool::box;
+  tool_ = ends ? Tool::none : Tool::box;
+  grip_.reset();
+  if (ends) {
+    section_.set_box(std::nullopt);
+  } else if (!section_.box()) {
+    section_.set_box(box_ahead());
+  }
+  const std::string key = key_of(roamer_.controls(), "section_box");
+  stage_.hint(
+      ends ? ended_text()
+           : fmt::format("Box: drag its points, turn the wheel to shrink it, click where it is to be; {} ends", key),
+      seconds);
+}
+
+/// From outside a box about the scene, else one about the middle of the picture.
+Box Tools::box_ahead() const {
+  constexpr double share = 0.35, least = 0.5;  // half a side: of the distance; metres
+  const Box scene = scene_.bounds();
+  const auto middle = sightline(camera(), 0.0, 0.0);
+  const Vec3 eye = middle ? middle->eye : scene.center();
+  const Box whole = scene.grown(0.01);  // no side of the scene flickers
+  if (!scene.empty() && !scene.holds(eye)) return whole;
+  const auto seen = pick_at({});
+  if (!seen) return whole.empty() ? Box{eye - 1.0, eye + 1.0} : whole;
+  return Box{seen->point, seen->point}.grown(std::max(least, share * glm::distance(eye, seen->point)));
 }
 
 void Tools::update(bool has_body, const std::vector<graphics::PlanPlace>& places) {
@@ -96,6 +137,16 @@ void Tools::update(bool has_body, const std::vector<graphics::PlanPlace>& places
   // The list takes the plan's place.
   if (has_body) plan_.update(stage_.hud().detail() != graphics::Detail::off && !layers_.is_shown(), places);
   stage_.hud().set_covered(plan_.covered());
+}
+
+CameraView Tools::camera() const {
+  const osg::Camera& camera = *stage_.viewer().getCamera();
+  return {camera.getViewMatrix(), camera.getProjectionMatrix(), scene_.origin()};
+}
+
+std::optional<Pick> Tools::pick_at(const Point& at) const {
+  const Space* const visible = hidden_.visible();
+  return pick(visible != nullptr ? *visible : *roamer_.space(), camera(), at.x, at.y, section_.shape().hidden());
 }
 
 Tools::Point Tools::point_of(const Adapter& event) const {
@@ -110,8 +161,13 @@ bool Tools::handle(const Adapter& event, osgGA::GUIActionAdapter& /*action*/) {
       return is_left(event) && press(event);
     case Adapter::DOUBLECLICK:
       return is_left(event) && (is_on_plan_ || tool_ != Tool::none);
+    case Adapter::DRAG:
+      return drag(event);
     case Adapter::RELEASE:
-      if (is_left(event)) release(event);
+      if (is_left(event)) {
+        if (std::exchange(grip_, std::nullopt)) return true;
+        release(event);
+      }
       return false;
     case Adapter::SCROLL:
       return scroll(event);
@@ -129,9 +185,36 @@ bool Tools::scroll(const Adapter& event) {
     plan_.zoom(std::pow(notch, -notches));
     return true;
   }
+  if (tool_ == Tool::box) {
+    resize_box(at, notches);
+    return true;
+  }
   if (tool_ != Tool::section) return false;
   const osg::Vec3d eye = stage_.viewer().getCamera()->getInverseViewMatrix().getTrans();
   section_.move(notches, Vec3(eye.x(), eye.y(), eye.z()) + scene_.origin());
+  return true;
+}
+
+/// Over a grip its side alone.
+void Tools::resize_box(const Point& at, double notches) {
+  constexpr double share = 0.04;  // of the longest side
+  if (!section_.box()) return;
+  const Box& box = *section_.box();
+  const Vec3 size = box.size();
+  const double step = std::max(Section::least_side, share * std::max({size.x, size.y, size.z}));
+  const Grip grip = grip_at(box, camera(), at.x, at.y).value_or(middle_grip);
+  section_.set_box(grown_at(grip, box, -notches * step, Section::least_side));
+}
+
+bool Tools::drag(const Adapter& event) {
+  if (!grip_) return false;
+  const Point at = point_of(event);
+  const osg::Vec3d ahead =
+      osg::Matrixd::transform3x3(osg::Vec3d(0.0, 0.0, -1.0), stage_.viewer().getCamera()->getInverseViewMatrix());
+  if (const auto to = sightline(camera(), at.x, at.y); to && from_) {
+    section_.set_box(
+        dragged(gripped_, *grip_, *from_, *to, Vec3(ahead.x(), ahead.y(), ahead.z()), Section::least_side));
+  }
   return true;
 }
 
@@ -144,6 +227,13 @@ bool Tools::press(const Adapter& event) {
   pressed_at_ = event.getTime();
   is_down_ = !again;
   is_on_plan_ = !roamer_.mouseGrab() && plan_.at(at.x, at.y).has_value();
+  grip_.reset();
+  if (tool_ == Tool::box && section_.box() && !is_on_plan_ && !roamer_.mouseGrab()) {
+    grip_ = grip_at(*section_.box(), camera(), at.x, at.y);
+    gripped_ = *section_.box();
+    from_ = sightline(camera(), at.x, at.y);
+    if (grip_) return true;
+  }
   return is_on_plan_ || (again && tool_ != Tool::none);
 }
 
@@ -162,18 +252,18 @@ void Tools::release(const Adapter& event) {
 }
 
 void Tools::click(const Point& at) {
-  const osg::Camera& camera = *stage_.viewer().getCamera();
-  const Space* const visible = layers_.visible();
-  const auto found = pick(visible != nullptr ? *visible : *roamer_.space(), camera.getViewMatrix(),
-                          camera.getProjectionMatrix(), scene_.origin(), at.x, at.y, section_.planes());
+  const auto found = pick_at(at);
   if (!found) {
     constexpr double seconds = 2.0;
     stage_.hint("There is no surface here", seconds);
   } else if (tool_ == Tool::measure) {
     probing_.clear();
     measuring_.take(*found);
-  } else {
+  } else if (tool_ == Tool::section) {
     section_.cut(*found);
+  } else if (section_.box()) {
+    const Vec3 half = 0.5 * section_.box()->size();
+    section_.set_box(Box{found->point - half, found->point + half});
   }
 }
 
@@ -186,10 +276,11 @@ void Tools::fill(Status& status) {
 void Tools::fill(ViewReport& report) {
   report.probes = probing_.replies();
   report.measurements = measuring_.all();
-  report.section = section_.planes();
+  report.section = section_.shape();
 }
 
 void Tools::add_to(graphics::Marks& marks) {
+  if (tool_ == Tool::box && section_.box()) marks.box = mark_of(*section_.box(), camera(), grip_);
   if (tool_ != Tool::measure) return;
   measuring_.add_to(marks, scene_.origin());
   probing_.add_to(marks, scene_.origin());

@@ -7,31 +7,33 @@
 #include "graphics/overlay.h"
 #include "osgRoam/Manipulator.h"
 #include "view/commands.h"
+#include "view/hidden_space.h"
 #include "view/layers.h"
 #include "view/live_plan.h"
 #include "view/measuring.h"
 #include "view/probing.h"
 #include "view/scene_graph.h"
 #include "view/section.h"
+#include "view/section_grips.h"
 #include "view/stage.h"
 #include "view/view_report.h"
 
 namespace roam::app {
 
 /// Recognizes clicks of the left button: pressed and released at one place. Drags still look around. While a tool is
-/// on, clicks are its own, and a double click does not lead the body. The section's planes stay while one measures.
+/// on, clicks are its own, and a double click does not lead the body. The section stays while one measures.
 /// With a grabbed mouse, a click is at the middle of the picture. A click on the plan leads the body there, and the
 /// wheel zooms it.
 ///
 /// Call all members from the thread that draws, between two frames. add_to() needs a body in the scene.
 class Tools : public osgGA::GUIEventHandler {
  public:
-  /// `program`: path of roam; empty: the running program. `section`: the planes at first.
-  Tools(Stage& stage, SceneGraph& scene, osgRoam::Manipulator& roamer, const Layers& layers, const SceneAndStore& what,
-        const std::filesystem::path& program, std::vector<graphics::SectionPlane> section);
+  /// `program`: path of roam; empty: the running program. `section`: at first.
+  Tools(Stage& stage, SceneGraph& scene, osgRoam::Manipulator& roamer, const Layers& layers, const HiddenSpace& hidden,
+        const SceneAndStore& what, const std::filesystem::path& program, SectionShape section);
 
-  /// Adds "measure" and "section", which turn these tools on or off; "probe", which searches a way between the measured
-  /// points; and "plan", which shows the plan smaller, larger or not.
+  /// Adds "measure", "section" and "section_box", which turn these tools on or off; "probe", which searches a way
+  /// between the measured points; and "plan", which shows the plan smaller, larger or not.
   void add_to(Commands& commands);
   /// Call it in each frame. `places`: for the plan.
   void update(bool has_body, const std::vector<graphics::PlanPlace>& places);
@@ -43,6 +45,8 @@ class Tools : public osgGA::GUIEventHandler {
   void fill(ViewReport& report);
   void add_to(graphics::Marks& marks);
   [[nodiscard]] const LivePlan& plan() const { return plan_; }
+  [[nodiscard]] const SectionShape& section() const { return section_.shape(); }
+  [[nodiscard]] CameraView camera() const;  ///< of the window
 
  protected:
   ~Tools() override = default;
@@ -54,7 +58,7 @@ class Tools : public osgGA::GUIEventHandler {
   };
   [[nodiscard]] Point point_of(const osgGA::GUIEventAdapter& event) const;
   /// What clicks on the picture do.
-  enum class Tool : std::uint8_t { none, measure, section };
+  enum class Tool : std::uint8_t { none, measure, section, box };
 
   bool press(const osgGA::GUIEventAdapter& event);
   bool scroll(const osgGA::GUIEventAdapter& event);
@@ -62,17 +66,27 @@ class Tools : public osgGA::GUIEventHandler {
   void click(const Point& at);
   void toggle_measuring();
   void toggle_section();
+  void toggle_box();
+  [[nodiscard]] std::string ended_text() const;
   void probe();
+  [[nodiscard]] std::optional<Pick> pick_at(const Point& at) const;
+  [[nodiscard]] Box box_ahead() const;
+  bool drag(const osgGA::GUIEventAdapter& event);
+  void resize_box(const Point& at, double notches);
 
   Stage& stage_;
   SceneGraph& scene_;
   osgRoam::Manipulator& roamer_;
   const Layers& layers_;
+  const HiddenSpace& hidden_;
   Tool tool_ = Tool::none;
   Measuring measuring_;
   Probing probing_;
   Section section_;
   LivePlan plan_;
+  std::optional<Grip> grip_;       ///< of the box, held by the mouse
+  Box gripped_;                    ///< the box when it was pressed
+  std::optional<Sightline> from_;  ///< then
   Point pressed_;
   double pressed_at_ = -1e9;  ///< s
   bool is_down_ = false;

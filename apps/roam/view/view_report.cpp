@@ -108,8 +108,12 @@ Json json_report(const ViewReport& report) {
   for (const ProbeReply& reply : report.probes) json["probes"].push_back(to_json(reply));
   json["hidden"] = {{"objects", report.hidden_objects}, {"passed", report.passes_hidden}};
   json["section"] = Json::array();
-  for (const auto& [normal, distance] : report.section) {
+  for (const auto& [normal, distance] : report.section.planes) {
     json["section"].push_back(Json::object({{"normal", to_json(normal)}, {"distance_m", distance}}));
+  }
+  json["section_box"] = nullptr;
+  if (const auto& box = report.section.box) {
+    json["section_box"] = Json::object({{"lower", to_json(box->lower)}, {"upper", to_json(box->upper)}});
   }
   if (report.paging) json["paging"] = to_json(*report.paging);
   json["end"]["eye"] = app::to_json(report.eye);

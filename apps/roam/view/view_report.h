@@ -15,6 +15,7 @@
 #include "view/measuring.h"
 #include "view/pose.h"
 #include "view/probing.h"
+#include "view/section.h"
 
 namespace roam::app {
 
@@ -64,12 +65,12 @@ struct ViewReport {
   std::uint64_t missing_pages = 0;
   std::vector<Measurement> measurements;
   std::vector<ProbeReply> probes;
-  std::vector<graphics::SectionPlane> section;  ///< at the end
-  std::size_t hidden_objects = 0;               ///< at the end
-  bool passes_hidden = false;                   ///< the body passes through them
-  std::vector<std::string> written;             ///< files
-  std::vector<Mesh> meshes;                     ///< for --verify; none if the session began with a store
-  verification::PieceLog pieces;                ///< for --verify
+  SectionShape section;              ///< at the end
+  std::size_t hidden_objects = 0;    ///< at the end
+  bool passes_hidden = false;        ///< the body passes through what is hidden
+  std::vector<std::string> written;  ///< files
+  std::vector<Mesh> meshes;          ///< for --verify; none if the session began with a store
+  verification::PieceLog pieces;     ///< for --verify
   std::optional<verification::Verification> verified;
 };
 

@@ -27,11 +27,39 @@ Colour shown(double red, double green, double blue, double opacity) {
   return {colour_byte(to_srgb(red)), colour_byte(to_srgb(green)), colour_byte(to_srgb(blue)), colour_byte(opacity)};
 }
 
-/// A factor, to 1/16: materials that look alike are drawn together.
-float share_of(const Json& factor, double otherwise) {
+/// A share of 0 to 1, to 1/16: materials that look alike are drawn together.
+float rounded(double value) {
   constexpr double steps = 16.0;
-  const double value = number(factor, otherwise);
   return static_cast<float>(std::round(steps * std::clamp(value > 0.0 ? value : 0.0, 0.0, 1.0)) / steps);
+}
+float share_of(const Json& factor, double otherwise) { return rounded(number(factor, otherwise)); }
+
+using Linear = glm::dvec3;  ///< red, green, blue
+
+double brightness(const Linear& c) { return std::sqrt(0.299 * c.r * c.r + 0.587 * c.g * c.g + 0.114 * c.b * c.b); }
+
+/// What a surface that is not metal mirrors.
+constexpr double dielectric = 0.04;
+
+/// The metalness with which a surface looks as one of this diffuse and specular colour: the root of a quadratic
+/// equation in appendix B of KHR_materials_pbrSpecularGlossiness.
+double metalness_of(const Linear& diffuse, const Linear& specular) {
+  const double mirrored = brightness(specular);
+  if (mirrored < dielectric) return 0.0;
+  const double rest = 1.0 - std::max({specular.r, specular.g, specular.b});
+  const double b = brightness(diffuse) * rest / (1.0 - dielectric) + mirrored - 2.0 * dielectric;
+  const double root = std::sqrt(std::max(0.0, b * b - 4.0 * dielectric * (dielectric - mirrored)));
+  return std::clamp((root - b) / (2.0 * dielectric), 0.0, 1.0);
+}
+
+/// Its base colour.
+Linear base_of(const Linear& diffuse, const Linear& specular, double metalness) {
+  constexpr double least = 1e-6;
+  const double rest = 1.0 - std::max({specular.r, specular.g, specular.b});
+  const Linear as_matt = diffuse * (rest / ((1.0 - dielectric) * std::max(1.0 - metalness, least)));
+  const Linear as_metal = (specular - dielectric * (1.0 - metalness)) / std::max(metalness, least);
+  const double share = metalness * metalness;
+  return glm::clamp(as_matt * (1.0 - share) + as_metal * share, 0.0, 1.0);
 }
 
 DisplayWrap wrap_of(const Json& mode) {
@@ -86,7 +114,7 @@ GltfLooks::Material GltfLooks::read(const Json& from) {
     material.look.transparency = Transparency::mask;
     material.look.cutoff = static_cast<float>(number(member(from, "alphaCutoff"), 0.5));
   }
-  if (metallic) read_gloss(model, material);
+  metallic ? read_gloss(model, material) : read_glossiness(model, material);
   read_emission(from, material);
   return material;
 }
@@ -101,6 +129,23 @@ void GltfLooks::read_gloss(const Json& model, Material& to) {
   to.look.gloss_texture = texture;
   to.look.roughness = roughness;
   to.look.metalness = share_of(member(model, "metallicFactor"), 1.0);
+}
+
+/// Metals are black in the diffuse colour, so it is converted. Where an image has the colours, it is taken as it is.
+void GltfLooks::read_glossiness(const Json& model, Material& to) {
+  if (member(model, "specularGlossinessTexture").is_object()) return;
+  to.look.roughness = rounded(1.0 - number(member(model, "glossinessFactor"), 1.0));
+  if (member(model, "diffuseTexture").is_object()) return;
+  const auto factor = [&](const char* name, std::size_t count) {
+    const auto c = numbers(member(model, name), count);
+    return c ? glm::clamp(Linear((*c)[0], (*c)[1], (*c)[2]), 0.0, 1.0) : Linear(1.0);
+  };
+  const Linear diffuse = factor("diffuseFactor", 4), specular = factor("specularFactor", 3);
+  const double metalness = metalness_of(diffuse, specular);
+  const Linear base = base_of(diffuse, specular, metalness);
+  const Colour colour = shown(base.r, base.g, base.b, 0.0);
+  std::copy_n(colour.begin(), 3, to.colour.begin());
+  to.look.metalness = rounded(metalness);
 }
 
 void GltfLooks::read_emission(const Json& material, Material& to) {

@@ -47,6 +47,7 @@ class GltfLooks {
   /// The image of a material; none if it lies otherwise than the images before.
   [[nodiscard]] TextureId image(const Json& reference, Material& material);
   void read_gloss(const Json& model, Material& to);
+  void read_glossiness(const Json& model, Material& to);
   void read_emission(const Json& material, Material& to);
   [[nodiscard]] TextureId texture(const Json& index);
 

@@ -1,0 +1,73 @@
+#pragma once
+/// A session of roam view in which a test clicks.
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "view_stores.h"
+
+namespace view_stores {
+
+/// A body in a room of 20 m x 4 m x 3 m, at (10, 0), looking along +x.
+class Tooled : public Driven {
+ public:
+  explicit Tooled(bool has_store = false) { start(has_store); }
+  /// With options of its own, before begin().
+  explicit Tooled(const app::ViewOptions& with) {
+    options.section = with.section;
+    options.hide = with.hide;
+    options.pass_hidden = with.pass_hidden;
+    options.verify = with.verify;
+    start(false);
+  }
+  /// At a point of the picture, from -1 to 1.
+  void click(double x, double y, int times = 1) {
+    session->stage().draw();  // one clicks on what one sees
+    const auto [across, up] = window_place(x, y);
+    for (int i = 0; i < times; ++i) {
+      events().mouseButtonPress(across, up, 1);
+      events().mouseButtonRelease(across, up, 1);
+    }
+    run(1.0 / 60.0);
+  }
+  /// Drags with the left button from one point of the picture to another.
+  void drag(const std::array<double, 2>& from, const std::array<double, 2>& to) {
+    session->stage().draw();
+    const auto [across, up] = window_place(from[0], from[1]);
+    events().mouseButtonPress(across, up, 1);
+    run(0.1);
+    const auto [across_then, up_then] = window_place(to[0], to[1]);
+    events().mouseMotion(across_then, up_then);
+    run(0.1);
+    events().mouseButtonRelease(across_then, up_then, 1);
+    run(1.0 / 60.0);
+  }
+  void point_at(double x, double y) {
+    const auto [across, up] = window_place(x, y);
+    events().mouseMotion(across, up);
+    run(1.0 / 60.0);
+  }
+  [[nodiscard]] std::vector<app::Measurement> measured() { return session->finish().measurements; }
+
+ private:
+  [[nodiscard]] std::array<float, 2> window_place(double x, double y) {
+    const osgGA::GUIEventAdapter& now = *events().getCurrentEventState();
+    const bool upwards = now.getMouseYOrientation() == osgGA::GUIEventAdapter::Y_INCREASING_UPWARDS;
+    const auto place = [](double share, float least, float most) {
+      return least + static_cast<float>(0.5 * (1.0 + share)) * (most - least);
+    };
+    return {place(x, now.getXmin(), now.getXmax()), place(upwards ? y : -y, now.getYmin(), now.getYmax())};
+  }
+  void start(bool has_store) {
+    write_scene();
+    options.size = "640x360";  // the panel of the status leaves room for the plan
+    options.at = {10, 0, 0.95, 0};
+    if (has_store) build();
+    begin();
+    run(0.5);
+    EXPECT_EQ(on_store(), has_store);
+  }
+};
+
+}  // namespace view_stores
