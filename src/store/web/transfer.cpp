@@ -320,7 +320,7 @@ double Transfer::wished_pause() const {
   curl_off_t seconds = 0;
   if (status_ != 429 && status_ != 503) return 0.0;
   Curl::library().easy_getinfo(handle, CURLINFO_RETRY_AFTER, &seconds);
-  return static_cast<double>(seconds);
+  return static_cast<double>(std::clamp<curl_off_t>(seconds, 0, 3600));
 }
 
 }  // namespace roam::web
