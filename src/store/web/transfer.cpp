@@ -116,11 +116,15 @@ bool number(std::string_view& text, std::uint64_t& value) {
 }  // namespace
 
 Transfer::Transfer(std::vector<Job*>&& of, std::string where, const Manners& manners)
-    : jobs(std::move(of)), handle(Curl::library().easy_init()), address(std::move(where)), manners_(manners) {
+    : jobs(std::move(of)),
+      handle(Curl::library().easy_init()),
+      address(std::move(where)),
+      manners_(manners),
+      is_whole_(jobs.front()->wanted.whole != nullptr) {
   if (handle == nullptr) throw std::bad_alloc();
   first_ = jobs.front()->wanted.offset;
   for (const Job* job : jobs) size_ = std::max(size_, job->end() - first_);
-  if (!is_whole()) range_ = std::to_string(first_) + "-" + std::to_string(first_ + size_ - 1);
+  if (!is_whole_) range_ = std::to_string(first_) + "-" + std::to_string(first_ + size_ - 1);
   prepare();
 }
 
@@ -203,7 +207,7 @@ void Transfer::header(std::string_view line) {
 
 bool Transfer::headers_end() {
   if (status_ < 200 || status_ >= 300) return true;
-  if (is_whole()) {
+  if (is_whole_) {
     if (status_ != 200) problem_ = meaning(0, false);
     too_large_ = length_ > jobs.front()->wanted.limit;
     if (too_large_) problem_ = larger;
@@ -236,7 +240,7 @@ bool Transfer::body(std::span<const std::byte> bytes) {
   }
   const std::uint64_t begin = first_ + received_, end = begin + bytes.size();
   received_ += bytes.size();
-  if (is_whole()) {
+  if (is_whole_) {
     const Wanted& wanted = jobs.front()->wanted;
     too_large_ = received_ > wanted.limit;
     if (too_large_) problem_ = larger;
@@ -260,9 +264,7 @@ bool Transfer::body(std::span<const std::byte> bytes) {
   return true;
 }
 
-bool Transfer::has_all(const Job& job) const {
-  return !is_whole() && status_ == 206 && first_ + received_ >= job.end();
-}
+bool Transfer::has_all(const Job& job) const { return !is_whole_ && status_ == 206 && first_ + received_ >= job.end(); }
 
 std::string Transfer::redirected() const {
   char* to = nullptr;
@@ -281,7 +283,7 @@ Answer Transfer::answer(CURLcode result) const {
   if (status_ < 200 || status_ >= 300) {
     return {meaning(status_, address.find('?') != std::string::npos), status_ == 404 || status_ == 410};
   }
-  if (is_whole() || received_ == size_) return {};
+  if (is_whole_ || received_ == size_) return {};
   return {is_cut() ? broken : too_short};
 }
 

@@ -47,11 +47,11 @@ class Transfer {
   void set(CURLoption option, Value value) {
     Curl::library().easy_setopt(handle, option, value);
   }
-  [[nodiscard]] bool is_whole() const { return jobs.front()->wanted.whole != nullptr; }
   /// Whether the answer ended before the range that it announced.
   [[nodiscard]] bool is_cut() const { return has_range_ && received_ <= range_last_ - range_first_; }
 
   Manners manners_;
+  const bool is_whole_;  ///< not a range; asking the jobs would be too late once one has ended
   std::string range_;
   curl_slist* headers_ = nullptr;
   std::uint64_t first_ = 0, size_ = 0;  ///< the range of all jobs
