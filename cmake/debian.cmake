@@ -64,7 +64,7 @@ roam_debian_package(program roam science "walk and fly through any 3D scene"
 This package has the program: it shows scenes, walks through them, finds
 out what fits, and makes stores of scenes larger than memory."
   "roam-reader (= ${roam_debian_version})" fonts-dejavu-core)
-set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS "libgl1-mesa-dri, libsdl2-2.0-0")
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS "libgl1-mesa-dri, libsdl2-2.0-0, libcurl4 | libcurl3-gnutls")
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SUGGESTS "ffmpeg, roam-doc, xvfb")
 
 roam_debian_package(reader roam-reader science "reader of 3D scenes for roam"
@@ -78,6 +78,7 @@ roam_debian_package(library ${roam_library} libs "motion without collisions in 3
 .
 This package has the shared library for C, Python and other languages."
   "roam-reader (= ${roam_debian_version})")
+set(CPACK_DEBIAN_LIBRARY_PACKAGE_RECOMMENDS "libcurl4 | libcurl3-gnutls")
 set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS ON)
 set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS_POLICY ">=")
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_CONTROL_EXTRA ${CMAKE_CURRENT_LIST_DIR}/debian/library/triggers)

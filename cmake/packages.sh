@@ -4,10 +4,10 @@
 program_packages="g++ cmake ninja-build ccache pkg-config
   libglm-dev libtbb-dev libhwy-dev
   libopenscenegraph-dev libassimp-dev libdraco-dev libmeshoptimizer-dev zlib1g-dev libfast-float-dev libtinyxml2-dev libtinyobjloader-dev libxxhash-dev
-  libcli11-dev libfmt-dev nlohmann-json3-dev libcairo2-dev libzstd-dev libssl-dev libseccomp-dev
+  libcli11-dev libfmt-dev nlohmann-json3-dev libcairo2-dev libzstd-dev libssl-dev libcurl4-openssl-dev libseccomp-dev
   libegl-dev libgl-dev libx11-dev libfontconfig-dev libgl1-mesa-dri fonts-dejavu-core"
 device_packages="libsdl2-dev libspnav-dev"  # gamepads and SpaceMice: roam is built without those that are not there
-test_packages="libgtest-dev valgrind xvfb xdotool ffmpeg locales strace gltfpack"
+test_packages="libgtest-dev valgrind xvfb xdotool ffmpeg locales strace gltfpack nginx-light"
 python_packages="python3-numpy"  # what `import roam` needs, and nothing else
 # Checks of man pages, completion, packages, batch engines and the examples in other languages: tests without them are
 # skipped.

@@ -15,6 +15,7 @@
 #include "roam/store.h"
 #include "scenes/frame.h"
 #include "scenes/scene_options.h"
+#include "scenes/web_options.h"
 #include "verbs.h"
 #include "words/lines.h"
 #include "words/measures.h"
@@ -205,7 +206,7 @@ ExitStatus store_info(const SceneOptions& options, bool json, bool stats) {
   if (options.scenes.size() > 1 || options.says_how_to_read()) {
     throw UsageError("a store is a scene of its own, and was read when it was built: name it alone");
   }
-  const auto store = Store::open(options.scenes.front());
+  const auto store = Store::open(options.scenes.front(), Store::usual_memory, options.web);
   print_report(json, json_report(*store), text_report(*store) + (stats ? stats_report(*store) : ""));
   return done;
 }
@@ -245,6 +246,7 @@ void add_info(CLI::App& program, Run& run) {
   };
   const auto options = std::make_shared<Options>();
   options->scene.add_to(*verb);
+  add_web_options(*verb, *verb->get_option("SCENE"), options->scene.web);
   verb->add_flag("--stats", options->stats,
                  "Also print the index's memory, the times and the triangles' fingerprint (hash)");
   verb->add_flag("--json", options->json, "Print one JSON object");

@@ -65,6 +65,7 @@ int main(int argc, char** argv) {
   roam::app::add_check(program, chosen);
   roam::app::add_build(program, chosen);
   roam::app::add_cluster(program, chosen);
+  roam::app::add_publish(program, chosen);
   roam::app::add_bench(program, chosen);
   roam::app::add_reference(program, chosen);
   return roam::app::run_command_line(program, chosen, argc, argv);

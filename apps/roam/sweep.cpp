@@ -23,6 +23,7 @@
 #include "roam/error.h"
 #include "scenes/frame.h"
 #include "scenes/open_scene.h"
+#include "scenes/web_options.h"
 #include "sweep/paged.h"
 #include "sweep/rows.h"
 #include "verbs.h"
@@ -235,6 +236,7 @@ void add_sweep(CLI::App& program, Run& run) {
   verb->footer(help);
   const auto options = std::make_shared<SceneOptions>();
   options->add_to(*verb);
+  add_web_options(*verb, *verb->get_option("SCENE"), options->web);
   verb->callback([options, &run] { run = [options] { return sweep(*options); }; });
 }
 

@@ -13,6 +13,7 @@ void add_info(CLI::App& program, Run& run);
 void add_make(CLI::App& program, Run& run);
 void add_build(CLI::App& program, Run& run);
 void add_cluster(CLI::App& program, Run& run);
+void add_publish(CLI::App& program, Run& run);
 void add_bench(CLI::App& program, Run& run);
 void add_train(CLI::App& program, Run& run);
 void add_verify(CLI::App& program, Run& run);

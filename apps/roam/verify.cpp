@@ -2,7 +2,9 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <functional>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "cli/exit_status.h"
 #include "cli/progress.h"
@@ -14,6 +16,7 @@
 #include "roam/store_build.h"
 #include "scenes/beside_scene.h"
 #include "scenes/user_key.h"
+#include "scenes/web_options.h"
 #include "store/held.h"
 #include "verbs.h"
 
@@ -22,6 +25,7 @@ namespace {
 
 struct VerifyOptions {
   std::filesystem::path store;
+  WebAccess web;
   std::vector<std::filesystem::path> scene;  ///< to repair the store from; empty: no repair
   int threads = 0;
   bool json = false;
@@ -33,11 +37,13 @@ struct Origin {
   std::string why_not;  ///< a clause
 };
 
-Origin origin_of(const store::Folder& folder) {
+using Open = std::function<std::shared_ptr<const Store>()>;
+
+Origin origin_of(const Open& open) {
   const UserKey user = user_key();
   if (!user.key) return {false, std::string("no key of yours can be used: ") + user.problem.what()};
   try {
-    if (store::open_store(folder)->is_authentic(*user.key)) return {true, ""};
+    if (open()->is_authentic(*user.key)) return {true, ""};
   } catch (const Error&) {  // damage is already reported
   }
   return {false, "it was not built with your key"};
@@ -89,10 +95,11 @@ std::string text_report(const VerifyOptions& options, const StoreVerification& f
          fmt::format("tiles that are damaged are solid; `roam verify {} --repair SCENE` mends the store\n", store);
 }
 
-StoreVerification look(const VerifyOptions& options, const store::Folder& folder) {
+/// `folder`: the store's; none: it is on a web server.
+StoreVerification look(const VerifyOptions& options, const std::optional<store::Folder>& folder) {
   Progress progress("verifying " + options.store.string(), "B");
-  return store::verify_store(folder,
-                             [&](std::uint64_t done, std::uint64_t total) { return progress.goes_on(done, total); });
+  const auto goes_on = [&](std::uint64_t done, std::uint64_t total) { return progress.goes_on(done, total); };
+  return folder ? store::verify_store(*folder, goes_on) : verify_store(options.store, goes_on, options.web);
 }
 
 std::uint64_t repair(const VerifyOptions& options) {
@@ -114,7 +121,12 @@ std::uint64_t repair(const VerifyOptions& options) {
 }
 
 ExitStatus verify_or_repair(const VerifyOptions& options) {
-  const store::Folder folder = store::hold_store(options.store);
+  std::optional<store::Folder> folder;
+  if (!Store::is_address(options.store.native())) {
+    folder = store::hold_store(options.store);
+  } else if (!options.scene.empty()) {
+    throw UsageError("--repair", "a store on a web server is repaired where it is made, and published again");
+  }
   StoreVerification found = look(options, folder);
   std::uint64_t repaired = 0;
   if (!found.whole() && !options.scene.empty()) {
@@ -122,7 +134,9 @@ ExitStatus verify_or_repair(const VerifyOptions& options) {
     repaired = repair(options);
     found = look(options, folder);
   }
-  const Origin origin = origin_of(folder);
+  const Origin origin = origin_of([&] {
+    return folder ? store::open_store(*folder) : Store::open(options.store, Store::usual_memory, options.web);
+  });
   if (options.json) {
     print(json_report(options, found, origin, repaired));
   } else {
@@ -154,7 +168,9 @@ void add_verify(CLI::App& program, Run& run) {
   verb->footer(help);
   const auto options = std::make_shared<VerifyOptions>();
   VerifyOptions& o = *options;
-  verb->add_option("STORE", o.store, "The store's folder")->required()->type_name("");
+  add_web_options(*verb,
+                  *verb->add_option("STORE", o.store, "The store's folder, or its address")->required()->type_name(""),
+                  o.web);
   verb->option_defaults()->group("Options");
   verb->add_option("--repair", o.scene, "Build damaged parts again from this scene, which the store was made of")
       ->type_name("SCENE");

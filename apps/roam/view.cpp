@@ -63,7 +63,8 @@ verification::Verification verified(const ViewReport& report, const ViewOptions&
   if (report.store.empty() || !report.meshes.empty()) return verify(report.meshes, report.pieces, progress);
   const std::uint64_t memory = options.scene.store_memory();
   const bool named = !options.store.empty() || options.scene.name_a_store();
-  const auto store = named ? Store::open(report.store, memory) : open_store_beside(report.store, memory);
+  const auto store =
+      named ? Store::open(report.store, memory, options.scene.web) : open_store_beside(report.store, memory);
   return verify(*store, report.pieces, progress);
 }
 

@@ -17,7 +17,7 @@ import interface
 
 # The documents in the order of reading: README.md, "What to read next".
 NAVIGATION = {
-    "Look around": ["viewing", "importing", "stores", "cluster", "pictures", "installing"],
+    "Look around": ["viewing", "importing", "stores", "cluster", "serving", "pictures", "installing"],
     "What fits": ["probing", "training", "cracks", "profile"],
     "Write a program": ["python", "coming_from", "walking", "json", "architecture", "dependencies", "compatibility"],
     "Trust it": ["guarantees", "algorithm", "proofs", "benchmarks", "format", "paper"],

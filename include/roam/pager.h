@@ -36,7 +36,7 @@ namespace roam {
 struct PagerOptions {
   /// Bytes, >= Pager::least_memory: tiles, pages, tables, buffers, and the store's manifest and caches.
   std::uint64_t memory = 64ull << 20;
-  int loaders = 1;       ///< loading threads, 1 to 16
+  int loaders = 0;       ///< loading threads, 1 to 16; 0: 1 for a folder, up to 8 for a web server
   double horizon = 3.0;  ///< seconds of motion ahead that are loaded
 };
 

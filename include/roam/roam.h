@@ -134,7 +134,7 @@ ROAM_API roam_status roam_world_open(const char* path, const roam_world_options*
 typedef struct roam_store_options {
   size_t size;
   uint64_t memory;    /**< bytes, >= 8 MiB, for tiles and all else; 0: 64 MiB */
-  int32_t loaders;    /**< loading threads, 1 to 16; 0: 1 */
+  int32_t loaders;    /**< loading threads, 1 to 16; 0: 1 for a folder, up to 8 for a web server */
   int32_t reserved;   /**< 0 */
   double horizon;     /**< seconds of motion ahead that are loaded; 0: 3 */
 } roam_store_options;

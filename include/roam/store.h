@@ -7,10 +7,10 @@
 ///     std::cout << store->info().triangles << " triangles in " << store->info().bounds.size().x << " m\n";
 ///     roam::Pager pager(store, {.memory = 64 << 20});
 ///
-/// Target roam::store. A store is a folder; docs/format.md describes its files. Files never change once written: they
-/// are named by their SHA-256, and the file CURRENT names the manifest in force. An open store holds a lock on its
-/// manifest, and stays readable while a new one is built in its place. The XXH3 of a tile or page is checked before it
-/// is decoded. Any number of threads and processes may read a store.
+/// Target roam::store. A store is a folder, here or on a web server; docs/format.md describes its files. They never
+/// change once written: they are named by their SHA-256, and the file CURRENT names the manifest in force. An open
+/// store holds a lock on its manifest, and stays readable while a new one is built in its place. The XXH3 of a tile or
+/// page is checked before it is decoded. Any number of threads and processes may read a store.
 
 #include <array>
 #include <cstddef>
@@ -20,6 +20,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "roam/error.h"
@@ -63,27 +64,43 @@ struct SourceTriangle {
   std::string object;        ///< name; may be empty
 };
 
+/// How a store is read from a web server, by HTTP or HTTPS: with libcurl, which is loaded then. Proxies
+/// (http_proxy, https_proxy, no_proxy), ~/.netrc and CURL_CA_BUNDLE hold as for curl. Only files of the store's folder
+/// are requested.
+struct WebAccess {
+  /// Part of a signed address that is appended to each request after a "?". A secret: it is in no message and no cache.
+  std::string query;
+  bool redirects = false;                  ///< whether redirects to other hosts and folders are followed
+  double patience = 20.0;                  ///< s, 0.1 to 3600: how long a failing request is tried again
+  std::filesystem::path cache;             ///< file for a cache, which processes may share; empty: none
+  std::uint64_t cache_bytes = 1ull << 30;  ///< size of that file, >= 4 MiB; one of another size becomes empty
+};
+
 /// An open store. Holds the manifest in memory; reads tiles and pages on demand.
 class Store {
  public:
   /// Bytes; enough for the manifest of 10^10 triangles or 200,000 parts.
   static constexpr std::uint64_t usual_memory = 256ull << 20;
-  /// `memory`: limit for the manifest, bytes. Throws roam::Error if there is no store, its format is newer than this
-  /// library, or its manifest is damaged or too large.
+  /// `folder` may be an address, "https://host/dam.roam", perhaps with a query. `memory`: limit for the manifest,
+  /// bytes. Throws roam::Error if there is no store, its format is newer than this library, its manifest is damaged or
+  /// too large, or the web server does not send it. An open store on a web server stays what it was when it was opened.
   [[nodiscard]] static std::shared_ptr<const Store> open(const std::filesystem::path& folder,
-                                                         std::uint64_t memory = usual_memory);
-  /// Whether the folder holds a file CURRENT.
+                                                         std::uint64_t memory = usual_memory,
+                                                         const WebAccess& web = {});
+  /// Whether a text begins with http:// or https://: open() takes it for an address.
+  [[nodiscard]] static bool is_address(std::string_view text);
+  /// Whether the folder holds a file CURRENT, or is an address.
   [[nodiscard]] static bool is_store(const std::filesystem::path& folder);
   ~Store();
 
   [[nodiscard]] const StoreInfo& info() const;
-  /// The folder as passed to open(), for messages.
+  /// The folder as passed to open(), or the address without its query, for messages.
   [[nodiscard]] const std::string& name() const;
   /// Whether the manifest has an authentication code of this key. The manifest holds the SHA-256 of all other files;
   /// only verify_store compares them. Returns false if the code is damaged or cannot be read.
   [[nodiscard]] bool is_authentic(const StoreKey& key) const;
 
-  // The functions below read from disk and allocate: not for a thread that moves a body.
+  // The functions below read from disk or network and allocate: not for a thread that moves a body.
 
   /// Calls f with the stored triangles, and their numbers, of each tile whose box meets `box`. Throws roam::Error if
   /// one cannot be read or is damaged, with tile and position. With `missing`, passes over such pages and tiles, and
@@ -129,6 +146,7 @@ struct StoreVerification {
 /// that is reported and the rest is not checked. Throws roam::Error if it is no store, of a newer format, or not
 /// readable.
 [[nodiscard]] StoreVerification verify_store(const std::filesystem::path& folder,
-                                             const std::function<bool(std::uint64_t, std::uint64_t)>& progress = {});
+                                             const std::function<bool(std::uint64_t, std::uint64_t)>& progress = {},
+                                             const WebAccess& web = {});
 
 }  // namespace roam

@@ -211,14 +211,15 @@ class Store(Space):
     """
 
     @classmethod
-    def open(cls, path: Path, memory: Union[int, str] = "64M", *, loaders: int = 1,
+    def open(cls, path: Path, memory: Union[int, str] = "64M", *, loaders: int = 0,
              patience: float = 10.0) -> "Store":
-        """Opens a store. `memory`: bytes, or a text such as "64M", at least 8M. `loaders`: loading threads, 1 to 16."""
+        """Opens a store. `memory`: bytes, or a text such as "64M", at least 8M. `loaders`: loading threads, 1 to 16; 0:
+        1 for a folder, up to 8 for a web server."""
         patience = _arrays.number(patience, "patience")
         if not 0.0 <= patience < float("inf"):
             raise ValueError(f"patience must be at least 0 seconds; it is {patience}")
         options = _structs.StoreOptions(memory=_arrays.memory_bytes(memory),
-                                        loaders=_arrays.whole(loaders, "loaders", 1, 16))
+                                        loaders=_arrays.whole(loaders, "loaders", 0, 16))
         text, made = _arrays.path_text(path), SpaceHandle(threading.Lock(), patience)
         run(None, lambda note: call("roam_store_open", text, ctypes.byref(options), made.handle.address))
         return cls(made)

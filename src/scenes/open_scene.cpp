@@ -54,7 +54,7 @@ std::shared_ptr<const Store> open_store(const SceneOptions& options, std::uint64
                   options.scenes.front().string() +
                       " is a store: --up, --unit, --ignore and --lossless are said when it is built (roam build)"));
   }
-  return Store::open(options.scenes.front(), memory);
+  return Store::open(options.scenes.front(), memory, options.web);
 }
 
 std::unique_ptr<Pager> make_pager(const std::shared_ptr<const Store>& store, std::uint64_t memory) {

@@ -14,7 +14,6 @@
 #include "import/likely_up.h"
 #include "math/boxes.h"
 #include "roam/error.h"
-#include "roam/store.h"
 #include "roam/wander.h"
 #include "words/frame.h"
 
@@ -99,8 +98,13 @@ std::vector<std::string> SceneOptions::arguments() const {
   if (!through_link) words.emplace_back("--no-scene-link");
   if (threads > 0) words.push_back(fmt::format("--threads={}", threads));
   if (memory) words.push_back(fmt::format("--memory={}", *memory));
+  if (!web.cache.empty()) words.push_back(fmt::format("--cache={}", web.cache_bytes));
+  if (web.redirects) words.emplace_back("--redirects");
   words.emplace_back("--");
-  for (const auto& scene : scenes) words.push_back(scene.string());
+  for (const auto& scene : scenes) {
+    words.push_back(scene.string());
+    if (Store::is_address(scene.native()) && !web.query.empty()) words.back() += "?" + web.query;
+  }
   return words;
 }
 
@@ -126,6 +130,7 @@ bool SceneOptions::name_a_store() const {
 void SceneOptions::check_there() const {
   std::error_code none;
   for (const auto& scene : scenes) {
+    if (Store::is_address(scene.native())) continue;
     if (!std::filesystem::exists(scene, none)) {
       if (none && none != std::errc::no_such_file_or_directory && none != std::errc::not_a_directory) {
         throw Error(scene.string(), "cannot be looked at: " + none.message());

@@ -11,6 +11,7 @@
 
 #include "roam/import.h"
 #include "roam/profile.h"
+#include "roam/store.h"
 #include "roam/world.h"
 
 namespace CLI {
@@ -31,6 +32,7 @@ struct SceneOptions {
   std::filesystem::path frame_file{};   ///< the profile whose frame was taken; empty: none. No option
   bool identify = false;                ///< whether to set LoadedScene::identity; no option of the command line
   bool through_link = true;             ///< ImportOptions::through_link; false for a scene that the user did not name
+  WebAccess web{};                      ///< for a store on a web server; see add_web_options
 
   /// Default of `memory` for a store's collision, in bytes.
   static constexpr std::uint64_t usual_store_memory = 64ull << 20;

@@ -12,6 +12,7 @@
 #include "cli/tell.h"
 #include "measure/room.h"
 #include "process/free_memory.h"
+#include "scenes/web_options.h"
 #include "store/meshes.h"
 
 namespace roam::app {
@@ -61,6 +62,7 @@ void add_surveyed_to(CLI::App& verb, SceneOptions& options) {
       ->required()
       ->type_name("");
   options.add_reading_to(verb);
+  add_web_options(verb, *verb.get_option("SCENE"), options.web);
 }
 
 Surveyed survey_scene(const SceneOptions& options, double slope_degrees) {
@@ -72,7 +74,7 @@ Surveyed survey_scene(const SceneOptions& options, double slope_degrees) {
     if (options.scenes.size() > 1 || options.says_how_to_read()) {
       throw UsageError("a store is a scene of its own, and was read when it was built: name it alone");
     }
-    store = Store::open(options.scenes.front());
+    store = Store::open(options.scenes.front(), Store::usual_memory, options.web);
     identity = identity_of(store->info());
     meshes = read_store(*store, numbers);
   } else {

@@ -1,11 +1,12 @@
 #pragma once
 /// \file
-/// The source of a store's bytes: a folder, or in tests something else.
+/// The source of a store's bytes: a folder, a web server, or in tests something else.
 
 #include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -20,9 +21,17 @@ class StoreBytes {
   /// Reads a small file, such as "CURRENT". Throws roam::Error if it cannot be read or is larger than `limit` bytes.
   [[nodiscard]] virtual std::vector<std::byte> whole(const std::string& file, std::uint64_t limit) = 0;
   /// Fills `out` with a file's bytes from `offset` on; the file is one such as "packs/<64 digits>.pack". Returns null,
-  /// or the reason of the failure as a text of static lifetime. Does not throw, and does not allocate from the second
-  /// read of a file on. A pager treats an exception as a failure.
-  [[nodiscard]] virtual const char* read(const std::string& file, std::uint64_t offset, std::span<std::byte> out) = 0;
+  /// or the reason of the failure as a text of static lifetime. `stop` ends a read that waits for the network. Does not
+  /// throw; a folder does not allocate from the second read of a file on. A pager treats an exception as a failure.
+  [[nodiscard]] virtual const char* read(const std::string& file, std::uint64_t offset, std::span<std::byte> out,
+                                         const std::stop_token& stop) = 0;
+  [[nodiscard]] const char* read(const std::string& file, std::uint64_t offset, std::span<std::byte> out) {
+    return read(file, offset, out, {});
+  }
+  /// Called with bytes that were read and have the checksum that leads to them: a cache may keep them.
+  virtual void keep(const std::string& /*file*/, std::uint64_t /*offset*/, std::span<const std::byte> /*bytes*/) {}
+  /// Number of reads that are best made at once.
+  [[nodiscard]] virtual int best_at_once() const { return 1; }
 };
 
 /// Store::open of such a source.

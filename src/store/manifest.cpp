@@ -45,8 +45,11 @@ std::string named_by(const std::string& current, const std::string& store) {
 }  // namespace
 
 RootDamage::RootDamage(const std::string& store, std::string damaged, std::string reason)
-    : Error(at(store, fmt::format("{0} is damaged: {1}: {2}; `roam build` with its scene and `-o {0}` mends it", store,
-                                  damaged, reason))),
+    : Error(at(store, Store::is_address(store)
+                          ? fmt::format("{} is no store, or damaged: {}: {}; whoever serves it can publish it again",
+                                        store, damaged, reason)
+                          : fmt::format("{0} is damaged: {1}: {2}; `roam build` with its scene and `-o {0}` mends it",
+                                        store, damaged, reason))),
       what_is_damaged(std::move(damaged)),
       why(std::move(reason)) {}
 
@@ -125,12 +128,15 @@ Manifest read_manifest(StoreBytes& bytes, const std::string& store, std::string*
 }
 
 std::string publish(const Folder& store, const Manifest& manifest) {
-  const std::string text = to_text(manifest);
+  return publish(store, to_text(manifest), manifest.format);
+}
+
+std::string publish(const Folder& store, std::string_view text, std::uint32_t format) {
   make_folder_in(store, "manifests");
   NewFile file(store, manifest_file("new"));
-  file.write(std::as_bytes(std::span(text)));
+  file.write(std::as_bytes(std::span(text.data(), text.size())));
   const std::string hash = file.commit_by_hash();
-  write_file(store, current_file, fmt::format("{}{}\n{}\n", current_start, manifest.format, hash));
+  write_file(store, current_file, fmt::format("{}{}\n{}\n", current_start, format, hash));
   return hash;
 }
 

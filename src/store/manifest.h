@@ -109,6 +109,8 @@ void check_format(std::uint32_t version, const std::string& name);
                                      std::uint64_t* kept = nullptr);
 /// Writes manifests/<SHA-256>.json and replaces CURRENT, each by rename and with the folder synced. Returns the hash.
 std::string publish(const Folder& store, const Manifest& manifest);
+/// The same of a manifest's text.
+std::string publish(const Folder& store, std::string_view text, std::uint32_t format);
 
 /// A store's TriangleId: the page (numbered across all shards), the tile in the page, and the triangle in the tile.
 inline constexpr int triangle_bits = 14, tile_bits = 10;

@@ -3,10 +3,10 @@
 /// Store::State: an open store, for rooms that read tiles and pages themselves.
 
 #include <cstdint>
-#include <functional>
 #include <map>
 #include <memory>
 #include <mutex>
+#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -44,9 +44,8 @@ struct Store::State {
 
 namespace store {
 
-/// Store::source. `check` may be empty; it is called now and then while a part is unpacked, and may throw to end that.
-[[nodiscard]] SourceTriangle find_source(const Store::State& s, TriangleId triangle,
-                                         const std::function<void()>& check);
+/// Store::source. Throws Cancelled soon after `stop` is requested.
+[[nodiscard]] SourceTriangle find_source(const Store::State& s, TriangleId triangle, const std::stop_token& stop);
 
 }  // namespace store
 }  // namespace roam

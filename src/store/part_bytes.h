@@ -6,9 +6,10 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <functional>
 #include <span>
+#include <stop_token>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "roam/error.h"
@@ -18,16 +19,18 @@
 
 namespace roam::store {
 
-/// Returns the bytes of a part file piece by piece and hashes them.
+/// Returns the bytes of a part file piece by piece and hashes them. Throws Cancelled once `stop` is requested.
 class PartBytes {
  public:
-  PartBytes(const Store::State& store, const PartInfo& part)
-      : store_(store), part_(part), file_(part_file(part.file)) {}
+  PartBytes(const Store::State& store, const PartInfo& part, std::stop_token stop = {})
+      : store_(store), part_(part), file_(part_file(part.file)), stop_(std::move(stop)) {}
 
   std::size_t operator()(std::span<std::byte> out) {
     out = out.first(static_cast<std::size_t>(std::min<std::uint64_t>(out.size(), part_.bytes - at_)));
     if (out.empty()) return 0;
-    if (const char* problem = store_.bytes->read(file_, at_, out)) {
+    const char* const problem = store_.bytes->read(file_, at_, out, stop_);
+    if (stop_.stop_requested()) throw Cancelled();
+    if (problem) {
       throw Error::at(name(), fmt::format("{} cannot be used: {}", name(), problem));
     }
     hash_.add(out);
@@ -43,11 +46,10 @@ class PartBytes {
     };
     visit_part([&](std::span<std::byte> out) { return (*this)(out); }, part_.bytes, name(), visitor);
   }
-  /// Whether the file is as it was written. Reads the rest of it; calls `check`, which may be empty or throw.
-  [[nodiscard]] bool is_whole(const std::function<void()>& check = {}) {
+  /// Whether the file is as it was written. Reads the rest of it.
+  [[nodiscard]] bool is_whole() {
     std::vector<std::byte> rest(std::min<std::uint64_t>(part_.bytes - at_, 1U << 17));
     while ((*this)(rest) > 0) {
-      if (check) check();
     }
     return hash_.digits() == part_.file;
   }
@@ -59,6 +61,7 @@ class PartBytes {
   std::string file_;
   std::uint64_t at_ = 0;
   Sha256 hash_;
+  std::stop_token stop_;
 };
 
 }  // namespace roam::store

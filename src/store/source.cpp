@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <cstring>
-#include <functional>
 #include <mutex>
 #include <optional>
 #include <utility>
@@ -46,7 +45,7 @@ Source source_of(const Store::State& s, TriangleId triangle) {
 
 /// Reads the objects about a triangle of a part. Needs no lock.
 Store::State::Recent::Objects read_objects(const Store::State& s, std::uint32_t part, std::uint64_t triangle,
-                                           const std::function<void()>& check) {
+                                           const std::stop_token& stop) {
   Store::State::Recent::Objects read;
   read.part = part;
   bool full = false;
@@ -68,13 +67,13 @@ Store::State::Recent::Objects read_objects(const Store::State& s, std::uint32_t 
     read.names.objects.push_back({begin, std::string(called)});
   };
   visitor.enough = [&] {
-    if (check) check();
+    if (stop.stop_requested()) throw Cancelled();
     return full;
   };
-  store::PartBytes file(s, s.manifest.parts[part]);
+  store::PartBytes file(s, s.manifest.parts[part], stop);
   try {
     file.visit(std::move(visitor));
-    if (!file.is_whole(check)) throw store::PartDamage(file.name(), "it is not what it was when it was written");
+    if (!file.is_whole()) throw store::PartDamage(file.name(), "it is not what it was when it was written");
   } catch (const store::PartDamage& damage) {
     read = {};
     read.part = part;
@@ -96,13 +95,13 @@ std::optional<std::string> Store::State::Recent::object(std::uint32_t part, std:
   return {};
 }
 
-SourceTriangle store::find_source(const Store::State& s, TriangleId triangle, const std::function<void()>& check) {
+SourceTriangle store::find_source(const Store::State& s, TriangleId triangle, const std::stop_token& stop) {
   std::unique_lock lock(s.mutex);
   const auto [part, number] = source_of(s, triangle);
   std::optional<std::string> object = s.recent->object(part, number);
   if (!object) {
     lock.unlock();
-    Store::State::Recent::Objects read = read_objects(s, part, number, check);
+    Store::State::Recent::Objects read = read_objects(s, part, number, stop);
     if (!read.damage) object = read.names.object(number);
     lock.lock();
     s.recent->keep(std::move(read));

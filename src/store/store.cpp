@@ -12,6 +12,8 @@
 #include "store/held.h"
 #include "store/recent.h"
 #include "store/tile_reader.h"
+#include "store/web/address.h"
+#include "store/web_files.h"
 
 namespace roam {
 
@@ -32,8 +34,11 @@ std::shared_ptr<const Store> store::open_store(const Folder& folder, std::uint64
   }
 }
 
-std::shared_ptr<const Store> Store::open(const std::filesystem::path& folder, std::uint64_t memory) {
-  return store::open_store(folder, memory);
+std::shared_ptr<const Store> Store::open(const std::filesystem::path& folder, std::uint64_t memory,
+                                         const WebAccess& web) {
+  if (!is_address(folder.native())) return store::open_store(folder, memory);
+  const store::WebStore there = store::web_store(folder.native(), web);
+  return store::open_store(there.bytes, there.name, memory);
 }
 
 std::shared_ptr<const Store> store::open_store(std::shared_ptr<StoreBytes> bytes, const std::string& name,
@@ -83,7 +88,11 @@ std::shared_ptr<const Store> store::open_store(std::shared_ptr<StoreBytes> bytes
   return std::make_shared<const Store>(std::move(state));
 }
 
-bool Store::is_store(const std::filesystem::path& folder) { return store::is_file(folder, store::current_file); }
+bool Store::is_address(std::string_view text) { return web::Address::is_one(text); }
+
+bool Store::is_store(const std::filesystem::path& folder) {
+  return is_address(folder.native()) || store::is_file(folder, store::current_file);
+}
 
 const StoreInfo& Store::info() const { return state_->info; }
 const std::string& Store::name() const { return state_->name; }

@@ -58,7 +58,8 @@ class Files : public StoreBytes {
     return read_file(folder_, file, limit);
   }
 
-  const char* read(const std::string& file, std::uint64_t offset, std::span<std::byte> out) override {
+  const char* read(const std::string& file, std::uint64_t offset, std::span<std::byte> out,
+                   const std::stop_token& /*stop*/) override {
     if (const int kept = find(file); kept >= 0) {
       if (is_removed(kept)) open_again(file, kept);
       return fill(kept, offset, out);

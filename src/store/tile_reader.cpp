@@ -40,6 +40,7 @@ std::vector<std::byte> TileReader::read(std::uint64_t page, std::uint64_t offset
   const std::string& file = store_.packs[store_.pages[page].shard];
   if (const char* problem = store_.bytes->read(file, offset, content)) refuse(store_, what + " in " + file, problem);
   if (xxh3(content) != hash) refuse(store_, what + " in " + file, "its checksum is wrong");
+  store_.bytes->keep(file, offset, content);
   return content;
 }
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <memory>
 #include <mutex>
 #include <set>
 #include <string_view>
@@ -14,6 +15,7 @@
 #include "store/held.h"
 #include "store/part_bytes.h"
 #include "store/tile_reader.h"
+#include "store/web_files.h"
 
 namespace roam {
 namespace store {
@@ -21,8 +23,12 @@ namespace {
 
 class Verifier {
  public:
-  Verifier(const Folder& folder, const std::function<bool(std::uint64_t, std::uint64_t)>& progress)
-      : folder_(folder), hashes_(folder), store_(open_store(folder)), state_(store_->state()), progress_(progress) {}
+  /// `folder`: that of the store; null: it is on a web server.
+  Verifier(std::shared_ptr<const Store> store, const Folder* folder,
+           const std::function<bool(std::uint64_t, std::uint64_t)>& progress)
+      : folder_(folder), store_(std::move(store)), state_(store_->state()), progress_(progress) {
+    if (folder) hashes_ = std::make_unique<FileHashes>(*folder);
+  }
 
   StoreVerification run() {
     check_files();
@@ -58,17 +64,32 @@ class Verifier {
     for (const PartInfo& part : state_.manifest.parts) {
       if (!seen.insert(part.file).second) continue;
       parts_.push_back(&part);
-      total_ += size_in(part_file(part.file));
+      total_ += size_in(part_file(part.file), part.bytes);
     }
-    for (const ShardInfo& shard : state_.manifest.shards) total_ += size_in(pack_file(shard.pack));
+    for (const ShardInfo& shard : state_.manifest.shards) total_ += size_in(pack_file(shard.pack), shard.bytes);
   }
   /// The size on disk, because the manifest may say anything.
-  [[nodiscard]] std::uint64_t size_in(const std::string& file) const {
+  [[nodiscard]] std::uint64_t size_in(const std::string& file, std::uint64_t said) const {
+    if (!folder_) return said;
     try {
-      return size_of(folder_, file).value_or(0);
+      return size_of(*folder_, file).value_or(0);
     } catch (const Error&) {
       return 0;
     }
+  }
+
+  /// SHA-256 of a file that has this many bytes, or on the disk as many as it has.
+  [[nodiscard]] std::string hash_of(const std::string& file, std::uint64_t bytes) {
+    if (hashes_) return hashes_->sha256(file, [&](std::uint64_t read) { tick(read); });
+    Sha256 hash;
+    std::vector<std::byte> piece(std::min<std::uint64_t>(bytes, 1U << 20));
+    for (std::uint64_t at = 0; at < bytes; at += piece.size()) {
+      piece.resize(std::min<std::uint64_t>(bytes - at, piece.size()));
+      if (const char* problem = state_.bytes->read(file, at, piece)) throw Error(problem);
+      hash.add(piece);
+      tick(piece.size());
+    }
+    return hash.digits();
   }
 
   void tick(std::uint64_t bytes) {
@@ -85,13 +106,14 @@ class Verifier {
     report_.damage.push_back(std::move(what));
   }
 
-  /// Older stores have no spare manifest.
+  /// Older stores have no spare manifest, and web servers are not asked for it.
   void check_spare() {
+    if (!folder_) return;
     const std::string& hash = state_.info.hash;
     const std::string file = spare_file(hash);
     try {
-      if (!size_of(folder_, file)) return;
-      const std::string found = hashes_.sha256(file, [&](std::uint64_t) { tick(0); });
+      if (!size_of(*folder_, file)) return;
+      const std::string found = hashes_->sha256(file, [&](std::uint64_t) { tick(0); });
       if (found != hash) damage({file, "its SHA-256 is not its name", Box{}});
     } catch (const Error& error) {
       damage({file, error.what(), Box{}});
@@ -101,7 +123,7 @@ class Verifier {
   void check_part(const PartInfo& part) {
     const std::string file = part_file(part.file);
     try {
-      if (hashes_.sha256(file, [&](std::uint64_t bytes) { tick(bytes); }) != part.file) {
+      if (hash_of(file, part.bytes) != part.file) {
         throw Error("its SHA-256 is not its name");
       }
       PartVisitor visitor;
@@ -119,7 +141,7 @@ class Verifier {
     const std::string file = pack_file(shard.pack);
     bool whole = false;
     try {
-      whole = hashes_.sha256(file, [&](std::uint64_t bytes) { tick(bytes); }) == shard.pack;
+      whole = hash_of(file, shard.bytes) == shard.pack;
       if (!whole) damage({file, "its SHA-256 is not its name", shard.bounds});
     } catch (const Error& error) {
       damage({file, error.what(), shard.bounds});
@@ -203,8 +225,8 @@ class Verifier {
     }
   }
 
-  const Folder folder_;
-  FileHashes hashes_;
+  const Folder* const folder_;
+  std::unique_ptr<FileHashes> hashes_;
   const std::shared_ptr<const Store> store_;
   const Store::State& state_;
   const std::function<bool(std::uint64_t, std::uint64_t)>& progress_;
@@ -227,11 +249,13 @@ Folder hold_store(const std::filesystem::path& folder) {
   }
 }
 
-StoreVerification verify_store(const Folder& folder,
-                               const std::function<bool(std::uint64_t, std::uint64_t)>& progress) {
+namespace {
+
+StoreVerification verified(const auto& open, const Folder* folder,
+                           const std::function<bool(std::uint64_t, std::uint64_t)>& progress) {
   StoreVerification nothing;
   try {
-    return in_default_floating_point([&] { return Verifier(folder, progress).run(); });
+    return in_default_floating_point([&] { return Verifier(open(), folder, progress).run(); });
   } catch (const NotComplete&) {
     nothing.complete = false;
   } catch (const RootDamage& damage) {
@@ -240,10 +264,21 @@ StoreVerification verify_store(const Folder& folder,
   return nothing;
 }
 
+}  // namespace
+
+StoreVerification verify_store(const Folder& folder,
+                               const std::function<bool(std::uint64_t, std::uint64_t)>& progress) {
+  return verified([&] { return open_store(folder); }, &folder, progress);
+}
+
 }  // namespace store
 
 StoreVerification verify_store(const std::filesystem::path& folder,
-                               const std::function<bool(std::uint64_t, std::uint64_t)>& progress) {
+                               const std::function<bool(std::uint64_t, std::uint64_t)>& progress,
+                               const WebAccess& web) {
+  if (Store::is_address(folder.native())) {
+    return store::verified([&] { return Store::open(folder, Store::usual_memory, web); }, nullptr, progress);
+  }
   return store::verify_store(store::hold_store(folder), progress);
 }
 

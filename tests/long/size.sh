@@ -1,18 +1,19 @@
 #!/usr/bin/env bash
 # tests/long/size.sh [SCENE.ply [STORE.roam]]
 # A gallery of 130 M triangles, 3.3 GB (or SCENE, a gallery too): builds its store within --memory 1G, or takes STORE;
-# then walks it with 64 MiB and cold files: ten simulated minutes at 50 m/s and at 1.4 m/s; and both again, with every
-# move of all ten minutes checked against all triangles of the scene. Then the step time of 1e5, 1e6, 1e7 and 1.3e8
-# triangles on the same way. Prints one line of figures each. 12 GB of disk, 20 minutes on two cores at rest. On a machine
-# that is not at rest, UNDER="chrt -f 40" keeps other programs from interrupting the walks that are timed (not the builds,
-# nor the checks).
+# then walks it with 64 MiB and cold files: ten simulated minutes at 50 m/s and at 1.4 m/s; both again from an nginx on
+# this machine, if it is here; and both again, with every move of all ten minutes checked against all triangles of the
+# scene. Then the step time of 1e5, 1e6, 1e7 and 1.3e8 triangles on the same way. Prints one line of figures each. 13 GB
+# of disk, 20 minutes on two cores at rest. On a machine that is not at rest, UNDER="chrt -f 40" keeps other programs
+# from interrupting the walks that are timed (not the builds, nor the checks).
 set -uo pipefail
 source "$(dirname "$0")/complaints.sh"
-trap 'rm -rf "$work"' EXIT
+source "$(dirname "$0")/../support/nginx.sh"
+trap 'stop_nginx; rm -rf "$work"' EXIT
 
 number() { sed -n "s/^ *\"$1\": \"\{0,1\}\([^,\"]*\)\"\{0,1\},\{0,1\}$/\1/p" "$2" | head -1; }
 # Only these files: no other program is disturbed.
-forget() { find "$1" -type f -exec dd if={} iflag=nocache count=0 status=none \;; }
+forget() { [[ ! -d $1 ]] || find "$1" -type f -exec dd if={} iflag=nocache count=0 status=none \;; }
 
 # built SCENE STORE: with the largest sum of memory over the builder and its readers, looked at ten times a second.
 built() {
@@ -72,6 +73,14 @@ fly=(--path "$work/fly.path" --mode fly --speed 50)
 walk=(--path "$work/walk.path" --mode walk --speed 1.4 --height 1.8)
 walked "$store" "fly, 50 m/s" "${fly[@]}"
 walked "$store" "walk, 1.4 m/s" "${walk[@]}"
+"$roam" publish "$store" "$work/www/big.roam" --nginx > "$work/big.conf" || exit 2
+if start_nginx "$work/nginx" "$work/big.conf"; then
+  forget "$work/www"
+  walked "http://127.0.0.1:$port/big.roam" "fly, 50 m/s, by HTTP" "${fly[@]}"
+  walked "http://127.0.0.1:$port/big.roam" "walk, 1.4 m/s, by HTTP" "${walk[@]}"
+else
+  echo "by HTTP: skipped, for nginx is not here"
+fi
 UNDER='' walked "$store" "fly, 50 m/s, against the scene" "${fly[@]}" --against "$big"
 UNDER='' walked "$store" "walk, 1.4 m/s, against the scene" "${walk[@]}" --against "$big"
 

@@ -63,7 +63,8 @@ class TroubledBytes : public roam::store::StoreBytes {
   std::vector<std::byte> whole(const std::string& file, std::uint64_t limit) override {
     return files_->whole(file, limit);
   }
-  const char* read(const std::string& file, std::uint64_t offset, std::span<std::byte> out) override {
+  const char* read(const std::string& file, std::uint64_t offset, std::span<std::byte> out,
+                   const std::stop_token& /*stop*/) override {
     const std::uint64_t n = ++reads;
     {
       std::unique_lock lock(mutex_);

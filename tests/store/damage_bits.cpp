@@ -36,7 +36,8 @@ class MemoryBytes : public roam::store::StoreBytes {
     if (it->second.size() > limit) throw roam::Error(file + " is too large");
     return it->second;
   }
-  const char* read(const std::string& file, std::uint64_t offset, std::span<std::byte> out) override {
+  const char* read(const std::string& file, std::uint64_t offset, std::span<std::byte> out,
+                   const std::stop_token& /*stop*/) override {
     const auto it = files_.find(file);
     if (it == files_.end()) return "the file is not there";
     if (offset > it->second.size() || out.size() > it->second.size() - offset) return "the file is too short";

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cstring>
 #include <future>
+#include <stop_token>
 
 #include "memory_cost.h"
 #include "packed_part.h"
@@ -133,7 +134,8 @@ class SlowParts : public store::StoreBytes {
   std::vector<std::byte> whole(const std::string& file, std::uint64_t limit) override {
     return files_->whole(file, limit);
   }
-  const char* read(const std::string& file, std::uint64_t offset, std::span<std::byte> out) override {
+  const char* read(const std::string& file, std::uint64_t offset, std::span<std::byte> out,
+                   const std::stop_token& /*stop*/) override {
     if (file.starts_with("parts/") && offset == 0) {
       begun.set_value();
       go.get_future().wait();
@@ -158,22 +160,27 @@ TEST_F(HostileStore, APartThatTakesLongHoldsNothingElseUp) {
   EXPECT_EQ(name.get(), "square");
 }
 
+std::stop_token ended() {
+  std::stop_source source;
+  source.request_stop();
+  return source.get_token();
+}
+
 TEST_F(HostileStore, UnpackingAPartCanBeEnded) {
   const auto opened = Store::open(folder_.path());
   TriangleId some = 0;
   opened->for_each_triangle(opened->info().bounds, [&](auto, auto ids) { some = ids[0]; });
-  EXPECT_THROW(static_cast<void>(store::find_source(opened->state(), some, [] { throw Cancelled(); })), Cancelled);
-  EXPECT_EQ(store::find_source(opened->state(), some, [] {}).object, "square");
+  EXPECT_THROW(static_cast<void>(store::find_source(opened->state(), some, ended())), Cancelled);
+  EXPECT_EQ(store::find_source(opened->state(), some, {}).object, "square");
   // Now it is known.
-  EXPECT_EQ(store::find_source(opened->state(), some, [] { throw Cancelled(); }).object, "square");
+  EXPECT_EQ(store::find_source(opened->state(), some, ended()).object, "square");
 }
 
 TEST_F(HostileStore, HashingTheRestOfAPartCanBeEnded) {
   const auto opened = Store::open(folder_.path());
   const Store::State& s = opened->state();
-  EXPECT_THROW(static_cast<void>(store::PartBytes(s, s.manifest.parts[0]).is_whole([] { throw Cancelled(); })),
-               Cancelled);
-  EXPECT_TRUE(store::PartBytes(s, s.manifest.parts[0]).is_whole([] {}));
+  EXPECT_THROW(static_cast<void>(store::PartBytes(s, s.manifest.parts[0], ended()).is_whole()), Cancelled);
+  EXPECT_TRUE(store::PartBytes(s, s.manifest.parts[0]).is_whole());
 }
 
 TEST(Recent, CountsMoreThanTheNumbersOfATile) {

@@ -109,7 +109,9 @@ class Memory : public StoreBytes {
     const auto bytes = std::as_bytes(std::span(it->second));
     return {bytes.begin(), bytes.end()};
   }
-  const char* read(const std::string&, std::uint64_t, std::span<std::byte>) override { return "nothing to read"; }
+  const char* read(const std::string&, std::uint64_t, std::span<std::byte>, const std::stop_token& /*stop*/) override {
+    return "nothing to read";
+  }
 
   std::map<std::string, std::string> files;
 };
@@ -132,7 +134,10 @@ TEST(Publish, WhileAnotherReadsLeadsItToTheNewOne) {
       if (file == "CURRENT" && !next.empty()) publish();
       return content;
     }
-    const char* read(const std::string&, std::uint64_t, std::span<std::byte>) override { return "not asked for"; }
+    const char* read(const std::string&, std::uint64_t, std::span<std::byte>,
+                     const std::stop_token& /*stop*/) override {
+      return "not asked for";
+    }
   } bytes;
   for (const char* options : {"third", "second", "first"}) {
     Manifest manifest = some_manifest();

@@ -1,4 +1,6 @@
 // Pages of the index: what is encoded comes back, and bytes that are no page are refused.
+#include "store/page.h"
+
 #include <gtest/gtest.h>
 
 #include <cstring>
@@ -6,7 +8,6 @@
 #include <random>
 
 #include "index/binary_tree.h"
-#include "store/page.h"
 
 namespace {
 

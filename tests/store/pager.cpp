@@ -221,7 +221,7 @@ TEST(Pager, TellsWhatIsWrongWithItsOptions) {
   const Mesh mesh = clutter::make(random, {});
   const auto store = made::store(folder.path(), {&mesh, 1});
   EXPECT_THROW(Pager(store, {.memory = 1 << 20}), roam::Error);
-  EXPECT_THROW(Pager(store, {.loaders = 0}), roam::Error);
+  EXPECT_THROW(Pager(store, {.loaders = -1}), roam::Error);
   EXPECT_THROW(Pager(store, {.loaders = 17}), roam::Error);
   EXPECT_THROW(Pager(store, {.horizon = 0.0}), roam::Error);
   EXPECT_THROW(Pager(store, {.horizon = std::nan("")}), roam::Error);

@@ -25,7 +25,8 @@ class SomeGone : public roam::store::StoreBytes {
   std::vector<std::byte> whole(const std::string& file, std::uint64_t limit) override {
     return files_->whole(file, limit);
   }
-  const char* read(const std::string& file, std::uint64_t offset, std::span<std::byte> out) override {
+  const char* read(const std::string& file, std::uint64_t offset, std::span<std::byte> out,
+                   const std::stop_token& /*stop*/) override {
     const std::uint64_t chance = ((offset + seed_) * 0x9E3779B97F4A7C15ULL) >> 40;
     if (!pages.contains(offset) && chance % 5 == 0) return "the disk reports an input/output error";
     return files_->read(file, offset, out);

@@ -15,8 +15,9 @@ DisplayLoader::DisplayLoader(const SceneOptions& scene, const TextureQuality& qu
       pages_(new PageSource(scene.scenes, scene.import_options(), quality, std::move(objects))),
       loading_([this] { load_scene(); }) {}
 
-DisplayLoader::DisplayLoader(const std::filesystem::path& store, std::future<Vec3> place)
-    : store_(store),
+DisplayLoader::DisplayLoader(const std::filesystem::path& store, const WebAccess& web, std::future<Vec3> place)
+    : web_(web),
+      store_(store),
       place_(std::move(place)),
       pages_(new PageSource({}, {}, {}, std::make_shared<SceneObjects>())),
       loading_([this] { load_store(); }) {}
@@ -66,7 +67,8 @@ void DisplayLoader::load_store() {
       state.triangles += triangles;
     });
   };
-  finish(show_store(*Store::open(store_), place, take, [this] { return loading_.wanted(); }));
+  finish(
+      show_store(*Store::open(store_, Store::usual_memory, web_), place, take, [this] { return loading_.wanted(); }));
 }
 
 void DisplayLoader::finish(DisplayReport&& report) {

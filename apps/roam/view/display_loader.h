@@ -32,7 +32,7 @@ class DisplayLoader {
   /// `objects` receives the names of the scene's objects; not null.
   DisplayLoader(const SceneOptions& scene, const TextureQuality& quality, std::shared_ptr<SceneObjects> objects);
   /// For a store without its scene: the triangles around `place`, once that is known. See show_store.
-  DisplayLoader(const std::filesystem::path& store, std::future<Vec3> place);
+  DisplayLoader(const std::filesystem::path& store, const WebAccess& web, std::future<Vec3> place);
 
   /// Ends the work, the reader process too, within a fraction of a second. Does not wait for that; the destructor does.
   void cancel() {
@@ -55,6 +55,7 @@ class DisplayLoader {
   bool receive(const DisplayPart& part);
 
   SceneOptions scene_;
+  WebAccess web_;
   std::filesystem::path store_;
   std::future<Vec3> place_;
   osg::ref_ptr<PageSource> pages_;

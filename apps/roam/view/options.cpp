@@ -19,6 +19,7 @@
 #include "roam/error.h"
 #include "roam/route.h"
 #include "roam/store.h"
+#include "scenes/web_options.h"
 #include "view/section.h"
 
 namespace roam::app {
@@ -167,11 +168,13 @@ void ViewOptions::add_to(CLI::App& verb) {
   scene.add_to(verb);
   // --keys needs no scene.
   verb.get_option("SCENE")->required(false)->transform(store_of_its_file());
+  add_web_options(verb, *verb.get_option("SCENE"), scene.web);
   verb.get_option("--memory")->description("Memory for a store's collision (default: 64M)");
   verb.option_defaults()->group(scene_group);
   verb.add_option("--store", store,
                   "Use this store for collision (default: SCENE.roam beside the scene, if you built it from SCENE)")
       ->type_name("STORE");
+  take_query_of(*verb.get_option("--store"), scene.web);
   verb.option_defaults()->group("Start");
   auto* from = verb.add_option_function<std::string>(
                        "--at", [this](const std::string& text) { at = parse_place(text); },

@@ -28,7 +28,7 @@ ViewPlan with_bookmark(ViewPlan plan, const std::string& bookmark, Records& reco
 
 std::unique_ptr<DisplayLoader> load_picture(const SceneAndStore& what, CollisionLoader& collision, const Stage& stage,
                                             std::shared_ptr<SceneObjects> objects) {
-  return what.store_only ? std::make_unique<DisplayLoader>(what.store, collision.place())
+  return what.store_only ? std::make_unique<DisplayLoader>(what.store, what.scene.web, collision.place())
                          : std::make_unique<DisplayLoader>(what.scene, stage.texture_quality(), std::move(objects));
 }
 

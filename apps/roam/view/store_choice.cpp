@@ -22,6 +22,7 @@ constexpr std::uint64_t many_triangles = 20'000'000;
 /// "Data.roam/" -> "Data"; empty for another extension, and for names such as "...roam", which would give the parent
 /// folder.
 std::filesystem::path place_beside(const std::filesystem::path& store) {
+  if (Store::is_address(store.native())) return {};
   std::filesystem::path path = store.lexically_normal();
   if (!path.has_filename()) path = path.parent_path();
   if (path.extension() != ".roam") return {};
@@ -95,7 +96,7 @@ SceneAndStore scene_and_store(const SceneOptions& scene, const std::filesystem::
   if (what.store_only) return what;
   what.scene.scenes = {shown};
   what.scene.through_link = false;
-  read_as(what.scene, *Store::open(what.store));
+  read_as(what.scene, *Store::open(what.store, Store::usual_memory, what.scene.web));
   return what;
 }
 
@@ -117,7 +118,7 @@ StoreChoice choose_store(const SceneAndStore& what, const std::function<bool()>&
   const UserKey user = user_key();
   const std::filesystem::path place = store_place(what);
   if (!what.store.empty()) {
-    choice.store = Store::open(what.store);
+    choice.store = Store::open(what.store, Store::usual_memory, what.scene.web);
     const std::string difference =
         what.store_only ? std::string() : compare(*choice.store, what.scene, user.key, goes_on);
     choice.stale = !difference.empty();

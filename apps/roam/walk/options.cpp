@@ -9,6 +9,7 @@
 #include "cli/standard_streams.h"
 #include "cli/values.h"
 #include "roam/error.h"
+#include "scenes/web_options.h"
 
 namespace roam::app {
 namespace {
@@ -78,6 +79,7 @@ void check_outputs(const WalkOptions& options) {
 
 void WalkOptions::add_to(CLI::App& verb) {
   scene.add_to(verb);
+  add_web_options(verb, *verb.get_option("SCENE"), scene.web);
   verb.option_defaults()->group("Way");
   auto* way =
       verb.add_option("--path", path, "Follow the waypoints of this file (-: standard input)")->type_name("FILE");

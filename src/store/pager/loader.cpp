@@ -63,6 +63,7 @@ void Loaders::end() {
     const std::lock_guard lock(sleeping_);
     stop_ = true;
   }
+  ending_.request_stop();
   wake_.notify_all();
   for (std::thread& t : threads_) t.join();
 }
@@ -133,11 +134,13 @@ const char* Loaders::read(const Work& work, std::span<std::byte> out, Outcome& o
   const std::uint64_t offset = work.entry ? work.entry->offset : page.ref.offset;
   const std::uint64_t hash = work.entry ? work.entry->hash : page.ref.hash;
   const auto begin = Clock::now();
-  const char* const problem = s.bytes->read(s.packs[page.shard], offset, out);
+  const char* const problem = s.bytes->read(s.packs[page.shard], offset, out, ending_.get_token());
   outcome.read_s = seconds_since(begin);
   if (problem) return problem;
   outcome.bytes = out.size();
-  return store::xxh3(out) == hash ? nullptr : "its checksum is wrong";
+  if (store::xxh3(out) != hash) return "its checksum is wrong";
+  s.bytes->keep(s.packs[page.shard], offset, out);
+  return nullptr;
 }
 
 const char* Loaders::load_tile(const Work& work, Tools& tools, Outcome& outcome) const {
@@ -187,11 +190,7 @@ const char* Loaders::load_page(const Work& work, Outcome& outcome) const {
 /// Nothing if it is not available now. Never throws.
 std::optional<std::string> Loaders::object_name(TriangleId triangle) {
   try {
-    const auto go_on = [this] {
-      const std::lock_guard lock(sleeping_);
-      if (stop_) throw Cancelled();
-    };
-    return store::find_source(store_->state(), triangle, go_on).object;
+    return store::find_source(store_->state(), triangle, ending_.get_token()).object;
   } catch (...) {
     return std::nullopt;
   }

@@ -7,6 +7,7 @@
 #include <mutex>
 #include <optional>
 #include <set>
+#include <stop_token>
 #include <string>
 #include <thread>
 #include <vector>
@@ -24,7 +25,7 @@ class Loaders {
   /// Throws roam::Error if a thread cannot be started.
   Loaders(std::shared_ptr<const Store> store, std::byte* arena, Planner& planner, Handover& handover, Names& names,
           int count);
-  /// Waits until reads in progress have ended.
+  /// Waits until reads in progress have ended; those that wait for the network end at once.
   ~Loaders();
 
  private:
@@ -64,6 +65,7 @@ class Loaders {
   std::mutex sleeping_;
   std::condition_variable wake_;
   bool stop_ = false;  ///< under `sleeping_`
+  std::stop_source ending_;
   std::vector<std::unique_ptr<Tools>> tools_;
   std::vector<std::thread> threads_;  ///< the last one finds names
 };

@@ -33,9 +33,13 @@ constexpr double least_wait_reach = 1e-3;
 /// Bytes for all data whose size depends on no store and no option.
 constexpr std::uint64_t fixed_cost = 512 << 10;
 
+/// Part of the memory that loading threads take unless the options say how many there are.
+constexpr std::uint64_t loaders_part = 8;
+
 struct Plan {
   std::uint64_t memory = 0;
   std::uint32_t units = 0;
+  int loaders = 1;
 };
 
 /// Divides the memory between tables and items.
@@ -44,14 +48,19 @@ Plan divide(const Store::State& store, const PagerOptions& options) {
     throw Error(fmt::format("a pager with {} bytes of memory: it needs {} MiB at least", options.memory,
                             Pager::least_memory >> 20));
   }
-  if (options.loaders < 1 || options.loaders > static_cast<int>(Handover::most_loaders)) {
-    throw Error(fmt::format("a pager with {} loading threads: 1 to 16 are possible", options.loaders));
+  if (options.loaders < 0 || options.loaders > static_cast<int>(Handover::most_loaders)) {
+    throw Error(fmt::format(
+        "a pager with {} loading threads: 1 to 16 are possible, and 0 for as many as suit the store", options.loaders));
   }
   if (!(options.horizon > 0.0 && options.horizon <= 3600.0)) {
     throw Error(
         fmt::format("a pager that looks {} s ahead: more than 0 and at most 3600 are possible", options.horizon));
   }
-  const std::uint64_t threads = static_cast<std::uint64_t>(options.loaders) * Loaders::cost;
+  Plan plan;
+  const auto that_fit = static_cast<int>(std::min<std::uint64_t>(options.memory / (loaders_part * Loaders::cost), 16));
+  plan.loaders =
+      options.loaders > 0 ? options.loaders : std::clamp(store.bytes->best_at_once(), 1, std::max(1, that_fit));
+  const std::uint64_t threads = static_cast<std::uint64_t>(plan.loaders) * Loaders::cost;
   const std::uint64_t tables = store.pages.size() * (Residents::page_cost + Planner::page_cost);
   // The largest pages and tiles that may have to be in memory together.
   std::uint64_t page = 0;
@@ -64,10 +73,9 @@ Plan divide(const Store::State& store, const PagerOptions& options) {
     throw Error(
         store.name,
         fmt::format("{} MiB of memory are not enough for its index and {} loading threads; give the pager {} MiB",
-                    options.memory >> 20, options.loaders, (least >> 20) + 1));
+                    options.memory >> 20, plan.loaders, (least >> 20) + 1));
   }
   const std::uint64_t rest = options.memory - threads - tables - fixed_cost - store.memory;
-  Plan plan;
   plan.units = static_cast<std::uint32_t>(std::min<std::uint64_t>(rest / (unit_bytes + Units::unit_cost),
                                                                   UINT32_MAX / (unit_bytes / sizeof(index::Block))));
   plan.memory = threads + tables + fixed_cost + store.memory + plan.units * (unit_bytes + Units::unit_cost);
@@ -102,7 +110,7 @@ struct Pager::State {
         residents(store->state(), arena.get()),
         planner(store->state(), arena.get(), plan.units, options.horizon, handover),
         speed_limiter(options.horizon),
-        loaders(store, arena.get(), planner, handover, names, options.loaders) {
+        loaders(store, arena.get(), planner, handover, names, plan.loaders) {
     handover.stats.memory = plan.memory;
   }
 

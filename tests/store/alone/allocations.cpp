@@ -107,7 +107,8 @@ class ThrowingBytes : public store::StoreBytes {
   std::vector<std::byte> whole(const std::string& file, std::uint64_t limit) override {
     return files_->whole(file, limit);
   }
-  const char* read(const std::string& file, std::uint64_t offset, std::span<std::byte> out) override {
+  const char* read(const std::string& file, std::uint64_t offset, std::span<std::byte> out,
+                   const std::stop_token& /*stop*/) override {
     switch (throws.load()) {
       case 1:
         throw std::runtime_error("the tape is torn in metre " + std::to_string(++count_));

@@ -66,7 +66,8 @@ class NoParts : public store::StoreBytes {
   std::vector<std::byte> whole(const std::string& file, std::uint64_t limit) override {
     return files_->whole(file, limit);
   }
-  const char* read(const std::string& file, std::uint64_t offset, std::span<std::byte> out) override {
+  const char* read(const std::string& file, std::uint64_t offset, std::span<std::byte> out,
+                   const std::stop_token& /*stop*/) override {
     while (slow && file.starts_with("parts/")) std::this_thread::sleep_for(std::chrono::milliseconds(1));
     if (broken && file.starts_with("parts/")) return "not now";
     return files_->read(file, offset, out);

@@ -1,0 +1,41 @@
+#include "scenes/web_options.h"
+
+#include <CLI/CLI.hpp>
+
+#include "cli/help.h"
+#include "cli/user_folder.h"
+#include "cli/values.h"
+
+namespace roam::app {
+
+void take_query_of(CLI::Option& store, WebAccess& web) {
+  store.transform(CLI::Validator(
+      [&web](std::string& text) {
+        const std::size_t question = Store::is_address(text) ? text.find('?') : std::string::npos;
+        if (question == std::string::npos) return std::string();
+        web.query = text.substr(question + 1);
+        text.resize(question);
+        return std::string();
+      },
+      ""));
+}
+
+void add_web_options(CLI::App& verb, CLI::Option& store, WebAccess& web) {
+  take_query_of(store, web);
+  verb.option_defaults()->group(scene_group);
+  verb.add_option_function<std::uint64_t>(
+          "--cache",
+          [&web](const std::uint64_t& size) {
+            const std::filesystem::path folder = user_folder("XDG_CACHE_HOME", ".cache");
+            if (folder.empty()) throw CLI::ValidationError("--cache", "there is no folder for it: set XDG_CACHE_HOME");
+            web.cache = folder / "web.cache";
+            web.cache_bytes = size;
+          },
+          "Keep what is read in a file of this size in ~/.cache/roam, for the next time, e.g. 2G")
+      ->transform(bytes())
+      ->type_name("SIZE");
+  verb.add_flag("--redirects", web.redirects, "Follow the server's redirects to other hosts and folders");
+  verb.option_defaults()->group(other_group);
+}
+
+}  // namespace roam::app

@@ -1,0 +1,60 @@
+#include "store/web/address.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "roam/error.h"
+
+namespace roam::web {
+namespace {
+
+constexpr std::string_view plain = "http://", secured = "https://";
+
+/// "host/path" of an address.
+std::string_view without_scheme(std::string_view text) {
+  return text.substr(text.starts_with(secured) ? secured.size() : plain.size());
+}
+
+}  // namespace
+
+bool Address::is_one(std::string_view text) { return text.starts_with(plain) || text.starts_with(secured); }
+
+Address::Address(std::string_view text) {
+  const std::size_t question = std::min(text.find('?'), text.size());
+  shown_ = text.substr(0, question);
+  query_ = text.substr(std::min(question + 1, text.size()));
+  const auto refuse = [&](const char* why) { throw Error(shown_, why); };
+  const std::string_view rest = is_one(shown_) ? without_scheme(shown_) : std::string_view();
+  const std::string_view host = rest.substr(0, std::min(rest.find('/'), rest.size()));
+  if (host.find('@') != std::string_view::npos) {
+    shown_ = std::string(plain) + "..." + std::string(host.substr(host.rfind('@')));
+    refuse("an address with a name or a password is seen by others; keep them in ~/.netrc");
+  }
+  if (host.empty()) refuse("this is no address of a web server: write http://HOST/STORE or https://HOST/STORE");
+  if (shown_.find('#') != std::string::npos) refuse("an address of a store has no '#'; write %23 for it");
+  const auto cannot_be = [](char c) { return c <= ' ' || c >= 127 || c == '"' || c == '<' || c == '>' || c == '\\'; };
+  if (std::any_of(shown_.begin(), shown_.end(), cannot_be) || std::any_of(query_.begin(), query_.end(), cannot_be)) {
+    refuse("an address holds no blanks, quotes or letters beyond ASCII; write %20 for a blank");
+  }
+  while (shown_.ends_with('/') && shown_.size() > shown_.find(host) + host.size()) shown_.pop_back();
+}
+
+std::string Address::of(std::string_view file) const {
+  std::string address = shown_ + "/";
+  address += file;
+  if (!query_.empty()) address += "?" + query_;
+  return address;
+}
+
+bool Address::is_secured(std::string_view address, std::string_view other) {
+  return address.starts_with(plain) && other.starts_with(secured) && without_scheme(address) == without_scheme(other);
+}
+
+void Address::secure() {
+  if (is_secure()) return;
+  std::string address(secured);
+  address += without_scheme(shown_);
+  shown_ = std::move(address);
+}
+
+}  // namespace roam::web

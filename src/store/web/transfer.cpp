@@ -1,0 +1,328 @@
+#include "store/web/transfer.h"
+
+#include <fcntl.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cstdlib>
+#include <cstring>
+#include <new>
+#include <string_view>
+
+#include "roam/version.h"
+
+namespace roam::web {
+namespace {
+
+/// s
+constexpr long longest_connecting = 10;
+
+/// Bytes a second: a slower answer is none.
+constexpr long least_speed = 1000;
+
+/// Bytes of an error's page that are read, so that the connection can be used again.
+constexpr std::uint64_t most_ignored = 64 << 10;
+
+constexpr const char* no_ranges =
+    "the web server ignores ranges and sends the whole file; use one that serves ranges, as nginx does";
+constexpr const char* wrong_range = "the web server sends another range than the one it was asked for";
+constexpr const char* too_much = "the web server sends more bytes than it says";
+constexpr const char* too_short = "the file is shorter than the manifest says";
+constexpr const char* larger = "it is larger than any file of its kind";
+constexpr const char* no_memory = "there is no memory left to read it";
+constexpr const char* broken = "the connection to the web server broke";
+
+bool is_redirect(long status) {
+  return status == 301 || status == 302 || status == 303 || status == 307 || status == 308;
+}
+
+const char* meaning(long status, bool is_signed) {
+  switch (status) {
+    case 400:
+      return is_signed ? "the web server does not understand the request, or its signature (status 400)"
+                       : "the web server does not understand the request (status 400)";
+    case 401:
+      return "the web server wants a name and a password (status 401); keep them in ~/.netrc";
+    case 403:
+      return is_signed
+                 ? "the web server refuses access (status 403); the signature of the address may have expired: get "
+                   "a new one"
+                 : "the web server refuses access (status 403)";
+    case 404:
+    case 410:
+      return "the web server has no such file (status 404 or 410)";
+    case 407:
+      return "the proxy wants a name and a password (status 407)";
+    case 408:
+    case 504:
+      return "the web server's time is up (status 408 or 504)";
+    case 416:
+      return too_short;
+    case 429:
+      return "the web server gets too many requests (status 429)";
+    case 500:
+    case 502:
+    case 503:
+      return "the web server fails or is overloaded (status 500, 502 or 503)";
+    default:
+      return "the web server gives an answer that no file has; ask whoever runs it";
+  }
+}
+
+const char* meaning(CURLcode code) {
+  switch (code) {
+    case CURLE_COULDNT_RESOLVE_PROXY:
+      return "the proxy's name is not known; check http_proxy and https_proxy";
+    case CURLE_COULDNT_RESOLVE_HOST:
+      return "the web server's name is not known, or there is no network";
+    case CURLE_COULDNT_CONNECT:
+      return "there is no connection to the web server";
+    case CURLE_OPERATION_TIMEDOUT:
+      return "the web server does not answer, or too slowly";
+    case CURLE_PARTIAL_FILE:
+    case CURLE_GOT_NOTHING:
+    case CURLE_RECV_ERROR:
+    case CURLE_SEND_ERROR:
+    case CURLE_HTTP2:
+    case CURLE_HTTP2_STREAM:
+      return broken;
+    case CURLE_PEER_FAILED_VERIFICATION:
+      return "the web server's certificate is not one of this server, or of nobody whom this system trusts";
+    case CURLE_SSL_CONNECT_ERROR:
+      return "there is no encrypted connection to the web server";
+    case CURLE_SSL_CACERT_BADFILE:
+      return "this system's certificates cannot be read; check CURL_CA_BUNDLE and SSL_CERT_FILE";
+    case CURLE_OUT_OF_MEMORY:
+      return no_memory;
+    default:
+      return "the web server's answer is no HTTP";
+  }
+}
+
+bool same_name(std::string_view a, std::string_view lower) {
+  return a.size() == lower.size() && std::equal(a.begin(), a.end(), lower.begin(), [](char x, char y) {
+           return (x >= 'A' && x <= 'Z' ? static_cast<char>(x - 'A' + 'a') : x) == y;
+         });
+}
+
+/// A number at the start of a text, which then loses it. False if there is none.
+bool number(std::string_view& text, std::uint64_t& value) {
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc()) return false;
+  text.remove_prefix(static_cast<std::size_t>(end - text.data()));
+  return true;
+}
+
+}  // namespace
+
+Transfer::Transfer(std::vector<Job*>&& of, std::string where, const Manners& manners)
+    : jobs(std::move(of)),
+      handle(Curl::library().easy_init()),
+      address(std::move(where)),
+      manners_(manners),
+      is_whole_(jobs.front()->wanted.whole != nullptr) {
+  if (handle == nullptr) throw std::bad_alloc();
+  first_ = jobs.front()->wanted.offset;
+  for (const Job* job : jobs) size_ = std::max(size_, job->end() - first_);
+  if (!is_whole_) range_ = std::to_string(first_) + "-" + std::to_string(first_ + size_ - 1);
+  prepare();
+}
+
+Transfer::~Transfer() {
+  Curl::library().easy_cleanup(handle);
+  Curl::library().slist_free_all(headers_);
+}
+
+void Transfer::prepare() {
+  set(CURLOPT_URL, address.c_str());
+  set(CURLOPT_PROTOCOLS_STR, "http,https");
+  set(CURLOPT_FOLLOWLOCATION, 0L);
+  set(CURLOPT_USERAGENT, "roam/" ROAM_VERSION_STRING);
+  set(CURLOPT_NETRC, long{CURL_NETRC_OPTIONAL});
+  set(CURLOPT_NOSIGNAL, 1L);
+  set(CURLOPT_PIPEWAIT, 1L);
+  set(CURLOPT_SUPPRESS_CONNECT_HEADERS, 1L);
+  set(CURLOPT_CONNECTTIMEOUT, std::clamp(static_cast<long>(manners_.patience / 2), 1L, longest_connecting));
+  set(CURLOPT_LOW_SPEED_LIMIT, least_speed);
+  set(CURLOPT_LOW_SPEED_TIME, std::max(1L, static_cast<long>(manners_.patience / 2)));
+  set(CURLOPT_SOCKOPTFUNCTION, &keep_from_children);
+  set(CURLOPT_HEADERFUNCTION, &take_header);
+  set(CURLOPT_HEADERDATA, this);
+  set(CURLOPT_WRITEFUNCTION, &take_body);
+  set(CURLOPT_WRITEDATA, this);
+  if (!range_.empty()) set(CURLOPT_RANGE, range_.c_str());
+  for (const char* name : {"SSL_CERT_FILE", "CURL_CA_BUNDLE"}) {
+    if (const char* const file = std::getenv(name); file != nullptr && *file != '\0') set(CURLOPT_CAINFO, file);
+  }
+  if (jobs.front()->wanted.anew) {
+    headers_ = Curl::library().slist_append(nullptr, "Cache-Control: no-cache");
+    set(CURLOPT_HTTPHEADER, headers_);
+  }
+}
+
+void Transfer::redirect(const std::string& to) {
+  address = to;
+  ++hops;
+  set(CURLOPT_URL, address.c_str());
+}
+
+int Transfer::keep_from_children(void* /*self*/, curl_socket_t socket, curlsocktype /*type*/) noexcept {
+  ::fcntl(socket, F_SETFD, FD_CLOEXEC);
+  return CURL_SOCKOPT_OK;
+}
+
+std::size_t Transfer::take_header(char* text, std::size_t one, std::size_t size, void* self) noexcept {
+  Transfer& t = *static_cast<Transfer*>(self);
+  std::string_view line(text, one * size);
+  while (!line.empty() && (line.back() == '\n' || line.back() == '\r' || line.back() == ' ')) line.remove_suffix(1);
+  if (line.empty()) return t.headers_end() ? one * size : 0;
+  t.header(line);
+  return one * size;
+}
+
+void Transfer::header(std::string_view line) {
+  if (line.starts_with("HTTP/")) {  // of this answer, or of one before it, such as 100
+    status_ = 0;
+    has_range_ = false;
+    length_ = received_ = ignored_ = 0;
+    std::string_view rest = line.substr(std::min(line.find(' '), line.size()));
+    while (rest.starts_with(' ')) rest.remove_prefix(1);
+    std::uint64_t status = 0;
+    if (number(rest, status)) status_ = static_cast<long>(std::min<std::uint64_t>(status, 999));
+    return;
+  }
+  const std::size_t colon = std::min(line.find(':'), line.size());
+  const std::string_view name = line.substr(0, colon);
+  std::string_view value = line.substr(std::min(colon + 1, line.size()));
+  while (value.starts_with(' ')) value.remove_prefix(1);
+  if (same_name(name, "content-length")) {
+    if (!number(value, length_)) length_ = 0;
+  } else if (same_name(name, "content-range") && value.starts_with("bytes ")) {
+    value.remove_prefix(6);
+    has_range_ = number(value, range_first_) && value.starts_with('-');
+    if (has_range_) value.remove_prefix(1);
+    has_range_ = has_range_ && number(value, range_last_) && value.starts_with('/');
+  }
+}
+
+bool Transfer::headers_end() {
+  if (status_ < 200 || status_ >= 300) return true;
+  if (is_whole_) {
+    if (status_ != 200) problem_ = meaning(0, false);
+    too_large_ = length_ > jobs.front()->wanted.limit;
+    if (too_large_) problem_ = larger;
+    if (!problem_) {
+      try {
+        jobs.front()->wanted.whole->clear();
+        jobs.front()->wanted.whole->reserve(length_);
+      } catch (const std::exception&) {
+        problem_ = no_memory;
+      }
+    }
+  } else if (status_ == 200) {
+    problem_ = no_ranges;
+  } else if (status_ != 206 || !has_range_ || range_first_ != first_ || range_last_ < first_ ||
+             range_last_ - first_ >= size_) {
+    problem_ = wrong_range;
+  }
+  return problem_ == nullptr;
+}
+
+std::size_t Transfer::take_body(char* bytes, std::size_t one, std::size_t size, void* self) noexcept {
+  Transfer& t = *static_cast<Transfer*>(self);
+  return t.body({reinterpret_cast<const std::byte*>(bytes), one * size}) ? one * size : 0;
+}
+
+bool Transfer::body(std::span<const std::byte> bytes) {
+  if (status_ != 200 && status_ != 206) {
+    ignored_ += bytes.size();
+    return ignored_ <= most_ignored;
+  }
+  const std::uint64_t begin = first_ + received_, end = begin + bytes.size();
+  received_ += bytes.size();
+  if (is_whole_) {
+    const Wanted& wanted = jobs.front()->wanted;
+    too_large_ = received_ > wanted.limit;
+    if (too_large_) problem_ = larger;
+    if (problem_) return false;
+    try {
+      wanted.whole->insert(wanted.whole->end(), bytes.begin(), bytes.end());
+    } catch (const std::exception&) {
+      problem_ = no_memory;
+    }
+    return problem_ == nullptr;
+  }
+  if (end > range_last_ + 1) {
+    problem_ = too_much;
+    return false;
+  }
+  for (const Job* job : jobs) {
+    const std::uint64_t from = std::max(begin, job->wanted.offset), to = std::min(end, job->end());
+    if (from >= to) continue;
+    std::memcpy(job->wanted.out.data() + (from - job->wanted.offset), bytes.data() + (from - begin), to - from);
+  }
+  return true;
+}
+
+bool Transfer::has_all(const Job& job) const { return !is_whole_ && status_ == 206 && first_ + received_ >= job.end(); }
+
+std::string Transfer::redirected() const {
+  char* to = nullptr;
+  if (!is_redirect(status_)) return {};
+  Curl::library().easy_getinfo(handle, CURLINFO_REDIRECT_URL, &to);
+  return to == nullptr ? std::string() : std::string(to);
+}
+
+Answer Transfer::answer(CURLcode result) const {
+  if (problem_) return {problem_, false, too_large_};
+  if (result != CURLE_OK && (status_ < 300 || result != CURLE_WRITE_ERROR)) return {meaning(result)};
+  if (is_redirect(status_)) {
+    return {manners_.redirects ? "the web server redirects too often, or to an address without encryption"
+                               : "the web server redirects to another address; --redirects follows it"};
+  }
+  if (status_ < 200 || status_ >= 300) {
+    return {meaning(status_, address.find('?') != std::string::npos), status_ == 404 || status_ == 410};
+  }
+  if (is_whole_ || received_ == size_) return {};
+  return {is_cut() ? broken : too_short};
+}
+
+bool Transfer::may_pass(CURLcode result) const {
+  if (problem_) return false;
+  if (is_cut()) return true;
+  switch (status_) {
+    case 408:
+    case 429:
+    case 500:
+    case 502:
+    case 503:
+    case 504:
+      return true;
+    default:
+      break;
+  }
+  switch (result) {
+    case CURLE_COULDNT_RESOLVE_HOST:
+    case CURLE_COULDNT_CONNECT:
+    case CURLE_OPERATION_TIMEDOUT:
+    case CURLE_PARTIAL_FILE:
+    case CURLE_GOT_NOTHING:
+    case CURLE_RECV_ERROR:
+    case CURLE_SEND_ERROR:
+    case CURLE_HTTP2:
+    case CURLE_HTTP2_STREAM:
+    case CURLE_SSL_CONNECT_ERROR:
+      return true;
+    default:
+      return false;
+  }
+}
+
+double Transfer::wished_pause() const {
+  curl_off_t seconds = 0;
+  if (status_ != 429 && status_ != 503) return 0.0;
+  Curl::library().easy_getinfo(handle, CURLINFO_RETRY_AFTER, &seconds);
+  return static_cast<double>(std::clamp<curl_off_t>(seconds, 0, 3600));
+}
+
+}  // namespace roam::web

@@ -1,0 +1,146 @@
+#!/usr/bin/env python3
+"""Serves a folder by HTTP on a port of its own, which it prints, and misbehaves on demand.
+
+The first part of a path says how: /MODE/dam.roam/packs/... A mode "current-404" concerns CURRENT alone, one without such
+a beginning only packs. GET /log answers with all requests so far, one a line, and forgets them.
+"""
+import http.server
+import os
+import re
+import socket
+import ssl
+import struct
+import sys
+import threading
+import time
+
+root = sys.argv[1]
+log, tries, lock = [], {}, threading.Lock()
+
+
+class Handler(http.server.BaseHTTPRequestHandler):
+    protocol_version = "HTTP/1.1"
+    disable_nagle_algorithm = True
+
+    def log_message(self, *_):
+        pass
+
+    def answer(self, status, body=b"", **headers):
+        self.send_response(status)
+        headers.setdefault("Content_Length", len(body))
+        for name, value in headers.items():
+            if value is not None:
+                self.send_header(name.replace("_", "-"), str(value))
+        self.end_headers()
+        self.wfile.write(body)
+
+    def do_GET(self):
+        path, _, query = re.sub("^http://[^/]*", "", self.path).partition("?")  # as a proxy it is given the host, too
+        if path == "/log":
+            with lock:
+                lines, log[:] = "\n".join(log), []
+            return self.answer(200, lines.encode())
+        wanted = self.headers.get("Range", "")
+        with lock:
+            log.append(f"{path} {wanted or '-'} {query or '-'} {self.headers.get('Authorization', '-')}")
+            tries[self.path, wanted] = turn = tries.get((self.path, wanted), 0) + 1
+        _, mode, name = path.split("/", 2)
+        concerns_current = mode.startswith("current-")
+        if name.endswith("/CURRENT") != concerns_current and not (mode.startswith("all-")):
+            mode = "good"
+        if "/packs/" not in name and not concerns_current and not mode.startswith("all-"):
+            mode = "good"
+        mode = mode.removeprefix("current-").removeprefix("all-")
+        file = os.path.join(root, name)
+        if not os.path.isfile(file):
+            return self.answer(404, b"nothing here")
+        with open(file, "rb") as opened:
+            body = opened.read()
+        self.respond(mode, body, re.fullmatch(r"bytes=(\d+)-(\d+)", wanted), turn, path, query)
+
+    def respond(self, mode, body, wanted, turn, path, query):
+        if mode.isdigit():
+            return self.answer(int(mode), b"an error", Retry_After=1 if mode == "429" else None)
+        if mode in ("503once", "429once"):
+            if turn == 1:
+                return self.answer(int(mode[:3]), b"busy", Retry_After=1 if mode == "429once" else None)
+            mode = "good"
+        if mode == "elsewhere":  # another name for this host
+            port = self.server.server_address[1]
+            return self.answer(302, Location=f"http://localhost:{port}" + path.replace("elsewhere", "good", 1))
+        if mode == "file":
+            return self.answer(302, Location="file:///etc/passwd")
+        if mode == "loop":
+            return self.answer(302, Location=self.path)
+        if mode == "page":  # of a login
+            return self.answer(200, b"<html>Who are you?</html>", Content_Type="text/html")
+        if mode == "endless":
+            self.answer(200, b"", Content_Length=None, Connection="close")
+            try:
+                while True:
+                    self.wfile.write(bytes(1 << 16))
+            except OSError:
+                self.close_connection = True
+                return None
+        if mode == "stall":
+            time.sleep(600)
+        if mode == "slow":
+            time.sleep(0.05)
+        if mode == "garbage":
+            self.wfile.write(b"\0\1\2 this is no HTTP\r\n\r\n")
+            self.close_connection = True
+            return None
+        if wanted is None or mode == "whole":
+            return self.answer(200, body)
+        first, last = int(wanted[1]), min(int(wanted[2]), len(body) - 1)
+        if first > last:
+            return self.answer(416, Content_Range=f"bytes */{len(body)}")
+        part = body[first:last + 1]
+        said, length = f"bytes {first}-{last}/{len(body)}", len(part)
+        if mode == "reset" or (mode == "resetonce" and turn == 1):
+            self.send_response(206)
+            self.send_header("Content-Range", said)
+            self.send_header("Content-Length", str(length))
+            self.end_headers()
+            self.wfile.write(part[:length // 2])
+            self.wfile.flush()
+            self.connection.setsockopt(socket.SOL_SOCKET, socket.SO_LINGER, struct.pack("ii", 1, 0))
+            self.connection.close()
+            self.close_connection = True
+            return None
+        if mode == "short":  # a whole answer of half the bytes
+            part, said = part[:length // 2], f"bytes {first}-{first + length // 2 - 1}/{len(body)}"
+        if mode == "cut":  # the connection ends early
+            self.close_connection = True
+            part = part[:length // 2]
+        if mode == "long":
+            part = part + bytes(1000)
+            length += 1000
+        if mode == "bits":
+            part = bytes([part[0] ^ 1]) + part[1:]
+        if mode == "zeros":
+            part = bytes(length)
+        if mode == "shifted":
+            said = f"bytes {first + 8}-{last + 8}/{len(body)}"
+        if mode == "unsaid":
+            said = None
+        if mode == "absurd":
+            said = f"bytes {first}-99999999999999999999999/x"
+        return self.answer(206, part, Content_Range=said, Content_Length=len(part) if mode == "short" else length)
+
+
+class Server(http.server.ThreadingHTTPServer):
+    daemon_threads = True
+
+    def handle_error(self, *_):
+        pass
+
+
+server = Server(("127.0.0.1", 0), Handler)
+if len(sys.argv) > 2:  # a file with a certificate and its key
+    context = ssl.SSLContext(ssl.PROTOCOL_TLS_SERVER)
+    context.load_cert_chain(sys.argv[2])
+    server.socket = context.wrap_socket(server.socket, server_side=True, do_handshake_on_connect=False)
+print(server.server_address[1], flush=True)
+threading.Thread(target=server.serve_forever, daemon=True).start()
+sys.stdin.read()  # until whoever started it ends

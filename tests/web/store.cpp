@@ -1,0 +1,308 @@
+// A store on a web server is the store on the disk, and a bad server or network is a slow or damaged disk.
+
+#include <algorithm>
+#include <cstdlib>
+#include <fstream>
+#include <map>
+
+#include "environment_variable.h"
+#include "store/opened.h"
+#include "web_made.h"
+
+namespace {
+
+using namespace made;
+
+TEST(WebStore, AWalkOverNginxIsThatOnTheDiskToTheLastBit) {
+  if (!support::Nginx::is_there()) GTEST_SKIP() << "nginx is not here (Debian: nginx-light)";
+  const Served served("web_nginx");
+  const support::Nginx nginx(served.folder.path() / "nginx", served.root());
+  const auto store = opened(nginx.address());
+  const auto disk = Store::open(served.store());
+  EXPECT_EQ(store->name(), nginx.address());
+  EXPECT_EQ(store->info().hash, disk->info().hash);
+  EXPECT_EQ(all_bytes(*store), all_bytes(*disk));
+  for (const std::uint64_t seed : {1, 2}) EXPECT_EQ(way_of(store, seed, 400), way_of(disk, seed, 400));
+  roam::TriangleId some = 0;
+  disk->for_each_triangle(disk->info().bounds, [&](auto, auto ids) { some = ids[0]; });
+  EXPECT_EQ(store->source(some).object, "yard");
+  EXPECT_TRUE(roam::verify_store(nginx.address(), {}).whole());
+}
+
+TEST(WebStore, BadAnswersAreSolidAndNamed) {
+  const Served served("web_bad");
+  const support::Misbehaving server(served.root());
+  const std::map<std::string, std::string> reasons{
+      {"bits", "its checksum is wrong"},
+      {"zeros", "its checksum is wrong"},
+      {"whole", "ignores ranges"},
+      {"page", "ignores ranges"},
+      {"short", "shorter than the manifest says"},
+      {"cut", "connection to the web server broke"},
+      {"reset", "connection to the web server broke"},
+      {"long", "its checksum is wrong"},
+      {"shifted", "another range"},
+      {"unsaid", "another range"},
+      {"absurd", "another range"},
+      {"garbage", "no HTTP"},
+      {"endless", "ignores ranges"},
+      {"stall", "does not answer"},
+      {"400", "does not understand"},
+      {"401", "~/.netrc"},
+      {"403", "refuses access"},
+      {"404", "the store was replaced or removed"},
+      {"412", "no file has"},
+      {"416", "shorter than the manifest says"},
+      {"429", "too many requests"},
+      {"500", "fails or is overloaded"},
+      {"503", "fails or is overloaded"},
+      {"elsewhere", "redirects to another address"},
+      {"file", "redirects to another address"},
+      {"loop", "redirects to another address"},
+  };
+  for (const auto& [mode, reason] : reasons) {
+    SCOPED_TRACE(mode);
+    const auto store = opened(server.address(mode), patient(0.3));
+    Pager pager(store, {.memory = 16 << 20, .loaders = 4});
+    // "long" only breaks a connection: what was wanted has come before.
+    const bool comes = mode == "long";
+    EXPECT_TRUE(update_until(pager, {0.3, 0.6}, middle, [&] { return comes || pager.stats().failed > 0; }));
+    if (!comes) {
+      EXPECT_NE(pager.stats().last_failure.find(reason), std::string::npos) << pager.stats().last_failure;
+    }
+    const double length = judged_length(served, pager, 1, 60);
+    if (!comes) {
+      EXPECT_LT(length, 1e-9) << "held";
+    }
+  }
+}
+
+TEST(WebStore, WhatPassesIsTriedAgain) {
+  const Served served("web_again");
+  const support::Misbehaving server(served.root());
+  const std::string there = all_bytes(*Store::open(served.store()));
+  for (const char* mode : {"503once", "429once", "resetonce", "slow"}) {
+    const auto store = opened(server.address(mode), patient(20.0));
+    // Of one box: a pause for each tile would be long.
+    std::string some, right;
+    const roam::Box box{{18.0, 18.0, -1.0}, {19.0, 19.0, 4.0}};
+    const auto add_to = [](std::string& all) {
+      return [&all](auto triangles, auto) {
+        all.append(reinterpret_cast<const char*>(triangles.data()), triangles.size_bytes());
+      };
+    };
+    store->for_each_triangle(box, add_to(some));
+    Store::open(served.store())->for_each_triangle(box, add_to(right));
+    EXPECT_EQ(some, right) << mode;
+  }
+}
+
+TEST(WebStore, ASlowServerIsNeverPassedThrough) {
+  const Served served("web_slow", 3);
+  const support::Misbehaving server(served.root());
+  Pager pager(opened(server.address("slow")), {.memory = Pager::least_memory});
+  EXPECT_GT(judged_length(served, pager, 3, 1500), 1.0);
+}
+
+TEST(WebStore, WhatIsNoStoreIsRefused) {
+  const Served served("web_none");
+  const support::Misbehaving server(served.root());
+  const std::map<std::string, std::string> reasons{
+      {"current-404", "there is no store at this address"},
+      {"current-403", "refuses access"},
+      {"current-page", "is no store, or damaged"},
+      {"current-500", "overloaded"},
+      {"current-elsewhere", "--redirects follows it"},
+      {"current-endless", "larger than any of its kind"},
+      {"current-stall", "does not answer"},
+      {"current-garbage", "no HTTP"},
+  };
+  for (const auto& [mode, reason] : reasons) {
+    const std::string message = refusal(server.address(mode));
+    EXPECT_NE(message.find(reason), std::string::npos) << mode << ": " << message;
+    EXPECT_NE(message.find(server.address(mode)), std::string::npos) << message;
+  }
+  const std::string nobody = fmt::format("http://127.0.0.1:{}/x.roam", support::free_port());
+  EXPECT_NE(refusal(nobody).find("no connection to the web server"), std::string::npos);
+  EXPECT_NE(refusal("http://name.invalid/x.roam").find("name is not known"), std::string::npos);
+  EXPECT_NE(refusal("http:///x.roam").find("no address"), std::string::npos);
+  EXPECT_NE(refusal("http://a/b c").find("%20"), std::string::npos);
+  const std::string login = refusal("http://me:word@a/x.roam");
+  EXPECT_NE(login.find(".netrc"), std::string::npos);
+  EXPECT_EQ(login.find("me:"), std::string::npos);
+}
+
+TEST(WebStore, TheQueryGoesWithEachRequestAndIsSeenNowhereElse) {
+  const Served served("web_signed");
+  const support::Misbehaving server(served.root());
+  const std::string secret = "Signature=Geheim%2F&Expires=1";
+  const std::filesystem::path cache = served.folder.path() / "cache" / "web.cache";
+  for (const bool in_address : {true, false}) {
+    WebAccess web = with_cache(cache, 8 << 20);
+    if (!in_address) web.query = secret;
+    const auto store = opened(server.address("good") + (in_address ? "?" + secret : ""), web);
+    EXPECT_EQ(store->name(), server.address("good"));
+    static_cast<void>(all_bytes(*store));
+    for (const std::string& request : server.requests()) EXPECT_NE(request.find(secret), std::string::npos) << request;
+    for (const char* mode : {"current-403", "current-elsewhere", "current-page"}) {
+      const std::string message = refusal(server.address(mode) + (in_address ? "?" + secret : ""), web);
+      EXPECT_EQ(message.find("Geheim"), std::string::npos) << message;
+    }
+    const auto bad = opened(server.address("403") + (in_address ? "?" + secret : ""), web);
+    Pager pager(bad, {.memory = Pager::least_memory});
+    EXPECT_TRUE(update_until(pager, {0.3, 0.6}, middle, [&] { return pager.stats().failed > 0; }));
+    EXPECT_NE(pager.stats().last_failure.find("signature of the address may have expired"), std::string::npos);
+    EXPECT_EQ(pager.stats().last_failure.find("Geheim"), std::string::npos);
+  }
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(served.folder.path() / "cache")) {
+    EXPECT_EQ(entry.path().string().find("Geheim"), std::string::npos);
+    std::ifstream file(entry.path(), std::ios::binary);
+    const std::string content((std::istreambuf_iterator<char>(file)), {});
+    EXPECT_EQ(content.find("Geheim"), std::string::npos) << entry.path();
+  }
+}
+
+TEST(WebStore, RedirectsToOtherHostsAreFollowedOnDemandOnly) {
+  const Served served("web_redirects");
+  const support::Misbehaving server(served.root());
+  EXPECT_NE(refusal(server.address("all-elsewhere")).find("--redirects"), std::string::npos);
+  const auto store = opened(server.address("all-elsewhere") + "?secret", following(2.0));
+  static_cast<void>(server.requests());
+  EXPECT_EQ(all_bytes(*store), all_bytes(*Store::open(served.store())));
+  // The secret is for the first host alone.
+  for (const std::string& request : server.requests()) {
+    EXPECT_EQ(request.find("/all-good/") != std::string::npos, request.find("secret") == std::string::npos) << request;
+  }
+  EXPECT_NE(refusal(server.address("all-loop"), following(0.3)).find("too often"), std::string::npos);
+  EXPECT_NE(refusal(server.address("all-file"), following(0.3)).find("redirects"), std::string::npos);
+}
+
+TEST(WebStore, CertificatesAreChecked) {
+  const Served served("web_secure");
+  const std::string certificate = (served.folder.path() / "certificate.pem").string();
+  const std::string make = fmt::format(
+      "openssl req -x509 -newkey ec -pkeyopt ec_paramgen_curve:P-256 -nodes -days 2 -subj /CN=127.0.0.1 "
+      "-addext subjectAltName=IP:127.0.0.1 -keyout {0}.key -out {0}.crt 2> /dev/null && cat {0}.key {0}.crt > {0}",
+      certificate);
+  if (std::system(make.c_str()) != 0) GTEST_SKIP() << "the command openssl is not here";
+  const support::Misbehaving server(served.root(), certificate);
+  const std::string message = refusal(server.address("good"), patient(10.0));
+  EXPECT_NE(message.find("certificate"), std::string::npos) << message;
+  const EnvironmentVariable trusted("CURL_CA_BUNDLE", (certificate + ".crt").c_str());
+  EXPECT_EQ(all_bytes(*opened(server.address("good"))), all_bytes(*Store::open(served.store())));
+}
+
+TEST(WebStore, ProxiesAndNetrcHoldAsForCurl) {
+  const Served served("web_proxy");
+  const support::Misbehaving server(served.root());
+  const std::string proxy = fmt::format("http://127.0.0.1:{}", server.port());
+  {
+    const EnvironmentVariable through("http_proxy", proxy.c_str());
+    EXPECT_EQ(opened("http://name.invalid/good/x.roam")->info().hash, Store::open(served.store())->info().hash);
+    const EnvironmentVariable around("no_proxy", "name.invalid");
+    EXPECT_NE(refusal("http://name.invalid/good/x.roam").find("name is not known"), std::string::npos);
+  }
+  std::ofstream(served.folder.path() / ".netrc") << "machine 127.0.0.1 login me password word\n";
+  const EnvironmentVariable home("HOME", served.folder.path().c_str());
+  static_cast<void>(server.requests());
+  static_cast<void>(opened(server.address("good")));
+  for (const std::string& request : server.requests()) EXPECT_TRUE(request.ends_with("Basic bWU6d29yZA==")) << request;
+}
+
+TEST(WebStore, NothingOutsideOfItsFolderIsRequested) {
+  const Served served("web_outside");
+  const support::Misbehaving server(served.root());
+  const auto files = roam::store::web_store(server.address("good"), {}).bytes;
+  std::vector<std::byte> out(10);
+  const std::string digits(64, 'a');
+  const std::vector<std::string> names{"../x",
+                                       "packs/../" + digits + ".pack",
+                                       "/etc/passwd",
+                                       "packs/" + digits + ".pack?a",
+                                       "http://other/packs/" + digits + ".pack",
+                                       "LOCK",
+                                       "packs/" + digits + "/../" + digits + ".pack"};
+  for (const std::string& name : names) {
+    EXPECT_THROW(static_cast<void>(files->whole(name, 100)), roam::Error) << name;
+    EXPECT_THROW(static_cast<void>(files->read(name, 0, out)), roam::Error) << name;
+  }
+  EXPECT_TRUE(server.requests().empty());
+  static_cast<void>(all_bytes(*opened(server.address("good"))));
+  for (const std::string& request : server.requests()) EXPECT_TRUE(request.starts_with("/good/x.roam/")) << request;
+}
+
+TEST(WebStore, NeighboursBecomeOneRequest) {
+  const Served served("web_neighbours");
+  const support::Misbehaving server(served.root());
+  const auto store = opened(server.address("slow"));
+  static_cast<void>(server.requests());
+  Pager pager(store, {.memory = 64 << 20, .loaders = 8});
+  EXPECT_TRUE(update_until(pager, {0.3, 0.6}, middle, [&] { return pager.stats().tiles == store->info().tiles; }));
+  std::size_t requests = 0;
+  for (const std::string& request : server.requests()) requests += request.find("/packs/") != std::string::npos ? 1 : 0;
+  EXPECT_LT(2 * requests, store->info().tiles + store->info().pages);
+}
+
+TEST(WebStore, APagerOfAStalledServerEndsAtOnce) {
+  const Served served("web_stalled");
+  const support::Misbehaving server(served.root());
+  const auto store = opened(server.address("stall"), patient(60.0));
+  std::chrono::steady_clock::time_point begin;
+  {
+    Pager pager(store, {.memory = 16 << 20, .loaders = 4});
+    EXPECT_FALSE(pager.wait({0.3, 0.6}, middle, Vec3(0.0), 0.3));
+    begin = std::chrono::steady_clock::now();
+  }
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(2));
+}
+
+TEST(WebStore, AReplacedStoreGoesOnAsTheOldOneOrSaysSo) {
+  Served served("web_replaced");
+  const support::Misbehaving server(served.root());
+  const auto old = opened(server.address("good"));
+  Pager pager(old, {.memory = Pager::least_memory});
+  const auto first = all_bytes(*old);
+  const Mesh other = yard_mesh(9);
+  // A version that leaves the old files, as publish_store does.
+  made::store(served.store(), {&other, 1}, {.page_tiles = 8, .tile_triangles = 100});
+  EXPECT_EQ(all_bytes(*old), first);
+  const auto now = opened(server.address("good"));
+  EXPECT_NE(now->info().hash, old->info().hash);
+  EXPECT_NE(all_bytes(*now), first);
+  // One that removes them.
+  std::filesystem::remove(served.root() / "x.roam" / old->state().packs.front());
+  EXPECT_GE(judged_length(served, pager, 1, 100), 0.0);
+  try {
+    static_cast<void>(all_bytes(*old));
+    ADD_FAILURE() << "the pack is not there";
+  } catch (const roam::Error& error) {
+    EXPECT_NE(std::string(error.what()).find("open it anew"), std::string::npos) << error.what();
+  }
+}
+
+TEST(WebStore, WhatIsCachedIsNotRequestedAgain) {
+  const Served served("web_cached");
+  const support::Misbehaving server(served.root());
+  const WebAccess web = with_cache(served.folder.path() / "web.cache", 16 << 20);
+  const std::string right = all_bytes(*Store::open(served.store()));
+  EXPECT_EQ(all_bytes(*opened(server.address("good"), web)), right);
+  static_cast<void>(server.requests());
+  EXPECT_EQ(all_bytes(*opened(server.address("good"), web)), right);
+  const auto requests = server.requests();
+  ASSERT_EQ(requests.size(), 1U) << "only CURRENT is read again";
+  EXPECT_TRUE(requests[0].starts_with("/good/x.roam/CURRENT"));
+  // Wrong bytes of a server are not kept, and another address is another store.
+  EXPECT_THROW(static_cast<void>(all_bytes(*opened(server.address("bits"), web))), roam::Error);
+  EXPECT_EQ(all_bytes(*opened(server.address("good"), web)), right);
+  // A damaged cache is none.
+  {
+    std::fstream file(web.cache, std::ios::in | std::ios::out | std::ios::binary);
+    const auto size = std::filesystem::file_size(web.cache);
+    EXPECT_EQ(size, web.cache_bytes);
+    for (std::uint64_t at = 8192; at < size; at += 512) file.seekp(static_cast<std::streamoff>(at)).put('x');
+  }
+  EXPECT_EQ(all_bytes(*opened(server.address("good"), web)), right);
+  EXPECT_GT(server.requests().size(), 2U);
+}
+
+}  // namespace
