@@ -1,7 +1,5 @@
 #include "import/display.h"
 
-#include <fmt/format.h>
-
 #include <optional>
 #include <utility>
 
@@ -34,11 +32,8 @@ DisplayReport read_display(std::span<const std::filesystem::path> paths, const I
                      if (report.paged) matched.assign(matched.size(), true);
                      return report.parts > parts_before;
                    });
-  if (report.missing_textures > 0) {
-    report.notes.push_back(
-        fmt::format("{} that the scene refers to {} absent or unreadable; what they cover is shown without: {}.",
-                    report.missing_textures == 1 ? "1 image" : fmt::format("{} images", report.missing_textures),
-                    report.missing_textures == 1 ? "is" : "are", reader::listed(report.missing_texture_files)));
+  if (auto note = reader::note_of_missing_images(report.missing_textures, report.missing_texture_files)) {
+    report.notes.push_back(std::move(*note));
   }
   return report;
 }

@@ -13,9 +13,9 @@
 /// most 4096 texels a side, unless they are compressed. Geometry of one texture comes in one part if it takes at most
 /// 64 MB, so that a texture is seldom sent twice. Other parts have about 8 MB.
 ///
-/// Pages. Tiles and OpenSceneGraph files that refer to existing pages are not read here. They are passed on as
-/// DisplayPages whose only level is a page. PageReader (page_reader.h) reads that page on demand, with the same
-/// readers, options and checks. A page contains geometries and further pages.
+/// Pages. Tilesets of several tiles, and tiles and OpenSceneGraph files that refer to existing pages, are not read here.
+/// They are passed on as DisplayPages whose only level is a page. PageReader (page_reader.h) reads that page on demand,
+/// with the same readers, options and checks. A page contains geometries and further pages.
 
 #include <cstdint>
 #include <filesystem>

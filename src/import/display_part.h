@@ -88,13 +88,23 @@ struct DisplayLevel {
   std::string page;         ///< the argument of PageReader::read
 };
 
+/// What the ranges of levels are measured in.
+enum class DisplayMeasure : std::uint8_t {
+  metres,  ///< from the eye to the centre
+  pixels,  ///< of the sphere on the screen
+  error    ///< `error` on the screen, as a multiple of the error that the viewer allows
+};
+
 /// A node whose levels change with the position of the eye.
 struct DisplayPages {
   std::uint32_t group = 0;  ///< the group that contains it
   Vec3 center{0.0};
   float radius = 0.0f;
-  bool by_pixels = false;            ///< true: ranges are pixels on the screen; false: metres from the eye
+  DisplayMeasure measure = DisplayMeasure::metres;
   std::vector<DisplayLevel> levels;  ///< groups first
+  float error = 0.0f;                ///< metres: what is wrong with the first level, at most
+  glm::vec3 half{
+      0.0f};  ///< of the box around the centre to which the distance of the error is measured: half its sides
 };
 
 /// A part of a scene, ready to be drawn. Groups are the nodes of a tree. Group 0 is always shown; each other group is a
@@ -108,7 +118,9 @@ struct DisplayPart {
   Vec3 origin{0.0};
   Box bounds;  ///< in the frame of the scene; those of pages are as the files state them
   std::uint64_t triangles = 0;
-  std::uint32_t source = 0;  ///< the index of the path that it is from
+  std::uint32_t source = 0;        ///< the index of the path that it is from
+  std::uint64_t missing = 0;       ///< of a page: files that it refers to and that are absent or damaged
+  std::vector<std::string> notes;  ///< of a page: sentences for the user
   std::vector<DisplayTexture> textures;
   std::vector<DisplayLook> looks;
   std::vector<std::string> objects;  ///< names, the outermost ancestor's first; empty names are left out

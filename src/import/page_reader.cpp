@@ -11,6 +11,7 @@
 #include "import/processor_budget.h"
 #include "import/reader_process.h"
 #include "import/reading.h"
+#include "import/report_notes.h"
 #include "import/stream.h"
 #include "roam/error.h"
 
@@ -82,6 +83,11 @@ DisplayPart PageReader::read(std::uint32_t source, const Vec3& origin, const std
     throw Error("the reader of a page sent none; it is not the roam-reader of this version. Install roam anew.");
   }
   read->source = source;
+  read->missing = report.import.missing_pages;
+  read->notes = std::move(report.import.notes);
+  if (auto note = reader::note_of_missing_images(report.missing_textures, report.missing_texture_files)) {
+    read->notes.push_back(std::move(*note));
+  }
   return std::move(*read);
 }
 

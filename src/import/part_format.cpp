@@ -180,12 +180,16 @@ DisplayPages take_pages(Reader& from, const DisplayPart& part, std::vector<std::
   pages.group = from.take<std::uint32_t>();
   pages.center = from.take_place();
   pages.radius = from.take<float>();
-  const auto by_pixels = from.take<std::uint8_t>();
-  if (by_pixels > 1) throw StreamDamaged{"a value of no meaning"};
-  pages.by_pixels = by_pixels != 0;
+  pages.measure = from.take(DisplayMeasure::error);
+  pages.error = from.take<float>();
+  for (int k = 0; k < 3; ++k) pages.half[k] = from.take<float>();
   if (pages.group >= part.groups || depth[pages.group] >= depth_limit) throw StreamDamaged{"pages without a place"};
   check_place(pages.center);
   if (!(pages.radius >= 0.0f && static_cast<double>(pages.radius) <= place_limit)) {
+    throw StreamDamaged{"pages without a size"};
+  }
+  const auto is_length = [](float length) { return length >= 0.0f && static_cast<double>(length) <= place_limit; };
+  if (!is_length(pages.error) || !is_length(pages.half.x) || !is_length(pages.half.y) || !is_length(pages.half.z)) {
     throw StreamDamaged{"pages without a size"};
   }
   constexpr std::size_t least_level_bytes = 20;
@@ -254,7 +258,9 @@ std::vector<std::byte> encode(const DisplayPart& part) {
     to.add(pages.group);
     to.add(pages.center);
     to.add(pages.radius);
-    to.add(static_cast<std::uint8_t>(pages.by_pixels));
+    to.add(pages.measure);
+    to.add(pages.error);
+    for (int k = 0; k < 3; ++k) to.add(pages.half[k]);
     to.add(std::uint64_t{pages.levels.size()});
     for (const DisplayLevel& level : pages.levels) {
       to.add(level.from);
@@ -268,7 +274,7 @@ std::vector<std::byte> encode(const DisplayPart& part) {
 
 void decode(std::span<const std::byte> bytes, DisplayPart& part) {
   // The least bytes of an element, so that no count allocates more than a multiple of the bytes present.
-  constexpr std::size_t texture_bytes = 23, look_bytes = 28, name_bytes = 8, geometry_bytes = 80, pages_bytes = 41;
+  constexpr std::size_t texture_bytes = 23, look_bytes = 28, name_bytes = 8, geometry_bytes = 80, pages_bytes = 57;
   // A group has no bytes of its own, but each group except the first is a level, which has.
   constexpr std::size_t level_bytes = 16;
   Reader from(bytes);

@@ -9,7 +9,7 @@
 ///     look       u32 texture; u8 cover; f32 cutoff
 ///     geometry   u32 group, look; f64 cell x, y, z; lists of positions (3 f32), colours (4 u8), normals (3 f32),
 ///                coordinates (2 f32), indices (u16)
-///     pages      u32 group; f64 center x, y, z; f32 radius; u8 by_pixels; list of level
+///     pages      u32 group; f64 center x, y, z; f32 radius; u8 measure; f32 error; 3 f32 half; list of level
 ///     level      f32 from, to; u32 group; list of the bytes of its page
 ///
 /// The frame that begins the part (PartHeader) has origin, bounds and triangles.

@@ -63,4 +63,11 @@ void add_count_notes(ImportReport& report, const ImportOptions& options, const s
   report.notes.insert(report.notes.begin(), notes.begin(), notes.end());
 }
 
+std::optional<std::string> note_of_missing_images(std::uint64_t count, const std::vector<std::string>& files) {
+  if (count == 0) return std::nullopt;
+  return fmt::format("{} that the scene refers to {} absent or unreadable; what they cover is shown without: {}.",
+                     count == 1 ? "1 image" : fmt::format("{} images", count), count == 1 ? "is" : "are",
+                     listed(files));
+}
+
 }  // namespace roam::reader

@@ -2,6 +2,8 @@
 /// \file
 /// Notes about the counts of a report.
 
+#include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,5 +16,9 @@ void add_count_notes(ImportReport& report, const ImportOptions& options, const s
 
 /// The first few names, separated by commas, with a hint if there are others.
 [[nodiscard]] std::string listed(const std::vector<std::string>& names);
+
+/// The sentence about images that are absent or unreadable, if there are any. `files`: names of some of them.
+[[nodiscard]] std::optional<std::string> note_of_missing_images(std::uint64_t count,
+                                                                const std::vector<std::string>& files);
 
 }  // namespace roam::reader

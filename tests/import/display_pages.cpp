@@ -235,45 +235,13 @@ TEST(ImportDisplayPages, AreGivenUpAtOnceAndLeaveNoProcess) {
   EXPECT_EQ(errno, ECHILD);
 }
 
-/// Every triangle of the finest levels, page after page.
-void collect(PageReader& reader, const Vec3& origin, const DisplayPart& part, Shown& shown, std::uint64_t& missing) {
-  std::vector<bool> finest(part.groups, false);
-  finest[0] = true;
-  for (const DisplayPages& pages : part.pages) {
-    if (!finest[pages.group]) continue;
-    // The finest level is the page where there is one that can be read, else the last group.
-    bool read = false;
-    for (const DisplayLevel& level : pages.levels) {
-      if (level.group != 0) continue;
-      try {
-        const DisplayPart page = reader.read(part.source, origin, level.page);
-        collect(reader, origin, page, shown, missing);
-        read = true;
-      } catch (const Error&) {
-        ++missing;
-      }
-    }
-    if (!read && !pages.levels.empty()) finest[pages.levels[0].group] = true;
-  }
-  DisplayPart kept = part;
-  std::erase_if(kept.geometries, [&](const DisplayGeometry& g) { return !finest[g.group]; });
-  for (ShownTriangle& triangle : triangles_of(kept)) {
-    triangle.image = nullptr;
-    shown.triangles.push_back(triangle);
-  }
-}
-
 TEST(ImportDisplayPages, OfThePitAreWhatIsWalkedOn) {
   ROAM_NEEDS_TEST_DATA();
   const fs::path folder = test_data() / "pit_osgb";
-  const Shown roots = show({folder});
-  PageReader reader({folder}, {});
-  Shown shown;
-  std::uint64_t missing = 0;
-  for (const auto& part : roots.parts) collect(reader, roots.report.origin, *part, shown, missing);
+  const Finest shown = show_finest({folder});
   const ImportedScene scene = import_scene(folder);
   EXPECT_EQ(not_shown(scene, shown, 4e-5), 0u);
-  EXPECT_EQ(missing, scene.report.missing_pages);
+  EXPECT_EQ(shown.missing, scene.report.missing_pages);
 }
 
 }  // namespace

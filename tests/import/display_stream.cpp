@@ -47,8 +47,9 @@ DisplayPart full_part() {
   }
   part.objects = {"wall", "door"};
   part.triangles = 6;
-  part.pages.push_back({0, {1, 2, 3}, 5.0f, true, {{0, 100, 1, {}}, {100, 1e30f, 0, "a page"}}});
-  part.pages.push_back({1, {1, 2, 3}, 2.0f, false, {{0, 50, 2, {}}, {0, 10, 0, "one"}, {5, 20, 0, "two"}}});
+  part.pages.push_back({0, {1, 2, 3}, 5.0f, DisplayMeasure::pixels, {{0, 100, 1, {}}, {100, 1e30f, 0, "a page"}}});
+  part.pages.push_back(
+      {1, {1, 2, 3}, 2.0f, DisplayMeasure::metres, {{0, 50, 2, {}}, {0, 10, 0, "one"}, {5, 20, 0, "two"}}});
   return part;
 }
 
@@ -96,6 +97,7 @@ bool is_valid(const DisplayPart& part) {
   std::vector<int> shown(part.groups, 0);
   for (const DisplayPages& pages : part.pages) {
     valid = valid && pages.group < part.groups && pages.radius >= 0.0f && std::isfinite(pages.radius);
+    valid = valid && pages.error >= 0.0f && std::isfinite(pages.error) && std::isfinite(pages.half.x + pages.half.z);
     for (const DisplayLevel& level : pages.levels) {
       valid = valid && level.group < part.groups && level.page.size() <= 4096 && !std::isnan(level.from);
       valid = valid && (level.group == 0) != level.page.empty();
@@ -178,6 +180,8 @@ TEST(ImportDisplayStream, RefusesWhatIsNoValue) {
   EXPECT_EQ(with([](DisplayPart& p) { p.pages[1].levels[0].group = 1; }), "groups that are no tree");
   EXPECT_EQ(with([](DisplayPart& p) { std::swap(p.pages[0], p.pages[1]); }), "pages without a place");
   EXPECT_EQ(with([&](DisplayPart& p) { p.pages[0].radius = nan; }), "pages without a size");
+  EXPECT_EQ(with([&](DisplayPart& p) { p.pages[0].error = nan; }), "pages without a size");
+  EXPECT_EQ(with([&](DisplayPart& p) { p.pages[0].half.y = -1.0f; }), "pages without a size");
   EXPECT_EQ(with([&](DisplayPart& p) { p.pages[0].levels[0].from = nan; }), "a number that is none");
   EXPECT_EQ(with([](DisplayPart& p) { p.pages[0].levels[1].page.assign(4097, 'x'); }), "a list that is too long");
   EXPECT_EQ(with([](DisplayPart& p) { p.pages[0].levels[1].page.clear(); }), "a level of nothing");
@@ -187,7 +191,8 @@ TEST(ImportDisplayStream, RefusesWhatIsNoValue) {
 TEST(ImportDisplayStream, RefusesGroupsThatAreNestedWithoutEnd) {
   DisplayPart part;
   part.groups = 1000;
-  for (std::uint32_t i = 0; i + 1 < part.groups; ++i) part.pages.push_back({i, {}, 1.0f, false, {{0, 1, i + 1, {}}}});
+  for (std::uint32_t i = 0; i + 1 < part.groups; ++i)
+    part.pages.push_back({i, {}, 1.0f, DisplayMeasure::metres, {{0, 1, i + 1, {}}}});
   EXPECT_EQ(damage_of(part), "pages without a place");
 }
 

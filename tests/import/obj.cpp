@@ -12,10 +12,10 @@ namespace {
 TEST(ImportObj, KeepsEveryDigitFarFromTheOrigin) {
   const TemporaryFolder folder;
   const ImportedScene scene = import_scene(folder.write("far.obj",
-                                                "v 4012345.678901234 -0.1 1e-300\n"
-                                                "v +4012346.678901234 .5 -7.25E+2\n"
-                                                "v 3 4 5\n"
-                                                "f 1 3 3\n"));
+                                                        "v 4012345.678901234 -0.1 1e-300\n"
+                                                        "v +4012346.678901234 .5 -7.25E+2\n"
+                                                        "v 3 4 5\n"
+                                                        "f 1 3 3\n"));
   EXPECT_EQ(triangles_of(scene)[0][0], Vec3(4012345.678901234, -0.1, 1e-300));
 }
 
@@ -23,8 +23,8 @@ TEST(ImportObj, ReadsTheNearestDoubleOfLongDigitStrings) {
   const TemporaryFolder folder;
   // Halfway cases that readers with powers of ten in floating point get wrong.
   const ImportedScene scene = import_scene(folder.write("digits.obj",
-                                                "v 9007199.254740993 0.1000000000000000055511151231257827 1\n"
-                                                "v 1 +2.5 .25\nv 0 -0 5.\nf 1 2 3\n"));
+                                                        "v 9007199.254740993 0.1000000000000000055511151231257827 1\n"
+                                                        "v 1 +2.5 .25\nv 0 -0 5.\nf 1 2 3\n"));
   const Triangle t = triangles_of(scene)[0];
   EXPECT_EQ(t[0], Vec3(9007199.254740993, 0.1, 1));
   EXPECT_EQ(t[1], Vec3(1, 2.5, 0.25));
@@ -33,10 +33,11 @@ TEST(ImportObj, ReadsTheNearestDoubleOfLongDigitStrings) {
 
 TEST(ImportObj, UnderstandsNegativeIndicesAndAllCornerForms) {
   const TemporaryFolder folder;
-  const ImportedScene scene = import_scene(folder.write("corners.obj",
-                                                "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvn 0 0 1\n"
-                                                "f -3 -2 -1\nf 1/1 2/1 3/1\nf 1//1 2//1 3//1\nf 1/1/1 2/1/1 3/1/1\n"
-                                                "v 0 0 1\nf -1//-1 -2//-1 -3//-1\n"));
+  const ImportedScene scene =
+      import_scene(folder.write("corners.obj",
+                                "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvn 0 0 1\n"
+                                "f -3 -2 -1\nf 1/1 2/1 3/1\nf 1//1 2//1 3//1\nf 1/1/1 2/1/1 3/1/1\n"
+                                "v 0 0 1\nf -1//-1 -2//-1 -3//-1\n"));
   const auto triangles = triangles_of(scene);
   ASSERT_EQ(triangles.size(), 5u);
   for (int i = 1; i < 4; ++i) EXPECT_EQ(triangles[static_cast<std::size_t>(i)], triangles[0]);
@@ -57,10 +58,11 @@ TEST(ImportObj, FansPolygonsFromTheirFirstCorner) {
 
 TEST(ImportObj, NamesObjectsByObjectThenGroupThenMaterial) {
   const TemporaryFolder folder;
-  const ImportedScene scene = import_scene(folder.write("names.obj",
-                                                "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nusemtl rock\nf 1 2 3\n"
-                                                "o House\nf 1 2 3\ng wall east\nusemtl brick\nf 1 2 3\nf 1 2 3\n"
-                                                "o Shed\nf 1 2 3\n"));
+  const ImportedScene scene =
+      import_scene(folder.write("names.obj",
+                                "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nusemtl rock\nf 1 2 3\n"
+                                "o House\nf 1 2 3\ng wall east\nusemtl brick\nf 1 2 3\nf 1 2 3\n"
+                                "o Shed\nf 1 2 3\n"));
   ASSERT_EQ(scene.meshes.size(), 5u);
   EXPECT_EQ(scene.meshes[0].name, "names");
   EXPECT_EQ(scene.meshes[1].name, "rock");
@@ -73,8 +75,8 @@ TEST(ImportObj, NamesObjectsByObjectThenGroupThenMaterial) {
 TEST(ImportObj, KeepsTheOrderOfTheFileWhenObjectsRepeat) {
   const TemporaryFolder folder;
   const ImportedScene scene = import_scene(folder.write("repeat.obj",
-                                                "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n"
-                                                "g a\nf 1 2 3\ng b\nf 2 3 4\ng a\nf 1 2 4\n"));
+                                                        "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n"
+                                                        "g a\nf 1 2 3\ng b\nf 2 3 4\ng a\nf 1 2 4\n"));
   ASSERT_EQ(scene.meshes.size(), 3u);
   EXPECT_EQ(scene.meshes[0].name, "a");
   EXPECT_EQ(scene.meshes[1].name, "b");

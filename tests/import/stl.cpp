@@ -29,16 +29,17 @@ const std::string ascii_facet =
 TEST(ImportStl, KeepsEveryDigitOfAsciiFiles) {
   const TemporaryFolder folder;
   const ImportedScene scene = import_scene(folder.write("far.stl",
-                                                "solid far\nfacet normal nan nan nan\nouter loop\n"
-                                                "vertex 4012345.678901234 5412345.123456789 312.0001\n"
-                                                "vertex 4012346 5412345 312\nvertex 4012345 5412346 312\n"
-                                                "endloop\nendfacet\nendsolid far\n"));
+                                                        "solid far\nfacet normal nan nan nan\nouter loop\n"
+                                                        "vertex 4012345.678901234 5412345.123456789 312.0001\n"
+                                                        "vertex 4012346 5412345 312\nvertex 4012345 5412346 312\n"
+                                                        "endloop\nendfacet\nendsolid far\n"));
   EXPECT_EQ(triangles_of(scene)[0][0], Vec3(4012345.678901234, 5412345.123456789, 312.0001));
 }
 
 TEST(ImportStl, KeepsTheFloatsOfBinaryFiles) {
   const TemporaryFolder folder;
-  const ImportedScene scene = import_scene(folder.write("box.stl", binary_stl("", {{0.1f, 2, 3, 4, 5, 6, 7, 8, 9.5f}})));
+  const ImportedScene scene =
+      import_scene(folder.write("box.stl", binary_stl("", {{0.1f, 2, 3, 4, 5, 6, 7, 8, 9.5f}})));
   const Triangle t = triangles_of(scene)[0];
   EXPECT_EQ(t[0], Vec3(static_cast<double>(0.1f), 2, 3));
   EXPECT_EQ(t[2], Vec3(7, 8, 9.5));
@@ -89,10 +90,11 @@ TEST(ImportStl, TellsWhereAFileIsCutOrWrong) {
 TEST(ImportStl, LeavesOutTrianglesWithBadVerticesAndNamesTheirObject) {
   const TemporaryFolder folder;
   const float infinite = std::numeric_limits<float>::infinity();
-  const ImportedScene scene = import_scene(folder.write("bad.stl", binary_stl("", {{0, 0, 0, 1, 0, 0, 0, 1, 0},
-                                                                           {std::nanf(""), 0, 0, 1, 0, 0, 0, 1, 0},
-                                                                           {2e9f, 0, 0, 1, 0, 0, 0, infinite, 0},
-                                                                           {5, 5, 5, 1, 0, 0, 0, 1, 0}})));
+  const ImportedScene scene =
+      import_scene(folder.write("bad.stl", binary_stl("", {{0, 0, 0, 1, 0, 0, 0, 1, 0},
+                                                           {std::nanf(""), 0, 0, 1, 0, 0, 0, 1, 0},
+                                                           {2e9f, 0, 0, 1, 0, 0, 0, infinite, 0},
+                                                           {5, 5, 5, 1, 0, 0, 0, 1, 0}})));
   EXPECT_EQ(scene.report.triangles, 2u);
   EXPECT_EQ(scene.report.bad_vertices, 3u);
   EXPECT_EQ(scene.report.bad_triangles, 2u);

@@ -183,11 +183,11 @@ TEST(ImportTilesetsHostile, ShowTheTrianglesThatStopBodiesWhateverIsWrongWithLoo
     folder.write("wall.glb", wall.glb());
     folder.write("floor.glb", MadeGrid(1).gltf().glb());
     const fs::path tileset = write_tileset(folder, {"floor.glb", "wall.glb"});
-    const Shown shown = show({tileset});
+    const Finest shown = show_finest({tileset});
     EXPECT_EQ(shown.triangles.size(), 4u) << attribute;
     EXPECT_EQ(shown.triangles.size(), triangles_of(import_scene(tileset)).size());
-    ASSERT_EQ(shown.report.import.notes.size(), 1u);
-    EXPECT_TRUE(contains(shown.report.import.notes[0], std::string(attribute) + " of its vertices is damaged"));
+    ASSERT_EQ(shown.notes.size(), 1u);
+    EXPECT_TRUE(contains(shown.notes[0], std::string(attribute) + " of its vertices is damaged"));
   }
 }
 
@@ -217,11 +217,11 @@ TEST(ImportTilesetsHostile, ShowTheImagesOfATileThatIsDamagedLater) {
   tile.json["scenes"][0]["nodes"] = {0, 1};
   folder.write("tile.glb", tile.glb());
   folder.write("floor.glb", MadeGrid(1, 5).gltf().glb());
-  const Shown shown = show({write_tileset(folder, {"tile.glb", "floor.glb"})});
+  const Finest shown = show_finest({write_tileset(folder, {"tile.glb", "floor.glb"})});
   ASSERT_EQ(shown.triangles.size(), 4u);
-  EXPECT_EQ(shown.report.textures, 1u);
-  EXPECT_EQ(shown.report.missing_textures, 0u);
-  EXPECT_EQ(shown.report.import.missing_pages, 1u);
+  EXPECT_EQ(shown.images, 1u);
+  EXPECT_EQ(shown.missing, 1u);
+  ASSERT_EQ(shown.notes.size(), 1u) << "no image is missing";
 }
 
 TEST(ImportTilesetsHostile, CountAnImageWithoutBytesAsMissing) {
@@ -229,12 +229,15 @@ TEST(ImportTilesetsHostile, CountAnImageWithoutBytesAsMissing) {
   MadeGltf tile = with_image(red_bmp());
   tile.json["images"][0]["bufferView"] = 99;
   const fs::path file = folder.write("tile.glb", tile.glb());
-  for (const fs::path& scene : {file, write_tileset(folder, {"tile.glb"})}) {
-    const Shown shown = show({scene});
-    EXPECT_EQ(shown.triangles.size(), 2u);
-    EXPECT_EQ(shown.report.missing_textures, 1u);
-    EXPECT_EQ(shown.report.import.missing_pages, 0u);
-  }
+  const Shown alone = show({file});
+  EXPECT_EQ(alone.triangles.size(), 2u);
+  EXPECT_EQ(alone.report.missing_textures, 1u);
+  EXPECT_EQ(alone.report.import.missing_pages, 0u);
+  const Finest in_tileset = show_finest({write_tileset(folder, {"tile.glb"})});
+  EXPECT_EQ(in_tileset.triangles.size(), 2u);
+  EXPECT_EQ(in_tileset.missing, 0u);
+  ASSERT_EQ(in_tileset.notes.size(), 1u);
+  EXPECT_TRUE(contains(in_tileset.notes[0], "1 image that the scene refers to is absent or unreadable"));
 }
 
 TEST(ImportTilesetsHostile, LeaveOutATileWithANumberBeyondDoubles) {

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "import/display.h"
+#include "import/page_reader.h"
 #include "import_files.h"
 
 namespace roam::test {
@@ -83,6 +84,59 @@ inline Shown show(const std::vector<std::filesystem::path>& paths, const ImportO
     return true;
   });
   return shown;
+}
+
+/// The finest levels of a scene, page after page.
+struct Finest : Shown {
+  std::uint64_t pages_read = 0, images = 0, missing = 0;
+  std::vector<std::string> notes;  ///< of the pages, and the errors of those that cannot be read
+};
+
+/// Adds what is seen of a part if every page is wanted: all that has no end, or else the level that stands in.
+inline void add_finest(PageReader& reader, const DisplayPart& part, Finest& finest) {
+  std::vector<bool> shown(part.groups, false);
+  shown[0] = true;
+  finest.missing += part.missing;
+  finest.images += part.textures.size();
+  finest.notes.insert(finest.notes.end(), part.notes.begin(), part.notes.end());
+  for (const DisplayPages& node : part.pages) {
+    if (!shown[node.group]) continue;
+    const bool by_error = node.measure == DisplayMeasure::error;
+    bool read = false;
+    std::uint32_t last_group = 0;
+    for (const DisplayLevel& level : node.levels) {
+      if (level.group != 0) {
+        last_group = level.group;
+        if (by_error && level.to > 1.0f) shown[level.group] = read = true;
+        continue;
+      }
+      try {
+        const DisplayPart page = reader.read(part.source, part.origin, level.page);
+        ++finest.pages_read;
+        add_finest(reader, page, finest);
+        read = true;
+      } catch (const Error& error) {
+        ++finest.missing;
+        finest.notes.emplace_back(error.what());
+      }
+    }
+    if (!read && last_group != 0) shown[last_group] = true;
+  }
+  DisplayPart kept = part;
+  std::erase_if(kept.geometries, [&](const DisplayGeometry& g) { return !shown[g.group]; });
+  for (ShownTriangle& triangle : triangles_of(kept)) {
+    triangle.image = nullptr;
+    finest.triangles.push_back(triangle);
+  }
+}
+
+inline Finest show_finest(const std::vector<std::filesystem::path>& paths, const ImportOptions& options = {}) {
+  Finest finest;
+  const Shown roots = show(paths, options);
+  finest.report = roots.report;
+  PageReader reader(paths, options);
+  for (const auto& part : roots.parts) add_finest(reader, *part, finest);
+  return finest;
 }
 
 inline std::string display_error(const std::filesystem::path& path, const ImportOptions& options = {}) {

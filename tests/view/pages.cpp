@@ -79,14 +79,17 @@ roam::DisplayPart small_part() {
   geometry.indices = {0, 1, 2};
   part.geometries = {geometry};
   part.groups = 2;
-  part.pages.push_back({0, {1, 2, 3}, 5.0f, true, {{0, 100, 1, {}}, {100, 1e30f, 0, "/secret/file.osgb"}}});
+  part.pages.push_back(
+      {0, {1, 2, 3}, 5.0f, roam::DisplayMeasure::pixels, {{0, 100, 1, {}}, {100, 1e30f, 0, "/secret/file.osgb"}}});
   return part;
 }
+
+const auto rules = std::make_shared<roam::app::PageRules>();
 
 TEST(ViewPages, AreNodesAsThePictureWantsThem) {
   roam::app::SceneObjects objects;
   const osg::ref_ptr<osg::Group> node = roam::app::make_node(
-      small_part(), {4.0f}, [](const std::string&) { return std::string("page-1"); }, objects);
+      small_part(), {4.0f}, [](const std::string&) { return std::string("page-1"); }, objects, rules);
   ASSERT_EQ(node->getNumChildren(), 2u);
   const auto* cell = dynamic_cast<osg::MatrixTransform*>(node->getChild(0));
   ASSERT_TRUE(cell && cell->getNumChildren() == 1);
@@ -120,7 +123,7 @@ TEST(ViewPages, MaterialsOfTheirSurfacesAreDrawn) {
   roam::app::SceneObjects objects(std::vector<std::string>{});
   const auto state_of = [&] {
     const auto node = roam::app::make_node(
-        part, {}, [](const std::string&) { return std::string("page-1"); }, objects);
+        part, {}, [](const std::string&) { return std::string("page-1"); }, objects, rules);
     const osg::ref_ptr<osg::Node> drawn = node->getChild(0)->asGroup()->getChild(0);
     return osg::ref_ptr<const osg::StateSet>(drawn->getStateSet());
   };
@@ -147,7 +150,7 @@ TEST(ViewPages, ShowTheObjectsThatAreNotHidden) {
   part.triangles = 3;
   roam::app::SceneObjects objects({"door"});
   const osg::ref_ptr<osg::Group> node = roam::app::make_node(
-      part, {}, [](const std::string&) { return std::string("page"); }, objects);
+      part, {}, [](const std::string&) { return std::string("page"); }, objects, rules);
   osg::Geometry& geometry = *node->getChild(0)->asGroup()->getChild(0)->asGeometry();
   const auto indices = [&] {
     std::vector<unsigned> all;

@@ -72,6 +72,7 @@ void Display::tell_news() {
     news_.note(fmt::format("{} page{} of the scene could not be read: coarser ones are shown there ({})", pages_told_,
                            pages_told_ == 1 ? "" : "s", scene_.page_problem()));
   }
+  tell_of_pages();
   for (const Picture& picture : stage_.poll_pictures()) {
     if (picture.problem.empty()) {
       news_.written(picture.file);
@@ -79,6 +80,15 @@ void Display::tell_news() {
       news_.note(picture.problem);
     }
   }
+}
+
+void Display::tell_of_pages() {
+  const std::vector<std::string> notes = scene_.pages().notes();
+  for (; page_notes_told_ < notes.size(); ++page_notes_told_) news_.note(notes[page_notes_told_]);
+  if (scene_.pages().coarser() <= 1.0 || std::exchange(coarser_told_, true)) return;
+  constexpr double mib = 1024.0 * 1024.0;
+  news_.note(fmt::format("the picture is coarser than it could be: its pages fill {:.0f} MiB (--page-memory)",
+                         static_cast<double>(scene_.pages().bytes()) / mib));
 }
 
 bool Display::is_due() const { return shown_at_ < 0.0 || stage_.now() - shown_at_ >= period; }
@@ -190,6 +200,7 @@ void Display::fill(ViewReport& report) {
   report.world_bytes = shown_.world_bytes;
   report.resident_bytes = resident_bytes();
   report.missing_pages = scene_.missing_pages();
+  report.page_bytes = scene_.pages().bytes();
   if (!scene_.report()) return;
   const DisplayReport& display = *scene_.report();
   append(report.notes, display.notes);

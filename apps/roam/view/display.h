@@ -57,6 +57,7 @@ class Display {
  private:
   void show_labels(const std::vector<graphics::LabelMark>& labels);
   void light(bool has_body);
+  void tell_of_pages();
   /// The view matrix of the next frame.
   [[nodiscard]] osg::Matrixd view() const;
 
@@ -75,6 +76,8 @@ class Display {
   double shown_at_ = -1.0;  ///< s
   bool display_told_ = false;
   std::uint64_t pages_told_ = 0;
+  std::size_t page_notes_told_ = 0;
+  bool coarser_told_ = false;
 };
 
 }  // namespace roam::app

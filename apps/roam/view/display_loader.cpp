@@ -10,9 +10,9 @@
 namespace roam::app {
 
 DisplayLoader::DisplayLoader(const SceneOptions& scene, const TextureQuality& quality,
-                             std::shared_ptr<SceneObjects> objects)
+                             std::shared_ptr<SceneObjects> objects, const PageSettings& pages)
     : scene_(scene),
-      pages_(new PageSource(scene.scenes, scene.import_options(), quality, std::move(objects))),
+      pages_(new PageSource(scene.scenes, scene.import_options(), quality, std::move(objects), pages)),
       loading_([this] { load_scene(); }) {}
 
 DisplayLoader::DisplayLoader(const std::filesystem::path& store, const WebAccess& web, std::future<Vec3> place)

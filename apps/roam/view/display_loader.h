@@ -30,7 +30,8 @@ struct DisplayNode {
 class DisplayLoader {
  public:
   /// `objects` receives the names of the scene's objects; not null.
-  DisplayLoader(const SceneOptions& scene, const TextureQuality& quality, std::shared_ptr<SceneObjects> objects);
+  DisplayLoader(const SceneOptions& scene, const TextureQuality& quality, std::shared_ptr<SceneObjects> objects,
+                const PageSettings& pages = {});
   /// For a store without its scene: the triangles around `place`, once that is known. See show_store.
   DisplayLoader(const std::filesystem::path& store, const WebAccess& web, std::future<Vec3> place);
 

@@ -8,7 +8,6 @@
 #include <osg/Array>
 #include <osg/Image>
 #include <osg/MatrixTransform>
-#include <osg/PagedLOD>
 #include <osg/StateSet>
 #include <osg/Texture2D>
 #include <utility>
@@ -101,21 +100,17 @@ osg::ref_ptr<osg::StateSet> state_of(const DisplayLook& look,
   return state;
 }
 
-osg::ref_ptr<osg::PagedLOD> pages_of(const DisplayPages& from, const std::vector<osg::ref_ptr<osg::Group>>& groups,
-                                     const NamePage& name_page) {
-  osg::ref_ptr<osg::PagedLOD> lod = new osg::PagedLOD;
-  lod->setCenterMode(osg::LOD::USER_DEFINED_CENTER);
-  lod->setCenter(osg::Vec3d(from.center.x, from.center.y, from.center.z));
-  lod->setRadius(from.radius);
-  lod->setRangeMode(from.by_pixels ? osg::LOD::PIXEL_SIZE_ON_SCREEN : osg::LOD::DISTANCE_FROM_EYE_POINT);
+osg::ref_ptr<PageLod> pages_of(const DisplayPages& from, const std::vector<osg::ref_ptr<osg::Group>>& groups,
+                               const NamePage& name_page, const std::shared_ptr<const PageRules>& rules) {
+  osg::ref_ptr<PageLod> lod = new PageLod(from, rules);
   for (unsigned i = 0; i < from.levels.size(); ++i) {
     const DisplayLevel& level = from.levels[i];
     if (level.group != 0) {
-      lod->addChild(groups[level.group], level.from, level.to);
+      lod->addChild(groups[level.group]);
     } else {
       lod->setFileName(i, name_page(level.page));
-      lod->setRange(i, level.from, level.to);
     }
+    lod->add_range(level.from, level.to);
   }
   return lod;
 }
@@ -144,7 +139,7 @@ osg::ref_ptr<osg::Geometry> make_geometry(const DisplayGeometry& from) {
 }
 
 osg::ref_ptr<osg::Group> make_node(const DisplayPart& part, const TextureQuality& quality, const NamePage& name_page,
-                                   SceneObjects& objects) {
+                                   SceneObjects& objects, const std::shared_ptr<const PageRules>& rules) {
   const std::vector<SceneObjects::Number> numbers = objects.add(part.objects);
   const std::shared_ptr<const SceneObjects::Flags> flags = objects.flags();
   std::vector<osg::ref_ptr<osg::Texture2D>> textures;
@@ -171,7 +166,9 @@ osg::ref_ptr<osg::Group> make_node(const DisplayPart& part, const TextureQuality
     keep_objects(*geometry, std::move(runs), *flags);
     cell->addChild(geometry);
   }
-  for (const DisplayPages& pages : part.pages) groups[pages.group]->addChild(pages_of(pages, groups, name_page));
+  for (const DisplayPages& pages : part.pages) {
+    groups[pages.group]->addChild(pages_of(pages, groups, name_page, rules));
+  }
   return groups[0];
 }
 

@@ -217,6 +217,13 @@ void ViewOptions::add_to(CLI::App& verb) {
           "Drawing: auto, full, light or plain (default: auto: full; plain in a window without a graphics card)")
       ->check(one_of({quality_names.begin(), quality_names.end()}))
       ->type_name("Q");
+  verb.add_option("--tile-error", tile_error,
+                  "Draw 3D Tiles so finely that their error is at most N pixels (default: 16; 0: the finest tiles)")
+      ->check(from_to(0.0, largest_tile_error))
+      ->type_name("N");
+  verb.add_option("--page-memory", page_memory, "Memory for the pages of the picture (default: 1G)")
+      ->transform(bytes())
+      ->type_name("SIZE");
   verb.add_option("--picture-scale", picture_scale,
                   "The key P writes pictures N times as wide and high as the window (default: 1)")
       ->check(from_to(1.0, largest_picture_scale))
@@ -303,6 +310,8 @@ ViewPlan make_plan(const ViewOptions& options, const ViewSettings& settings,
   plan.picture_scale = options.picture_scale.value_or(settings.picture_scale.value_or(plan.picture_scale));
   plan.edges = settings.edges.value_or(plan.edges);
   for (const std::string& text : options.section) add_section(text, plan.section);
+  plan.pages.allowed_error = options.tile_error.value_or(settings.tile_error.value_or(plan.pages.allowed_error));
+  plan.pages.memory = options.page_memory.value_or(plan.pages.memory);
   const auto [width, height] = parse_size(options.size);
   plan.film_rate = app::film_rate(options);
   if (options.turntable && !options.hud) plan.hud = HudMode::off;

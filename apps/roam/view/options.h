@@ -13,6 +13,7 @@
 #include "scenes/recorded_body.h"
 #include "scenes/scene_options.h"
 #include "scenes/scene_profile.h"
+#include "view/page_source.h"
 #include "view/pose.h"
 #include "view/section.h"
 #include "view/settings.h"
@@ -41,9 +42,11 @@ struct ViewOptions {
   double dt = 1.0 / 60.0;
   std::filesystem::path screenshot, record, record_path, trace, settings;
   std::optional<std::string> hud, quality;
-  std::optional<double> turntable;  ///< seconds
-  std::optional<int> film_rate;     ///< pictures a second
-  double time_limit = 0.0;          ///< seconds after the body's arrival; 0: no limit
+  std::optional<double> tile_error;          ///< pixels
+  std::optional<std::uint64_t> page_memory;  ///< bytes
+  std::optional<double> turntable;           ///< seconds
+  std::optional<int> film_rate;              ///< pictures a second
+  double time_limit = 0.0;                   ///< seconds after the body's arrival; 0: no limit
   bool headless = false;
   bool verify = false;
   bool json = false;
@@ -69,6 +72,7 @@ struct ViewPlan {
   bool edges = true;
   double picture_scale = 1.0;  ///< of the pictures of the key P, times the window
   SectionShape section;
+  PageSettings pages;
   int width = 0, height = 0;   ///< pixels
   int film_rate = 30;          ///< pictures a second
   std::vector<Waypoint> path;  ///< of --path; make_plan leaves it empty

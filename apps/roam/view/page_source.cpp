@@ -1,6 +1,8 @@
 #include "view/page_source.h"
 
+#include <algorithm>
 #include <exception>
+#include <limits>
 #include <osg/Referenced>
 #include <utility>
 
@@ -14,6 +16,18 @@ constexpr int depth_limit = 64;
 constexpr std::uint64_t token_bytes_limit = 1u << 30;
 /// Bytes per name besides the token.
 constexpr std::uint64_t name_bytes = 400;
+constexpr std::size_t notes_limit = 20;
+
+// How pages are kept within their memory.
+constexpr double full = 0.9;             // share of the memory from which pages are dropped
+constexpr double longest_kept = 60.0;    // s without being seen, before one that is dropped first
+constexpr double shortest_kept = 0.1;    // s; what was seen since then counts as seen
+constexpr double sooner = 0.8;           // factor of that time in each frame that is full
+constexpr double coarsest = 64.0;        // times the allowed error
+constexpr double coarser_step = 1.2;     // factor, which takes half as many pages again at most
+constexpr double coarser_seconds = 0.2;  // between two steps, for pages to be dropped
+constexpr double roomy = 0.5;            // share of the memory below which tiles become finer again,
+constexpr double calm = 5.0;             // s after the last page that was refused
 
 /// Adds `bytes` to a shared sum while it exists.
 class Counted : public osg::Referenced {
@@ -33,16 +47,24 @@ class Counted : public osg::Referenced {
 }  // namespace
 
 PageSource::PageSource(std::vector<std::filesystem::path> paths, const ImportOptions& options,
-                       const TextureQuality& quality, std::shared_ptr<SceneObjects> objects)
+                       const TextureQuality& quality, std::shared_ptr<SceneObjects> objects,
+                       const PageSettings& settings)
     : reader_(std::move(paths), options),
       quality_(quality),
       objects_(std::move(objects)),
-      memory_limit_(options.memory_limit),
+      settings_(settings),
+      rules_(std::make_shared<PageRules>(PageRules{settings.allowed_error})),
+      kept_seconds_(longest_kept),
       memory_(std::make_shared<std::atomic<std::uint64_t>>(0)) {}
 
 std::uint64_t PageSource::missing() const {
   const std::lock_guard lock(mutex_);
   return missing_;
+}
+
+std::vector<std::string> PageSource::notes() const {
+  const std::lock_guard lock(mutex_);
+  return notes_;
 }
 
 std::string PageSource::problem() const {
@@ -52,7 +74,7 @@ std::string PageSource::problem() const {
 
 osg::ref_ptr<osg::Group> PageSource::make(const DisplayPart& part, int depth) {
   return make_node(
-      part, quality_, [&](const std::string& token) { return name_of(part, token, depth); }, *objects_);
+      part, quality_, [&](const std::string& token) { return name_of(part, token, depth); }, *objects_, rules_);
 }
 
 std::string PageSource::name_of(const DisplayPart& part, const std::string& token, int depth) {
@@ -68,12 +90,48 @@ std::string PageSource::name_of(const DisplayPart& part, const std::string& toke
   return at->second;
 }
 
-osg::ref_ptr<osg::Node> PageSource::read(const Page& page) {
+void PageSource::tend(double now) {
+  const auto memory = static_cast<double>(settings_.memory), used = static_cast<double>(*memory_);
+  const bool is_full = used > full * memory;
+  kept_seconds_ = is_full ? std::max(sooner * kept_seconds_, shortest_kept) : coarser_ > 1.0 ? calm : longest_kept;
+  const bool drops = is_full || coarser_ > 1.0;
+  rules_->drop_before = drops ? now - kept_seconds_ : -std::numeric_limits<double>::infinity();
+  const bool may_change = now - changed_at_ > coarser_seconds;
+  if (refused_.exchange(false) && coarser_ < coarsest) {
+    refused_at_ = now;
+    ++events_;
+    if (may_change && kept_seconds_ <= shortest_kept) change(coarser_step, now);
+  } else if (coarser_ > 1.0 && may_change && used < roomy * memory && now - refused_at_ > calm) {
+    change(1.0 / coarser_step, now);
+  }
+}
+
+void PageSource::change(double factor, double now) {
+  coarser_ = std::clamp(factor * coarser_, 1.0, coarsest);
+  changed_at_ = now;
+  rules_->allowed_error = coarser_ * settings_.allowed_error;
+}
+
+osg::ref_ptr<osg::Node> PageSource::read(const std::string& name, const Page& page) {
   if (page.depth >= depth_limit) throw Error("pages are nested without end; the scene is damaged.");
   const DisplayPart part = reader_.read(page.source, page.origin, page.token);
+  note(name, part);
   osg::ref_ptr<osg::Group> node = make(part, page.depth + 1);
   node->setUserData(new Counted(memory_, part.bytes()));
   return node;
+}
+
+/// Counts what is missing in a page that was read, once.
+void PageSource::note(const std::string& name, const DisplayPart& part) {
+  const std::lock_guard lock(mutex_);
+  if (std::exchange(pages_[name].was_read, true)) return;
+  for (const std::string& sentence : part.notes) {
+    const bool known = std::find(notes_.begin(), notes_.end(), sentence) != notes_.end();
+    if (!known && notes_.size() < notes_limit) notes_.push_back(sentence);
+  }
+  if (part.missing == 0) return;
+  if (missing_ == 0 && !part.notes.empty()) problem_ = part.notes.front();
+  missing_ += part.missing;
 }
 
 PageSource::Result PageSource::readNode(const std::string& name, const osgDB::Options*) {
@@ -88,12 +146,15 @@ PageSource::Result PageSource::readNode(const std::string& name, const osgDB::Op
   const Result nothing(Result::FILE_LOADED);
   if (page.missing) return nothing;
   // The pager will drop pages, and request this one again.
-  if (*memory_ > memory_limit_) return nothing;
+  if (*memory_ > settings_.memory) {
+    refused_ = true;
+    return nothing;
+  }
   ++events_;
   ++under_way_;
   osg::ref_ptr<osg::Node> node;
   try {
-    node = read(page);
+    node = read(name, page);
   } catch (const std::exception& problem) {
     // The coarser page stays visible.
     const std::lock_guard lock(mutex_);

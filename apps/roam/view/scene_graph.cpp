@@ -56,6 +56,11 @@ void SceneGraph::update() {
   state_ = loader_->state();
   while (std::optional<DisplayNode> piece = loader_->take()) attach(std::move(*piece));
   if (!report_) report_ = loader_->take_report();
+  if (osgDB::DatabasePager* pager = viewer_.getDatabasePager()) {
+    // Memory limits the pages (PageLod::removeExpiredChildren), not their number.
+    pager->setTargetMaximumNumberOfPageLOD(0);
+    loader_->pages().tend(viewer_.getFrameStamp()->getReferenceTime());
+  }
   hide_objects();
 }
 

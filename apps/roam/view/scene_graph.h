@@ -52,6 +52,8 @@ class SceneGraph {
   [[nodiscard]] bool is_complete();
   /// The report, after the loading.
   [[nodiscard]] const std::optional<DisplayReport>& report() const { return report_; }
+  /// Of the pages; see PageSource.
+  [[nodiscard]] const PageSource& pages() const { return loader_->pages(); }
   /// The number of pages that could not be read.
   [[nodiscard]] std::uint64_t missing_pages() const;
   /// The error of the first such page.

@@ -27,9 +27,10 @@ ViewPlan with_bookmark(ViewPlan plan, const std::string& bookmark, Records& reco
 }
 
 std::unique_ptr<DisplayLoader> load_picture(const SceneAndStore& what, CollisionLoader& collision, const Stage& stage,
-                                            std::shared_ptr<SceneObjects> objects) {
-  return what.store_only ? std::make_unique<DisplayLoader>(what.store, what.scene.web, collision.place())
-                         : std::make_unique<DisplayLoader>(what.scene, stage.texture_quality(), std::move(objects));
+                                            std::shared_ptr<SceneObjects> objects, const PageSettings& pages) {
+  return what.store_only
+             ? std::make_unique<DisplayLoader>(what.store, what.scene.web, collision.place())
+             : std::make_unique<DisplayLoader>(what.scene, stage.texture_quality(), std::move(objects), pages);
 }
 
 }  // namespace
@@ -48,8 +49,9 @@ Session::Session(const ViewOptions& options, const ViewPlan& plan, const ViewSet
       cameras_(new Cameras(*roamer_)),
       arrival_(options_, plan_, what_, *roamer_, news_),
       objects_(std::make_shared<SceneObjects>(options.hide)),
-      scene_(stage_.viewer(), *stage_.frame().space(), load_picture(what_, arrival_.loader(), stage_, objects_),
-             objects_, stage_.headless() ? SceneGraph::Arrival::at_once : SceneGraph::Arrival::smooth),
+      scene_(stage_.viewer(), *stage_.frame().space(),
+             load_picture(what_, arrival_.loader(), stage_, objects_, plan_.pages), objects_,
+             stage_.headless() ? SceneGraph::Arrival::at_once : SceneGraph::Arrival::smooth),
       display_(stage_, scene_, *roamer_, news_, plan_.fov),
       prompt_(new Prompt(stage_)),
       hidden_(scene_, arrival_, *roamer_, news_, plan_.path.empty() && !options.verify),

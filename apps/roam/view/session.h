@@ -76,6 +76,7 @@ class Session {
   [[nodiscard]] const Tools& tools() const { return *tools_; }
   [[nodiscard]] Layers& layers() { return *layers_; }
   [[nodiscard]] HiddenSpace& hidden() { return hidden_; }
+  [[nodiscard]] const SceneGraph& scene() const { return scene_; }
   [[nodiscard]] const WalkLog& log() const { return log_; }
   [[nodiscard]] const Status& status() const { return display_.shown(); }
   /// Whether the body is in the scene, led by the person or the path.

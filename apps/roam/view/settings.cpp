@@ -162,6 +162,7 @@ ViewSettings read_settings(const std::filesystem::path& file) {
   }
   settings.edges = all.flag("edges");
   settings.picture_scale = all.number("picture_scale", 1.0, largest_picture_scale);
+  settings.tile_error = all.number("tile_error", 0.0, largest_tile_error);
   all.end();
   return settings;
 }

@@ -14,7 +14,8 @@
 ///       "hud": "plain",
 ///       "quality": "auto",
 ///       "edges": true,
-///       "picture_scale": 2
+///       "picture_scale": 2,
+///       "tile_error": 16
 ///     }
 
 #include <array>
@@ -48,6 +49,7 @@ struct ViewSettings {
   std::optional<std::string> quality;   ///< see quality_names
   std::optional<bool> edges;            ///< thin lines along outlines
   std::optional<double> picture_scale;  ///< of the pictures of the key P, times the window
+  std::optional<double> tile_error;     ///< pixels that 3D Tiles may be wrong by, >= 0
 };
 
 /// The qualities of drawing. auto: plain in a window without a graphics card, else full. The others as
@@ -58,6 +60,7 @@ inline constexpr std::array<const char*, 4> quality_names{"auto", "full", "light
 inline constexpr double least_fov = 10.0;
 inline constexpr double largest_fov = 150.0;
 inline constexpr double largest_picture_scale = 16.0;
+inline constexpr double largest_tile_error = 1e4;
 
 /// The folder of settings and bookmarks: $XDG_CONFIG_HOME/roam, else ~/.config/roam. Empty if neither variable is set.
 [[nodiscard]] std::filesystem::path settings_folder();

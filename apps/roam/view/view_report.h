@@ -55,6 +55,7 @@ struct ViewReport {
   Times collision_own_ns;  ///< per frame, by the thread's processor time
   std::uint64_t resident_bytes = 0;
   std::uint64_t world_bytes = 0;
+  std::uint64_t page_bytes = 0;      ///< of the picture's pages
   std::string store;                 ///< store of the collision at the end; empty: none
   std::optional<PagerStats> paging;  ///< of that store
   std::string renderer;

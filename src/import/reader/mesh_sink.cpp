@@ -363,12 +363,15 @@ void MeshSink::send_parts() {
 
 void MeshSink::end() {
   finish_object();
+  const bool is_page = parts_ != nullptr && parts_->page() != nullptr;
   if (parts_ != nullptr) {
     parts_->finish_file();
+    parts_->end_page();
     totals_.textures = parts_->textures().read();
     totals_.missing_textures = parts_->textures().missing();
   }
-  say_what_was_rounded();
+  // Each page would say another number.
+  if (!is_page) say_what_was_rounded();
   if (pieces_ != nullptr) {
     totals_.vertices = pieces_->vertices_sent();
     totals_.triangles = pieces_->triangles_sent();

@@ -15,7 +15,9 @@
 #include "import/display_part.h"
 #include "import/reader/display/pages.h"
 #include "import/reader/display/part_pool.h"
+#include "import/reader/machine_failure.h"
 #include "import/reader/osg_files.h"
+#include "import/reader/tileset/tile_pages.h"
 #include "import/stream.h"
 #include "roam/error.h"
 
@@ -37,7 +39,14 @@ bool take_request(std::string& token) {
   return take(token.data(), length);
 }
 
-void read_page(const std::string& token, SceneFiles& files, MeshSink& sink, PageStates& states) {
+/// What the pages read before leave for those after them.
+struct Kept {
+  PageStates states;
+  TileTrees trees;
+};
+
+void read_page(const std::string& token, SceneFiles& files, MeshSink& sink, Kept& kept) {
+  if (const auto tile = tile_page_of(token)) return read_tile_page(*tile, files, sink, kept.trees);
   const std::optional<PageContext> page = page_of(token);
   if (!page) throw Error("a page was asked for that no part has named; install roam anew.");
   const std::string name = page->file.string();
@@ -50,14 +59,14 @@ void read_page(const std::string& token, SceneFiles& files, MeshSink& sink, Page
   if (root == nullptr) throw Error(name, "this page is absent or unreadable.");
   sink.set_offset(page->offset);
   sink.parts()->begin_page();
-  PageWalk(sink, *page, states).walk(*root);
+  PageWalk(sink, *page, kept.states).walk(*root);
 }
 
 }  // namespace
 
 int serve_pages(FrameWriter& frames, const ReadingSettings& settings, const std::optional<Vec3>& origin,
                 const SceneScope& scope, const std::function<void()>& greet) {
-  PageStates states;
+  Kept kept;
   std::string token;
   while (take_request(token)) {
     frames.begin_stream();
@@ -66,10 +75,12 @@ int serve_pages(FrameWriter& frames, const ReadingSettings& settings, const std:
     PartPool parts(frames, files, origin);
     MeshSink sink(frames, settings, &parts, nullptr);
     try {
-      read_page(token, files, sink, states);
+      read_page(token, files, sink, kept);
       sink.end();
     } catch (const Error& error) {
       frames.fail(error);
+    } catch (const MachineFailure& failure) {
+      frames.fail(failure.error());
     } catch (const std::bad_alloc&) {
       std::fputs("out of memory\n", stderr);
       return EXIT_FAILURE;

@@ -172,8 +172,9 @@ bool PageWalk::add(osg::PagedLOD& lod) {
   node.group = group_before;
   node.center = vec3(center);
   node.radius = static_cast<float>(radius);
-  node.by_pixels = lod.getRangeMode() == osg::LOD::PIXEL_SIZE_ON_SCREEN;
-  const float range_scale = node.by_pixels ? 1.0f : static_cast<float>(scale);
+  const bool by_pixels = lod.getRangeMode() == osg::LOD::PIXEL_SIZE_ON_SCREEN;
+  node.measure = by_pixels ? DisplayMeasure::pixels : DisplayMeasure::metres;
+  const float range_scale = by_pixels ? 1.0f : static_cast<float>(scale);
   // A range with a NaN hides its child.
   const auto has_range = [&](unsigned i) { return i < lod.getNumRanges() && lod.getMinRange(i) < lod.getMaxRange(i); };
   std::vector<std::pair<osg::Node*, std::uint32_t>> shown;

@@ -123,12 +123,15 @@ void PartPool::send_where(const std::function<bool(const Look&)>& wanted) {
 
 void PartPool::finish_file() {
   send_where([](const Look&) { return true; });
-  if (page_) send(*page_);
-  page_.reset();
   textures_.forget_images();
   objects_.clear();
   object_numbers_.clear();
   object_.reset();
+}
+
+void PartPool::end_page() {
+  if (page_) send(*page_);
+  page_.reset();
 }
 
 const Vec3& PartPool::origin_near(std::span<const Vec3> places) {

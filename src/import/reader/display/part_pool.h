@@ -31,7 +31,7 @@ class PartPool {
   /// Adds triangles with vertices in the frame of the scene. Sends a part when there is enough geometry.
   void add(std::span<const Vec3> vertices, std::span<const VertexLook> looks, std::span<const Corners> triangles,
            const Look& look);
-  /// Sends all geometry gathered, because the next file has other textures.
+  /// Sends all geometry gathered, because the next file has other textures. Of a page it becomes part of the page.
   void finish_file();
 
   /// Returns the origin. If it is unset, chooses it for a scene with these points.
@@ -39,9 +39,11 @@ class PartPool {
   /// Sends a complete part.
   void send(const PartGraph& graph);
 
-  /// Begins a page: from now on all geometry belongs to one part, which finish_file sends. Triangles go into the group
+  /// Begins a page: from now on all geometry belongs to one part, which end_page sends. Triangles go into the group
   /// that was set last, at first 0.
   PartGraph& begin_page();
+  /// Sends the page that has begun, if there is one. Call finish_file before.
+  void end_page();
   /// Null unless a page has begun.
   [[nodiscard]] PartGraph* page() { return page_ ? &*page_ : nullptr; }
   void set_group(std::uint32_t group) { group_ = group; }

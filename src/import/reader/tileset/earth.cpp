@@ -38,6 +38,14 @@ Geodetic geodetic(const Vec3& p) {
   return place;
 }
 
+Vec3 earth_centred(const Geodetic& place) {
+  const double sine = std::sin(place.latitude), cosine = std::cos(place.latitude);
+  const double radius = prime_vertical(sine);
+  return {(radius + place.height) * cosine * std::cos(place.longitude),
+          (radius + place.height) * cosine * std::sin(place.longitude),
+          (radius * (1.0 - eccentricity_2) + place.height) * sine};
+}
+
 glm::dmat4 axes_at(const Geodetic& place) {
   const double sine = std::sin(place.latitude), cosine = std::cos(place.latitude);
   const Vec3 up(cosine * std::cos(place.longitude), cosine * std::sin(place.longitude), sine);

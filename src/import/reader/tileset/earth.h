@@ -20,6 +20,9 @@ struct Geodetic {
 /// The place of a point with Earth-centred coordinates in metres, to a micrometre for heights of some kilometres.
 [[nodiscard]] Geodetic geodetic(const Vec3& earth_centred);
 
+/// The Earth-centred coordinates of a place.
+[[nodiscard]] Vec3 earth_centred(const Geodetic& place);
+
 /// The rotation with east, north and up at a place as the images of x, y and z.
 [[nodiscard]] glm::dmat4 axes_at(const Geodetic& place);
 

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <functional>
 #include <iterator>
 #include <optional>
@@ -15,56 +14,13 @@
 #include "import/reader/tileset/earth_place.h"
 #include "import/reader/tileset/gzip.h"
 #include "import/reader/tileset/subtree.h"
+#include "import/reader/tileset/tile_json.h"
 #include "roam/error.h"
 
 namespace roam::reader {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// Most tiles in each other, those of external tilesets included. Real tilesets have some 30.
-constexpr std::size_t depth_limit = 1000;
-/// Each tile is an object in a list.
-constexpr int tileset_depth = 2 * static_cast<int>(depth_limit) + 64;
-
-glm::dmat4 transform_of(const Json& tile, const std::string& place) {
-  const Json& transform = member(tile, "transform");
-  if (transform.is_null()) return glm::dmat4(1.0);
-  const auto m = numbers(transform, 16);
-  if (!m) throw Error(place, "the transform of a tile is not 16 numbers; the tileset is damaged.");
-  glm::dmat4 matrix;
-  for (int i = 0; i < 16; ++i) matrix[i / 4][i % 4] = (*m)[static_cast<std::size_t>(i)];
-  return matrix;
-}
-
-bool is_finite(const glm::dmat4& matrix) {
-  for (int column = 0; column < 4; ++column) {
-    for (int k = 0; k < 4; ++k) {
-      if (!std::isfinite(matrix[column][k])) return false;
-    }
-  }
-  return true;
-}
-
-std::string uri_of(const Json& content) {
-  const std::string uri = text(member(content, "uri"));
-  return uri.empty() ? text(member(content, "url")) : uri;
-}
-
-/// The URIs of a tile's contents.
-std::vector<std::string> uris_of(const Json& tile) {
-  std::vector<std::string> uris;
-  const auto add = [&](const Json& content) {
-    if (std::string uri = uri_of(content); !uri.empty()) uris.push_back(std::move(uri));
-  };
-  add(member(tile, "content"));
-  for (const Json& content : member(tile, "contents")) add(content);
-  const Json& several = member(tile, "extensions", "3DTILES_multiple_contents");
-  for (const char* name : {"content", "contents"}) {
-    for (const Json& content : member(several, name)) add(content);
-  }
-  return uris;
-}
 
 /// A tileset that is being walked.
 struct Tileset {
@@ -73,20 +29,11 @@ struct Tileset {
   [[nodiscard]] fs::path folder() const { return file.parent_path(); }
 };
 
-/// Whether finer tiles replace a tile, or are added to it.
-enum class Refine { replace, add };
-
 /// Drops elements with a text that one before has. Some ten bytes of JSON may make any number of them.
 template <class T, class TextOf>
 void drop_repeated(std::vector<T>& list, const TextOf& text_of) {
   std::unordered_set<std::string> known;
   std::erase_if(list, [&](const T& element) { return !known.insert(text_of(element)).second; });
-}
-
-Refine refine_of(const Json& tile, Refine inherited) {
-  const std::string refine = text(member(tile, "refine"));
-  if (refine == "ADD" || refine == "add") return Refine::add;
-  return refine.empty() ? inherited : Refine::replace;
 }
 
 class OutlineWalk {
@@ -105,35 +52,19 @@ class OutlineWalk {
   }
 
  private:
-  /// The values of a tileset file.
   Json load(const fs::path& path) {
-    std::optional<std::string> bytes = whole_file(files_, path);
-    if (!bytes) throw Error(path.string(), "this tileset is absent or cannot be read.");
-    sink_.count_file();
-    sink_.report_more_progress(bytes->size());
     outline_.files.push_back(path);
-    Json json = parse_json(without_gzip(std::move(*bytes), path.string()), path.string(), tileset_depth);
-    if (text(member(json, "type")) == "CityJSON") {
-      throw Error(path.string(), "CityJSON is not read yet; convert it to glTF, OBJ or PLY.");
-    }
-    if (!member(json, "root").is_object()) {
-      throw Error(path.string(), "this JSON is no tileset of 3D Tiles: it has no tile as its 'root'.");
-    }
-    return json;
+    return tileset_json(path, files_, sink_);
   }
 
-  static Tileset tileset_of(const Json& json, const fs::path& path) {
-    const std::string up = text(member(json, "asset", "gltfUpAxis"));
-    const bool is_z = up == "Z" || up == "z", is_x = up == "X" || up == "x";
-    return {path, is_z ? UpAxis::z : is_x ? UpAxis::x : UpAxis::y};
-  }
+  static Tileset tileset_of(const Json& json, const fs::path& path) { return {path, gltf_up_of(json)}; }
 
   /// Adds the finest contents of a tile and of the tiles below. Returns whether they are complete; if not, coarser
   /// contents should stand in for them.
   bool visit(const Json& tile, const Tileset& tileset, const glm::dmat4& parent, Refine inherited) {
     const Depth depth(*this, tileset.file);
     const glm::dmat4 matrix = parent * transform_of(tile, tileset.file.string());
-    const Refine refine = refine_of(tile, inherited);
+    const Refine refine = refine_of(tile).value_or(inherited);
     if (auto tiling = ImplicitTiling::of(tile, tileset.file.string())) {
       tiling->contents = uris_of(tile);
       return visit_subtree(*tiling, {}, tileset, matrix, refine);
@@ -282,9 +213,9 @@ class OutlineWalk {
   class Depth {
    public:
     Depth(OutlineWalk& walk, const fs::path& file) : walk_(walk) {
-      if (walk_.depth_ >= depth_limit) {
+      if (walk_.depth_ >= tile_depth_limit) {
         throw Error(file.string(),
-                    fmt::format("its tiles are nested more than {} deep; the tileset is damaged.", depth_limit));
+                    fmt::format("its tiles are nested more than {} deep; the tileset is damaged.", tile_depth_limit));
       }
       ++walk_.depth_;
     }

@@ -8,9 +8,9 @@
 
 #include "import/reader/file_names.h"
 #include "import/reader/formats.h"
-#include "import/reader/named_file.h"
 #include "import/reader/tileset/outline.h"
 #include "import/reader/tileset/tile_content.h"
+#include "import/reader/tileset/tile_pages.h"
 #include "import/report_notes.h"
 #include "roam/error.h"
 
@@ -23,24 +23,9 @@ namespace fs = std::filesystem;
 /// a fingerprint of these, so that it is read again if they change.
 constexpr std::string_view outline_part = "outline";
 
-/// Adds one content. Returns its error if it is absent or damaged.
-std::optional<Error> add(const TileContent& content, SceneFiles& files, MeshSink& sink) {
-  std::optional<std::string> bytes = whole_file(files, content.file);
-  if (!bytes) return Error(content.file.string(), "this tile is absent or cannot be read.");
-  sink.count_file();
-  sink.report_more_progress(bytes->size());
-  try {
-    add_tile_content(std::move(*bytes), content.file, content.place, files, sink);
-  } catch (const Error& error) {
-    sink.report_note_once(error.what());
-    return error;
-  }
-  return std::nullopt;
-}
-
-/// The same in a tileset, where other contents may be whole.
+/// Adds a content of a tileset, where others may be whole.
 std::optional<Error> add_if_whole(const TileContent& content, SceneFiles& files, MeshSink& sink) {
-  std::optional<Error> error = add(content, files, sink);
+  std::optional<Error> error = read_tile_content(content.file, content.place, files, sink);
   if (error) sink.report_missing_page(content.file.string());
   return error;
 }
@@ -88,7 +73,7 @@ void read_tileset(const fs::path& path, SceneFiles& files, MeshSink& sink, const
   const std::string extension = extension_of(path);
   if (extension != "json") {
     if (settings.only_list) return;
-    if (const auto error = add({path, {}}, files, sink)) throw *error;
+    if (const auto error = read_tile_content(path, {}, files, sink)) throw *error;
     return;
   }
   const fs::path folder = path.parent_path();
@@ -99,6 +84,8 @@ void read_tileset(const fs::path& path, SceneFiles& files, MeshSink& sink, const
     add_if_whole(*content, files, sink);
     return;
   }
+  const bool whole_scene = settings.tile.empty() && !settings.only_list;
+  if (sink.parts() != nullptr && whole_scene && hand_on_pages(path, files, sink, settings)) return;
   const Outline outline = outline_of(path, files, sink, settings);
   report(outline, sink, path.string());
   if (settings.only_list) return list(outline, folder, sink);

@@ -161,4 +161,19 @@ void add_tile_content(std::string bytes, const fs::path& file, const TilePlace& 
   ContentReader(file, place, files, sink).read(content, 0);
 }
 
+std::optional<Error> read_tile_content(const fs::path& file, const TilePlace& place, SceneFiles& files,
+                                       MeshSink& sink) {
+  std::optional<std::string> bytes = whole_file(files, file);
+  if (!bytes) return Error(file.string(), "this tile is absent or cannot be read.");
+  sink.count_file();
+  sink.report_more_progress(bytes->size());
+  try {
+    add_tile_content(std::move(*bytes), file, place, files, sink);
+  } catch (const Error& error) {
+    sink.report_note_once(error.what());
+    return error;
+  }
+  return std::nullopt;
+}
+
 }  // namespace roam::reader

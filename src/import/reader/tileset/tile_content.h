@@ -4,11 +4,13 @@
 
 #include <filesystem>
 #include <glm/mat4x4.hpp>
+#include <optional>
 #include <string>
 #include <string_view>
 
 #include "import/reader/mesh_sink.h"
 #include "import/reader/scene_files.h"
+#include "roam/error.h"
 #include "roam/scene_frame.h"
 
 namespace roam::reader {
@@ -31,5 +33,10 @@ inline constexpr std::size_t content_start_bytes = 12;
 /// Throws roam::Error if it is damaged; triangles before the damage are added.
 void add_tile_content(std::string bytes, const std::filesystem::path& file, const TilePlace& place, SceneFiles& files,
                       MeshSink& sink);
+
+/// The same with the bytes of the file, which it counts. Returns its error, which is also noted, if it is absent or
+/// damaged.
+[[nodiscard]] std::optional<Error> read_tile_content(const std::filesystem::path& file, const TilePlace& place,
+                                                     SceneFiles& files, MeshSink& sink);
 
 }  // namespace roam::reader

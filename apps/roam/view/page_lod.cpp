@@ -1,0 +1,66 @@
+#include "view/page_lod.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace roam::app {
+namespace {
+
+constexpr float infinite = std::numeric_limits<float>::max();
+
+}  // namespace
+
+PageLod::PageLod(const DisplayPages& pages, std::shared_ptr<const PageRules> rules)
+    : rules_(std::move(rules)),
+      by_error_(pages.measure == DisplayMeasure::error),
+      error_(pages.error),
+      half_(pages.half.x, pages.half.y, pages.half.z) {
+  setCenterMode(USER_DEFINED_CENTER);
+  setCenter(osg::Vec3d(pages.center.x, pages.center.y, pages.center.z));
+  setRadius(pages.radius);
+  setRangeMode(pages.measure == DisplayMeasure::pixels ? PIXEL_SIZE_ON_SCREEN : DISTANCE_FROM_EYE_POINT);
+}
+
+void PageLod::add_range(float from, float to) {
+  setRange(static_cast<unsigned>(levels_.size()), from, to);
+  levels_.emplace_back(from, to);
+}
+
+float PageLod::value(const osg::Vec3d& eye, double pixels) const {
+  if (rules_->allowed_error <= 0.0) return std::nextafter(infinite, 0.0f);
+  const osg::Vec3d from_center = eye - osg::Vec3d(getCenter());
+  osg::Vec3d outside;
+  for (int k = 0; k < 3; ++k) outside[k] = std::max(0.0, std::abs(from_center[k]) - half_[k]);
+  const double seen = error_ * pixels / rules_->allowed_error, distance = outside.length();
+  // Not infinite, because ranges end below infinity.
+  return static_cast<float>(std::min(distance > 0.0 ? seen / distance : seen * infinite, 0.5 * infinite));
+}
+
+void PageLod::choose(const osg::CullStack& camera) {
+  const osg::Viewport* const viewport = camera.getViewport();
+  if (viewport == nullptr || camera.getProjectionMatrix() == nullptr || !(camera.getLODScale() > 0.0f)) return;
+  const double pixels = 0.5 * viewport->height() * std::abs((*camera.getProjectionMatrix())(1, 1));
+  const float now = value(osg::Vec3d(camera.getEyeLocal()), pixels / static_cast<double>(camera.getLODScale()));
+  for (unsigned i = 0; i < levels_.size(); ++i) {
+    const bool shown = levels_[i].first <= now && now < levels_[i].second;
+    // At any distance, or at none.
+    setRange(i, shown ? 0.0f : infinite, infinite);
+    // The largest error is read first.
+    setPriorityOffset(i, now);
+    setPriorityScale(i, 0.0f);
+  }
+}
+
+void PageLod::traverse(osg::NodeVisitor& visitor) {
+  const osg::CullStack* const camera =
+      visitor.getVisitorType() == osg::NodeVisitor::CULL_VISITOR ? visitor.asCullStack() : nullptr;
+  if (by_error_ && camera != nullptr) choose(*camera);
+  PagedLOD::traverse(visitor);
+}
+
+bool PageLod::removeExpiredChildren(double time, unsigned int frame, osg::NodeList& removed) {
+  return PagedLOD::removeExpiredChildren(std::min(time, rules_->drop_before), frame, removed);
+}
+
+}  // namespace roam::app

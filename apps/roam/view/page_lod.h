@@ -1,0 +1,53 @@
+#pragma once
+/// \file
+/// The node of a scene's pages: which of its levels is drawn, and when its page is dropped.
+
+#include <limits>
+#include <memory>
+#include <osg/CullStack>
+#include <osg/PagedLOD>
+#include <vector>
+
+#include "import/display_part.h"
+
+namespace roam::app {
+
+/// What holds for all nodes of pages in a session. Read and written by the thread that draws.
+struct PageRules {
+  double allowed_error = 0.0;  ///< pixels; see DisplayMeasure::error. 0: the finest level everywhere
+  /// Pages that were seen last before this time (osg::FrameStamp's reference time, s) may be dropped.
+  double drop_before = -std::numeric_limits<double>::infinity();
+};
+
+/// Distance and pixels choose levels as in osg::PagedLOD. By error, the level changes where the node's error is as
+/// large on the screen as is allowed, seen from the eye at the nearest point of the node's box. Each picture chooses
+/// anew; visitors that do not draw find what was drawn last.
+class PageLod : public osg::PagedLOD {
+ public:
+  /// Takes all but the levels from `pages`.
+  PageLod(const DisplayPages& pages, std::shared_ptr<const PageRules> rules);
+
+  /// Sets the range of the level added last, in the measure of the pages.
+  void add_range(float from, float to);
+
+  void traverse(osg::NodeVisitor& visitor) override;
+  bool removeExpiredChildren(double time, unsigned int frame, osg::NodeList& removed) override;
+
+  /// The node's error on the screen of a camera, as a multiple of the allowed one. `eye`: in the frame of the node.
+  /// `pixels`: of a metre at a distance of one metre.
+  [[nodiscard]] float value(const osg::Vec3d& eye, double pixels) const;
+
+ protected:
+  ~PageLod() override = default;
+
+ private:
+  void choose(const osg::CullStack& camera);
+
+  std::shared_ptr<const PageRules> rules_;
+  bool by_error_;
+  double error_;
+  osg::Vec3d half_;
+  RangeList levels_;  ///< in the measure of the pages
+};
+
+}  // namespace roam::app
