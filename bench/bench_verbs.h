@@ -10,5 +10,6 @@ namespace roam::bench {
 void add_engines(CLI::App& program, app::Run& run);
 void add_paper(CLI::App& program, app::Run& run);
 void add_scale(CLI::App& program, app::Run& run);
+void add_walkers(CLI::App& program, app::Run& run);
 
 }  // namespace roam::bench
