@@ -1,4 +1,6 @@
-// Bullet's kinematic character controller in a world that contains the mesh only.
+// Bullet's kinematic character controller with its defaults, in a world that contains the mesh only. It stands some
+// centimetres deep in floors. With a greatest depth of 0 (setMaxPenetrationDepth) it is three times as slow, and half
+// as deep.
 
 #include <BulletCollision/CollisionDispatch/btGhostObject.h>
 #include <BulletDynamics/Character/btKinematicCharacterController.h>
@@ -58,7 +60,6 @@ void place(World& world, const Way& way) {
       world.controller.emplace(&body, world.shape.get(), step, btVector3(0.0F, 0.0F, 1.0F));
   controller.setGravity({0.0F, 0.0F, way.walking ? -gravity : 0.0F});
   controller.setMaxSlope(SIMD_PI / 4.0F);
-  controller.setMaxPenetrationDepth(0.0F);  // by default it comes out of walls from a depth of 20 cm on
 }
 
 Vec3 step(World& world, const Vec3& velocity) {

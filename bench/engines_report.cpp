@@ -56,15 +56,17 @@ std::string or_unknown(const Lead& lead) { return or_dash(lead.times > 0, fmt::f
 
 std::string lead_table(const std::vector<LeadRow>& rows) {
   if (rows.empty()) return {};
-  std::string out = fmt::format("\ntimes as fast as the fastest other engine, in each figure\n{:<44} {:<9}", "", "");
+  std::size_t width = 0;
+  for (const LeadRow& row : rows) width = std::max(width, row.scene.size());
+  std::string out = fmt::format("times as fast as the fastest other engine, in each figure\n{:<{}}", "", width + 10);
   for (const char* figure : lead_figures) out += fmt::format(" {:>8}", figure);
   out += "\n";
   for (const LeadRow& row : rows) {
-    out += fmt::format("{:<44} {:<9}", row.scene, row.set);
+    out += fmt::format("{:<{}} {:<9}", row.scene, width, row.set);
     for (const Lead& lead : row.leads) out += fmt::format(" {:>8}", or_unknown(lead));
     out += "\n";
   }
-  out += fmt::format("{:<54}", "geometric mean");
+  out += fmt::format("{:<{}}", "geometric mean", width + 10);
   for (std::size_t i = 0; i < lead_figures.size(); ++i) {
     const LeadSummary summary = summarize(rows, i);
     out += fmt::format(" {:>8}", or_dash(summary.worst != nullptr, fmt::format("{:.2f}", summary.mean)));
@@ -164,6 +166,7 @@ std::string engine_tables(const EngineFindings& findings) {
   for (const EngineOffer& offer : findings.absent) {
     out += fmt::format("{:<27} not here: {}\n", offer.name, offer.missing);
   }
+  if (!findings.absent.empty()) out.append(1, '\n');
   return out + lead_table(leads_of(findings));
 }
 

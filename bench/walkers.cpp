@@ -9,6 +9,7 @@
 
 #include "bench_verbs.h"
 #include "cli/interrupt.h"
+#include "cli/output_file.h"
 #include "cli/report.h"
 #include "cli/values.h"
 #include "controllers.h"
@@ -107,6 +108,7 @@ WalkerFindings find(const Options& options) {
 }
 
 app::ExitStatus run(const Options& options) {
+  if (!options.picture.empty()) app::check_output({}, "--picture", options.picture);
   std::optional<draw::PictureFile> drawing;
   if (!options.picture.empty()) drawing.emplace(options.picture);
   const WalkerFindings findings = find(options);

@@ -66,12 +66,12 @@ ExitStatus become(std::vector<std::string> arguments) {
 }  // namespace
 
 void add_bench(CLI::App& program, Run& run) {
-  CLI::App* verb = program.add_subcommand("bench", "Measure roam beside other engines: engines, paper or scale");
+  CLI::App* verb = program.add_subcommand("bench", "Measure roam beside other engines: engines, paper, scale or walkers");
   verb->footer(help);
   verb->prefix_command();
   verb->callback([verb, &run] {
     const std::vector<std::string> arguments = verb->remaining();
-    if (arguments.empty()) throw UsageError("bench", "a kind is missing: engines, paper or scale");
+    if (arguments.empty()) throw UsageError("bench", "a kind is missing: engines, paper, scale or walkers");
     run = [arguments] { return become(arguments); };
   });
 }

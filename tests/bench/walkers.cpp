@@ -81,8 +81,8 @@ TEST_P(ControllerWalks, ReachTheirEndAndStopAtAWall) {
   const Walked walked = walk(mover, person, 60.0);
   const Judgement reached = judged(scene, person, walked);
   EXPECT_EQ(reached.ending, Ending::reached);
-  // Bodies of games may come some millimetres into the floor.
-  EXPECT_LT(reached.deepest, controller.name == "roam" ? depth_allowed : 0.02);
+  // Bodies of games may come into the floor.
+  EXPECT_LT(reached.deepest, controller.name == "roam" ? depth_allowed : 0.05);
   const double height = walked.places.back().z;
   EXPECT_NEAR(height, 0.9, 0.06) << "it does not stand on the floor";
 
