@@ -66,7 +66,8 @@ ExitStatus become(std::vector<std::string> arguments) {
 }  // namespace
 
 void add_bench(CLI::App& program, Run& run) {
-  CLI::App* verb = program.add_subcommand("bench", "Measure roam beside other engines: engines, paper, scale or walkers");
+  CLI::App* verb =
+      program.add_subcommand("bench", "Measure roam beside other engines: engines, paper, scale or walkers");
   verb->footer(help);
   verb->prefix_command();
   verb->callback([verb, &run] {
