@@ -13,7 +13,8 @@ function make(vertices, indices) {
   let body, walking, falling;
   function place(radius, walks, x, y, z, cylinder, step) {
     if (body) Jolt.destroy(body);
-    const shape = cylinder > 0 ? new Jolt.CapsuleShape(0.5 * cylinder, radius) : new Jolt.SphereShape(radius);
+    const shape = cylinder > 0
+      ? new Jolt.CapsuleShapeSettings(0.5 * cylinder, radius) : new Jolt.SphereShapeSettings(radius);
     const settings = new Jolt.CharacterVirtualSettings();
     settings.mUp = new Jolt.Vec3(0, 0, 1);
     settings.mSupportingVolume = new Jolt.Plane(settings.mUp, 0.5 * cylinder);  // contacts of the lower half ball
