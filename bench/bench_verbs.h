@@ -11,5 +11,6 @@ void add_engines(CLI::App& program, app::Run& run);
 void add_labels(CLI::App& program, app::Run& run);
 void add_paper(CLI::App& program, app::Run& run);
 void add_scale(CLI::App& program, app::Run& run);
+void add_walkers(CLI::App& program, app::Run& run);
 
 }  // namespace roam::bench

@@ -1,7 +1,5 @@
 #include "engine.h"
 
-#include <chrono>
-
 #include "wasm_driver.h"
 
 namespace roam::bench {
@@ -15,21 +13,21 @@ EngineOffer linked(const char* name, Make make) { return {.name = name, .missing
   return {.name = name, .missing = std::string("install ") + package + " and build again", .make = {}};
 }
 
-EngineOffer wasm(const std::string& name, const std::string& package, const EnginePlaces& places) {
+[[maybe_unused]] EngineOffer not_given(const char* name, const char* variable) {
+  return {.name = name,
+          .missing = std::string("build it yourself, and roam again with -D") + variable + "=FOLDER",
+          .make = {}};
+}
+
+EngineOffer in_node(const std::string& name, const std::string& package, const EnginePlaces& places) {
   EngineOffer offer{.name = name, .missing = wasm_package_missing(package, places.wasm), .make = {}};
   if (offer.missing.empty()) {
-    offer.make = [name, where = places.wasm](const Scene& scene) { return make_wasm(scene, name, where); };
+    offer.make = [name, where = places.wasm](const Scene& scene) { return make_in_node(scene, name, where); };
   }
   return offer;
 }
 
 }  // namespace
-
-double seconds(const std::function<void()>& work) {
-  const auto start = std::chrono::steady_clock::now();
-  work();
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
 
 std::vector<EngineOffer> engine_offers(const EnginePlaces& places) {
   return {
@@ -49,10 +47,26 @@ std::vector<EngineOffer> engine_offers(const EnginePlaces& places) {
 #else
       left_out("fcl", "libfcl-dev"),
 #endif
+#ifdef ROAM_BENCH_PHYSX
+      linked("physx", make_physx),
+#else
+      not_given("physx", "ROAM_PHYSX_DIR"),
+#endif
+#ifdef ROAM_BENCH_JOLT
+      linked("jolt", make_jolt),
+#else
+      not_given("jolt", "Jolt_DIR"),
+#endif
+#ifdef ROAM_BENCH_BOX3D
+      linked("box3d", make_box3d),
+#else
+      not_given("box3d", "box3d_DIR"),
+#endif
       linked("polytope", [](const Scene& scene) { return make_polytope(scene, false); }),
       linked("polytope-kdtree", [](const Scene& scene) { return make_polytope(scene, true); }),
-      wasm("physx", "physx-js-webidl", places),
-      wasm("jolt", "jolt-physics", places),
+      in_node("physx-wasm", "physx-js-webidl", places),
+      in_node("jolt-wasm", "jolt-physics", places),
+      in_node("three-mesh-bvh", "three three-mesh-bvh", places),
       linked("paper", make_paper),
   };
 }

@@ -6,6 +6,7 @@
 /// file says how. Engines that compute in floats get coordinates rounded to floats. By default the benchmark moves the
 /// scene's centre to (0, 0, 0), where floats are most precise.
 
+#include <chrono>
 #include <cstddef>
 #include <functional>
 #include <string>
@@ -29,7 +30,11 @@ struct Engine {
 };
 
 /// Seconds that `work` takes.
-[[nodiscard]] double seconds(const std::function<void()>& work);
+[[nodiscard]] inline double seconds(const std::function<void()>& work) {
+  const auto start = std::chrono::steady_clock::now();
+  work();
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
 
 [[nodiscard]] Engine make_roam(const Scene& scene);
 [[nodiscard]] Engine make_bullet(const Scene& scene);
@@ -43,13 +48,18 @@ struct Engine {
 /// fcl::distance; each step is as long as the last distance.
 [[nodiscard]] Engine make_fcl(const Scene& scene);
 
-/// "physx" or "jolt" from the node_modules of the folder `modules`, in a node process: see wasm/channel.mjs. Throws
-/// roam::Error if it does not start, or ends.
-[[nodiscard]] Engine make_wasm(const Scene& scene, const std::string& name, const std::string& modules);
+/// Native builds of the user's. Each throws roam::Error if the engine cannot take this scene.
+[[nodiscard]] Engine make_physx(const Scene& scene);
+[[nodiscard]] Engine make_jolt(const Scene& scene);
+[[nodiscard]] Engine make_box3d(const Scene& scene);
+
+/// "physx-wasm", "jolt-wasm" or "three-mesh-bvh" from the node_modules of the folder `modules`, in a node process: see
+/// wasm/channel.mjs. Throws roam::Error if it does not start, or ends.
+[[nodiscard]] Engine make_in_node(const Scene& scene, const std::string& name, const std::string& modules);
 
 /// Places of the engines that are not linked.
 struct EnginePlaces {
-  std::string wasm;  ///< folder whose node_modules hold physx-js-webidl and jolt-physics; empty: none
+  std::string wasm;  ///< folder whose node_modules hold the packages of make_in_node; empty: none
 };
 
 /// An engine that may be installed or not.

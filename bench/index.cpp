@@ -63,9 +63,8 @@ void print_build(const Scene& scene, bool lossless, const roam::World& world, st
               static_cast<unsigned long long>(world.stats().tiles));
 }
 
-int run(const Options& options) {
-  if (!options.instructions.empty()) restrict_instructions(options.instructions);
-  const Scene scene = make_scene(options.scene);
+bool is_wrong(const SceneChoice& choice, const Options& options) {
+  const Scene scene = make_scene(choice);
   std::printf("%s\n", scene.name.c_str());
   const std::size_t before = allocated_bytes();
   const roam::World world =
@@ -106,6 +105,13 @@ int run(const Options& options) {
     std::printf("   %8.0f %8.0f %8.0f %8.0f\n", s.p50, s.p99, s.hit_p50, s.most);
     std::fflush(stdout);
   }
+  return wrong;
+}
+
+int run(const Options& options) {
+  if (!options.instructions.empty()) restrict_instructions(options.instructions);
+  bool wrong = false;
+  for (const SceneChoice& choice : options.scenes) wrong |= is_wrong(choice, options);
   return wrong ? 1 : 0;
 }
 
@@ -113,7 +119,7 @@ int run(const Options& options) {
 
 int main(int argc, char** argv) {
   Options options;
-  CLI::App app{"Times roam's sweeps in one scene; exit code 1 when an answer is wrong"};
+  CLI::App app{"Times roam's sweeps in scenes; exit code 1 when an answer is wrong"};
   options.add_to(app);
   app.add_flag("--lossless", options.lossless, "build with BuildOptions::lossless");
   app.add_flag("!--no-check", options.check, "do not compare with the reference: starts faster");

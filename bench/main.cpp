@@ -19,5 +19,6 @@ int main(int argc, char** argv) {
   roam::bench::add_paper(program, chosen);
   roam::bench::add_scale(program, chosen);
   roam::bench::add_labels(program, chosen);
+  roam::bench::add_walkers(program, chosen);
   return roam::app::run_command_line(program, chosen, argc, argv);
 }

@@ -125,7 +125,7 @@ int run(const Options& options) {
   std::shared_ptr<const roam::Store> store;
   Vec3 start(0.0);
   if (options.store.empty()) {
-    const Scene scene = make_scene(options.scene);
+    const Scene scene = make_scene(options.scenes.front());
     std::printf("%s\n", scene.name.c_str());
     store = made::store(folder.path(), scene.meshes,
                         {.page_tiles = roam::store::page_tiles, .tile_triangles = options.tile_triangles});

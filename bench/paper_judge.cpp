@@ -14,9 +14,9 @@ namespace {
 
 constexpr std::size_t block_steps = 16;
 
-Box box_of(const Vec3& from, const Vec3& to, double radius) {
+Box box_of(const Vec3& from, const Vec3& to, const Body& body) {
   // The reference decides about contact, so a slightly larger box is harmless.
-  const Vec3 reach(radius + 1e-6);
+  const Vec3 reach = Vec3(body.radius + 1e-6) + Vec3(0.0, 0.0, body.half_height);
   return box_around(std::array{from, to}).grown(reach);
 }
 
@@ -35,9 +35,9 @@ void PaperJudge::watch(const Way& way, const Walked& walked) {
                                          : Ending::stuck;
   for (std::size_t i = 0; i + 1 < walked.places.size(); ++i) {
     if (i % block_steps == 0) blocks_.push_back({.begin = steps_.size(), .end = 0, .box = {}});
-    const double radius = walked.radii[i];
-    steps_.push_back({walked.places[i], walked.places[i + 1], radius, radius});
-    blocks_.back().box.include(box_of(walked.places[i], walked.places[i + 1], radius));
+    const Body body{.radius = walked.radii[i], .half_height = way.body().half_height};
+    steps_.push_back({walked.places[i], walked.places[i + 1], body, body.radius});
+    blocks_.back().box.include(box_of(walked.places[i], walked.places[i + 1], body));
     blocks_.back().end = steps_.size();
   }
   watched.end = steps_.size();
@@ -68,7 +68,7 @@ void PaperJudge::settle() {
     if (!meet(block.box, whole)) continue;
     for (std::size_t i = block.begin; i < block.end; ++i) {
       Step& step = steps_[i];
-      const Query way{{.radius = step.radius}, step.from, step.to - step.from};
+      const Query way{step.body, step.from, step.to - step.from};
       step.clearance = std::min(step.clearance, reference.smallest_clearance(way, 1.0, step.clearance));
       // A centre crosses a triangle only if it comes near one.
       if (step.crossed || step.clearance > 1e-3 || glm::length(way.motion) == 0.0) continue;
@@ -86,7 +86,7 @@ std::vector<Judgement> PaperJudge::judgements() {
     Judgement& judgement = all.emplace_back();
     judgement.ending = watched.ending;
     for (std::size_t i = watched.begin; i < watched.end; ++i) {
-      const double depth = steps_[i].radius - steps_[i].clearance;
+      const double depth = steps_[i].body.radius - steps_[i].clearance;
       if (depth > depth_allowed) {
         ++judgement.in_walls;
         judgement.deepest = std::max(judgement.deepest, depth);

@@ -42,8 +42,8 @@ class PaperJudge {
  private:
   struct Step {
     Vec3 from, to;
-    double radius = 0.0;
-    double clearance = 0.0;  ///< of the centre on the step, at most the radius
+    Body body;
+    double clearance = 0.0;  ///< of the axis on the step, at most the radius
     bool crossed = false;
   };
   /// Steps that follow each other, and the box of the body on them.

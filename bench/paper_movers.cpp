@@ -4,6 +4,7 @@
 #include <glm/geometric.hpp>
 #include <memory>
 
+#include "node_controller.h"
 #include "roam/import.h"
 #include "roam/pager.h"
 #include "roam/size_learner.h"
@@ -32,9 +33,10 @@ Mover mover_of(const std::shared_ptr<Walk>& walk) {
   Mover mover;
   mover.place = [walk](const Way& way) {
     constexpr double longest_wait = 60.0;  // s, for the surroundings of the start
-    if (walk->pager) (void)walk->pager->wait({.radius = way.radius}, way.from, Vec3(0.0), longest_wait);
-    walk->walker.emplace(*walk->space, WalkerSettings::sphere(way.radius), way.walking ? Mode::walk : Mode::fly,
-                         way.from);
+    if (walk->pager) (void)walk->pager->wait(way.body(), way.from, Vec3(0.0), longest_wait);
+    const WalkerSettings settings =
+        way.height > 0.0 ? WalkerSettings::person(way.radius, way.height) : WalkerSettings::sphere(way.radius);
+    walk->walker.emplace(*walk->space, settings, way.walking ? Mode::walk : Mode::fly, way.from);
     walk->learner.reset();
     if (!way.adapting) return;
     Profile profile;
@@ -61,6 +63,17 @@ Mover mover_of(const std::shared_ptr<Walk>& walk) {
     };
   }
   return mover;
+}
+
+/// PhysX's capsule controller, nearly a sphere, in a node process.
+Mover physx_in_node(const PaperScene& scene, const std::string& wasm) {
+  FloatMesh mesh;
+  read_tiles(scene, [&](const FloatMesh& tile) {
+    const auto first = static_cast<std::uint32_t>(mesh.vertices.size() / 3);
+    mesh.vertices.insert(mesh.vertices.end(), tile.vertices.begin(), tile.vertices.end());
+    for (const std::uint32_t corner : tile.indices) mesh.indices.push_back(first + corner);
+  });
+  return node_controller(mesh, "physx", wasm, paper_shift);
 }
 
 /// Moves a body as far as it can go; the touch that stopped it.
@@ -97,10 +110,14 @@ Mover sliding(AdvanceBy advance, int slides, const Vec3& shift) {
 
 }  // namespace
 
-Mover roam_in_memory(const PaperScene& scene) {
+Mover roam_in(std::shared_ptr<const Space> space) {
   const auto walk = std::make_shared<Walk>();
-  walk->space = std::make_shared<World>(World::build(import_scene(scene.scene).meshes));
+  walk->space = std::move(space);
   return mover_of(walk);
+}
+
+Mover roam_in_memory(const PaperScene& scene) {
+  return roam_in(std::make_shared<World>(World::build(import_scene(scene.scene).meshes)));
 }
 
 Mover roam_in_store(const PaperScene& scene) {
@@ -211,7 +228,7 @@ std::vector<PaperRow> paper_rows(const std::string& wasm) {
   };
   for (PaperRow& row : rows) {
     if (row.name != "physx" || !row.missing.empty()) continue;
-    row.load = [wasm](const PaperScene& scene) { return physx_controller(scene, wasm); };
+    row.load = [wasm](const PaperScene& scene) { return physx_in_node(scene, wasm); };
   }
   return rows;
 }

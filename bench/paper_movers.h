@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -11,6 +12,7 @@
 #include "float_mesh.h"
 #include "paper_ways.h"
 #include "roam/mesh.h"
+#include "roam/space.h"
 
 namespace roam::bench {
 
@@ -40,6 +42,8 @@ struct PaperRow {
 /// `wasm`: the folder whose node_modules hold PhysX; empty: none.
 [[nodiscard]] std::vector<PaperRow> paper_rows(const std::string& wasm);
 
+/// A Walker, which walks as a person if the body is a capsule.
+[[nodiscard]] Mover roam_in(std::shared_ptr<const Space> space);
 [[nodiscard]] Mover roam_in_memory(const PaperScene& scene);
 [[nodiscard]] Mover roam_in_store(const PaperScene& scene);
 /// World::sweep instead of Walker: the work of a program that has only a sweep.
@@ -53,8 +57,6 @@ enum class Graph { loaded, with_kd_trees, paged };
 using TileReader = std::function<void(const PaperScene& scene, const std::function<void(FloatMesh tile)>& take)>;
 /// Tiles in Bullet's btBvhTriangleMeshShape.
 [[nodiscard]] Mover bullet_sweep(const PaperScene& scene, const TileReader& read);
-/// PhysX's capsule controller, nearly a sphere, in a node process; `wasm` as above. Throws roam::Error if it ends.
-[[nodiscard]] Mover physx_controller(const PaperScene& scene, const std::string& wasm);
 
 /// TileReaders: OpenSceneGraph from osgb, and OGRE from its .mesh files. Neither keeps the tiles.
 void read_tiles(const PaperScene& scene, const std::function<void(FloatMesh tile)>& take);

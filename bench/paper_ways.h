@@ -7,10 +7,11 @@
 #include <vector>
 
 #include "roam/math.h"
+#include "roam/sweep.h"
 
 namespace roam::bench {
 
-/// A straight way of a sphere's centre, metres, in the coordinates of the paper's Table 1.
+/// A straight way of a body's centre, metres. Those of the paper are in the coordinates of its Table 1.
 struct Way {
   std::string name;
   Vec3 from, to;
@@ -18,6 +19,9 @@ struct Way {
   double speed = 50.0;    ///< metres per second
   bool walking = false;   ///< under gravity
   bool adapting = false;  ///< the radius may change on the way
+  double height = 0.0;    ///< of an upright capsule; 0: a sphere
+
+  [[nodiscard]] Body body() const { return height > 0.0 ? Body::capsule(radius, height) : Body{.radius = radius}; }
 };
 
 /// Table 1's three ways, the split again for a sphere that falls into it, and a way into a grotto behind a door of 0.75
@@ -27,7 +31,7 @@ struct Way {
 /// Steps a second.
 constexpr double paper_rate = 60.0;
 
-/// Moves a sphere through a scene.
+/// Moves a body through a scene.
 struct Mover {
   std::function<void(const Way&)> place;
   /// One step at this velocity (m/s). Returns the centre afterwards. Only this is timed.

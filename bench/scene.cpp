@@ -34,6 +34,8 @@ void center_at(std::vector<Mesh>& meshes, const Vec3& origin) {
 
 }  // namespace
 
+bool is_made(const std::string& scene) { return scene == "gallery" || scene == "terrain" || scene == "city"; }
+
 std::uint64_t Scene::triangles() const {
   std::uint64_t count = 0;
   for (const Mesh& mesh : meshes) count += mesh.triangles.size();

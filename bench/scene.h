@@ -19,6 +19,9 @@ struct SceneChoice {
   Vec3 origin{0.0};                  ///< metres: the new centre of the scene's box
 };
 
+/// Whether a scene of this name is made, not read.
+[[nodiscard]] bool is_made(const std::string& scene);
+
 struct Scene {
   std::string name;  ///< for tables: kind or file name, and the number of triangles
   std::vector<Mesh> meshes;

@@ -6,6 +6,7 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <sstream>
 
 #include "process/find_program.h"
 #include "roam/error.h"
@@ -18,10 +19,15 @@ constexpr int requests_end = 3, replies_end = 4;
 
 }  // namespace
 
-std::string wasm_package_missing(const std::string& package, const std::string& modules) {
-  if (modules.empty()) return "`npm install --prefix DIR " + package + "`, then --wasm-engines DIR";
-  if (std::filesystem::exists(std::filesystem::path(modules) / "node_modules" / package)) return {};
-  return "`npm install --prefix " + modules + " " + package + "`";
+std::string wasm_package_missing(const std::string& packages, const std::string& modules) {
+  if (modules.empty()) return "`npm install --prefix DIR " + packages + "`, then --wasm-engines DIR";
+  std::istringstream names(packages);
+  for (std::string package; names >> package;) {
+    if (!std::filesystem::exists(std::filesystem::path(modules) / "node_modules" / package)) {
+      return "`npm install --prefix " + modules + " " + packages + "`";
+    }
+  }
+  return {};
 }
 
 WasmDriver::WasmDriver(std::string name, const std::string& script, const std::string& modules)

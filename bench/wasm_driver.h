@@ -13,8 +13,8 @@
 
 namespace roam::bench {
 
-/// "" if npm's `package` is in the node_modules of the folder `modules`, else advice.
-[[nodiscard]] std::string wasm_package_missing(const std::string& package, const std::string& modules);
+/// "" if npm's `packages`, separated by spaces, are in the node_modules of the folder `modules`, else advice.
+[[nodiscard]] std::string wasm_package_missing(const std::string& packages, const std::string& modules);
 
 /// Ends its process in the destructor. All functions throw roam::Error, which names the engine, if the process ended
 /// early.

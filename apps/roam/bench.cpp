@@ -19,10 +19,11 @@ namespace fs = std::filesystem;
 constexpr const char* program_name = "roam-bench";
 
 constexpr const char* help = R"(Kinds:
-  engines   sweeps through one scene: roam, Bullet, Embree, FCL, OpenSceneGraph, PhysX, Jolt and
-            the paper's method
+  engines   sweeps through scenes: roam, Bullet, Embree, FCL, OpenSceneGraph, PhysX, Jolt, Box3D,
+            three-mesh-bvh and the paper's method
   paper     Tables 1 and 2 of Xie and Niu (2020), measured here
   scale     the time of a step from 100 thousand to 100 million triangles
+  walkers   steps of roam, PhysX, Jolt and Bullet through one gallery
 
 They are in a program of their own, roam-bench, which is built with -DROAM_BENCH=ON. `roam help bench engines` lists
 the options of a kind.
@@ -65,12 +66,13 @@ ExitStatus become(std::vector<std::string> arguments) {
 }  // namespace
 
 void add_bench(CLI::App& program, Run& run) {
-  CLI::App* verb = program.add_subcommand("bench", "Measure roam beside other engines: engines, paper or scale");
+  CLI::App* verb =
+      program.add_subcommand("bench", "Measure roam beside other engines: engines, paper, scale or walkers");
   verb->footer(help);
   verb->prefix_command();
   verb->callback([verb, &run] {
     const std::vector<std::string> arguments = verb->remaining();
-    if (arguments.empty()) throw UsageError("bench", "a kind is missing: engines, paper or scale");
+    if (arguments.empty()) throw UsageError("bench", "a kind is missing: engines, paper, scale or walkers");
     run = [arguments] { return become(arguments); };
   });
 }

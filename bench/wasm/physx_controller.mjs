@@ -1,5 +1,6 @@
-// PxCapsuleController: a capsule whose cylinder is 2 mm high, the least allowed height that differs from a sphere.
-// Questions: 0, radius, walking (1 or 0), place; or 1, velocity, seconds. Answers: the place.
+// PxCapsuleController: a capsule whose cylinder is at least 2 mm high, the least allowed height.
+// Questions: 0, radius, walking (1 or 0), place, height of the cylinder, height of a step; or 1, velocity, seconds.
+// Answers: the place.
 function make(vertices, indices) {
   const { geometry, bytes } = cook(vertices, indices);
   const settings = new PhysX.PxSceneDesc(scale);
@@ -17,16 +18,16 @@ function make(vertices, indices) {
   const gravity = 9.81;
   const way = new PhysX.PxVec3(0, 0, 0);
   let body, walking, falling;
-  function place(radius, walks, x, y, z) {
+  function place(radius, walks, x, y, z, cylinder, step) {
     if (body) body.release();
     const desc = new PhysX.PxCapsuleControllerDesc();
     desc.radius = radius;
-    desc.height = 0.002;
+    desc.height = Math.max(0.002, cylinder);
     desc.upDirection = new PhysX.PxVec3(0, 0, 1);
     desc.position = new PhysX.PxExtendedVec3(x, y, z);
     desc.contactOffset = 0.001;
-    desc.stepOffset = 0;
-    desc.slopeLimit = 0;  // no slope is too steep
+    desc.stepOffset = step;
+    desc.slopeLimit = step > 0 ? Math.SQRT1_2 : 0;  // 0: no slope is too steep
     desc.material = material;
     if (!desc.isValid()) throw new Error('PhysX does not take this controller');
     body = manager.createController(desc);
@@ -35,7 +36,7 @@ function make(vertices, indices) {
   }
   function move(q, at, answers, to) {
     if (q[at] === 0) {
-      place(q[at + 1], q[at + 2] === 1, q[at + 3], q[at + 4], q[at + 5]);
+      place(q[at + 1], q[at + 2] === 1, q[at + 3], q[at + 4], q[at + 5], q[at + 6], q[at + 7]);
     } else {
       const seconds = q[at + 4];
       if (walking) falling += gravity * seconds;

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <atomic>
+#include <cmath>
 #include <cstdlib>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -24,10 +25,10 @@ bool says(const std::string& text, const std::string& words) { return text.find(
 TEST(BenchVerb, ListsWhatItMeasuresAndAsksWhich) {
   const ProgramResult help = bench({"--help"});
   EXPECT_EQ(help.status, 0) << help.err;
-  for (const char* verb : {"engines", "paper", "scale"}) EXPECT_TRUE(says(help.out, verb)) << help.out;
+  for (const char* verb : {"engines", "paper", "scale", "walkers"}) EXPECT_TRUE(says(help.out, verb)) << help.out;
   const ProgramResult nothing = bench({});
   EXPECT_EQ(nothing.status, 2);
-  EXPECT_TRUE(says(nothing.err, "engines, paper or scale")) << nothing.err;
+  EXPECT_TRUE(says(nothing.err, "engines, paper, scale or walkers")) << nothing.err;
 }
 
 TEST(BenchVerb, SaysHowToGetTheProgramWhereItIsNotInstalled) {
@@ -63,7 +64,7 @@ std::vector<std::string> with(std::vector<std::string> arguments, const std::vec
 TEST(BenchEngines, TellsWrongAnswersAndTimesOfEachEngineOnEachSet) {
   const ProgramResult result = bench(with(small, {"--json", "--sets", "random,capsule", "--engines", "roam,paper"}));
   ASSERT_EQ(result.status, 0) << result.err;
-  const nlohmann::json report = json(result);
+  const nlohmann::json report = json(result)["scenes"][0];
   EXPECT_NEAR(report["triangles"].get<double>(), 10'000, 300);
   ASSERT_EQ(report["engines"].size(), 2U);
   EXPECT_EQ(report["engines"][0]["engine"], "roam");
@@ -80,15 +81,41 @@ TEST(BenchEngines, TellsWrongAnswersAndTimesOfEachEngineOnEachSet) {
   }
 }
 
+TEST(BenchEngines, MeasuresSeveralScenesAndComparesOverAllRows) {
+  const std::vector<std::string> scenes{"--scene", "gallery:10k", "--scene", "terrain", "--sets", "random,long"};
+  const ProgramResult result = bench(with(with(small, scenes), {"--json", "--engines", "roam,polytope,paper"}));
+  ASSERT_EQ(result.status, 0) << result.err;
+  const nlohmann::json report = json(result);
+  ASSERT_EQ(report["scenes"].size(), 2U);
+  EXPECT_TRUE(says(report["scenes"][0]["scene"], "gallery")) << report;
+  EXPECT_TRUE(says(report["scenes"][1]["scene"], "terrain")) << report;
+  ASSERT_EQ(report["leads"]["rows"].size(), 4U);
+  double product = 1.0, least = 1e9;
+  for (const auto& row : report["leads"]["rows"]) {
+    EXPECT_EQ(row["p99"]["engine"], "the paper's method") << "the polytope does not say when";
+    product *= row["p99"]["times"].get<double>();
+    least = std::min(least, row["p99"]["times"].get<double>());
+  }
+  EXPECT_NEAR(std::pow(report["leads"]["all"]["p99"]["mean"].get<double>(), 4.0) / product, 1.0, 1e-9);
+  EXPECT_EQ(report["leads"]["all"]["p99"]["worst"], least);
+
+  const ProgramResult text = bench(with(with(small, scenes), {"--engines", "roam,paper"}));
+  for (const char* words : {"geometric mean", "worst row by hit p50"}) EXPECT_TRUE(says(text.out, words)) << text.out;
+  EXPECT_EQ(bench({"engines", "--scene", "gallery:many"}).status, 2);
+}
+
 TEST(BenchEngines, NamesEnginesThatAreNotHereAndWhatToInstall) {
-  const ProgramResult result = bench(with(small, {"--sets", "random", "--engines", "roam,physx,jolt"}));
+  const ProgramResult result =
+      bench(with(small, {"--sets", "random", "--engines", "roam,physx-wasm,jolt-wasm,three-mesh-bvh"}));
   ASSERT_EQ(result.status, 0) << result.err;
   EXPECT_TRUE(says(result.out, "physx")) << result.out;
   EXPECT_TRUE(says(result.out, "npm install --prefix DIR physx-js-webidl")) << result.out;
   EXPECT_TRUE(says(result.out, "npm install --prefix DIR jolt-physics")) << result.out;
+  EXPECT_TRUE(says(result.out, "npm install --prefix DIR three three-mesh-bvh")) << result.out;
 
   const TestFolder folder;
-  const ProgramResult elsewhere = bench(with(small, {"--engines", "physx", "--wasm-engines", folder.file("nothing")}));
+  const ProgramResult elsewhere =
+      bench(with(small, {"--engines", "physx-wasm", "--wasm-engines", folder.file("nothing")}));
   EXPECT_EQ(elsewhere.status, 1);
   EXPECT_TRUE(says(elsewhere.err, "none of the chosen engines")) << elsewhere.err;
   EXPECT_TRUE(says(elsewhere.err, "npm install --prefix " + folder.file("nothing"))) << elsewhere.err;
@@ -117,6 +144,21 @@ TEST(BenchEngines, RefusesWhatItDoesNotKnow) {
   const ProgramResult missing = bench({"engines", "--scene", "/no/such/scene.ply"});
   EXPECT_EQ(missing.status, 1);
   EXPECT_TRUE(says(missing.err, "/no/such/scene.ply")) << missing.err;
+}
+
+TEST(BenchWalkers, WalksThreeWaysAndSaysWhoCameIntoWalls) {
+  const ProgramResult result =
+      bench({"walkers", "--triangles", "50k", "--rounds", "1", "--controllers", "roam", "--json"});
+  ASSERT_EQ(result.status, 0) << result.err;
+  const nlohmann::json report = json(result);
+  ASSERT_EQ(report["walks"].size(), 3U);
+  for (const auto& walk : report["walks"]) {
+    EXPECT_EQ(walk["outcome"], "completed") << walk;
+    EXPECT_EQ(walk["steps_in_walls"], 0) << walk;
+    EXPECT_GT(walk["steps"], 2000) << walk;
+    EXPECT_GE(walk["p99_us"], walk["p50_us"]);
+  }
+  EXPECT_EQ(bench({"walkers", "--controllers", "unity"}).status, 2);
 }
 
 nlohmann::json row_of(const nlohmann::json& rows, const std::string& name) {
@@ -306,7 +348,7 @@ TEST(BenchScale, GoesFromMemoryToAStoreAndDrawsIt) {
 
 TEST(BenchVerbs, RefuseBeforeAnyWorkWhatCanOnlyFail) {
   const TestFolder folder;
-  for (const char* verb : {"engines", "paper", "scale"}) {
+  for (const char* verb : {"engines", "paper", "scale", "walkers"}) {
     const ProgramResult nowhere = bench({verb, "--picture", folder.file("no/such/folder.svg")});
     EXPECT_EQ(nowhere.status, 2) << nowhere.err;
     EXPECT_TRUE(says(nowhere.err, "there is no folder")) << nowhere.err;

@@ -105,7 +105,7 @@ has_option() {
     for verb in ${verbs//|/ }; do help_of roam "$verb"; all_helps+=$help; done
     for verb in gallery terrain city; do help_of roam make "$verb"; all_helps+=$help; done
     help_of roam cluster slurm; all_helps+=$help
-    [[ ${ROAM_NO_BENCH:-} ]] || for verb in engines paper scale; do help_of roam bench "$verb"; all_helps+=$help; done
+    [[ ${ROAM_NO_BENCH:-} ]] || for verb in engines paper scale walkers; do help_of roam bench "$verb"; all_helps+=$help; done
   fi
   grep -qE -- "(^|[ ,])$1\b" <<< "$all_helps"
 }

@@ -1,5 +1,6 @@
-// Engines from npm, as WebAssembly. Each runs in a node process of its own, gets the scene and the queries through one
-// pipe and replies through another. The time of a query is measured there, around the engine's own call.
+// Engines from npm, as WebAssembly or JavaScript. Each runs in a node process of its own, gets the scene and the
+// queries through one pipe and replies through another. The time of a query is measured there, around the engine's own
+// call.
 
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -31,9 +32,11 @@ void ask(WasmDriver& driver, std::span<const Query> queries, std::span<double> n
 
 }  // namespace
 
-Engine make_wasm(const Scene& scene, const std::string& name, const std::string& modules) {
-  const std::string script = std::string(wasm_channel) +
-                             (name == "physx" ? std::string(wasm_physx) + wasm_physx_sweep : std::string(wasm_jolt));
+Engine make_in_node(const Scene& scene, const std::string& name, const std::string& modules) {
+  std::string script = wasm_channel;
+  if (name == "physx-wasm") script.append(wasm_physx).append(wasm_physx_sweep);
+  if (name == "jolt-wasm") script.append(wasm_jolt).append(wasm_jolt_sweep);
+  if (name == "three-mesh-bvh") script += wasm_three_mesh_bvh;
   const auto driver = std::make_shared<WasmDriver>(name, script, modules);
   const nlohmann::json about = nlohmann::json::parse(driver->start(FloatMesh(scene)));
   Engine engine{.name = about.at("name"), .used = about.at("used")};
