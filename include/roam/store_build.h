@@ -122,7 +122,7 @@ StoreBuildReport repair_store(const StoreBuildOptions& options);
 /// The work of publish_store.
 struct StorePublication {
   std::string hash;           ///< StoreInfo::hash
-  bool unchanged = false;     ///< it was published already; nothing was written
+  bool unchanged = false;     ///< it was published already, and no file was missing or of a wrong size
   std::uint64_t files = 0;    ///< copied
   std::uint64_t bytes = 0;    ///< copied
   std::uint64_t present = 0;  ///< files that were there already
@@ -131,9 +131,9 @@ struct StorePublication {
 /// Copies a store, from a folder or a web server, into a folder from which a web server serves it. The folder is empty,
 /// not there, or a store; it becomes a store. Readers see the old store or the new one, each whole: every file is
 /// written under a temporary name, compared with its SHA-256 and renamed, CURRENT last. Files of the version before
-/// stay, for those who walk in it; older ones are removed. `progress` gets bytes done and bytes in all; if it returns
-/// false, roam::Cancelled is thrown, and the next call continues. Throws roam::Error if a file cannot be read, is
-/// damaged or cannot be written.
+/// stay, for those who walk in it; older ones are removed. Files of the right size are not read again. `progress` gets
+/// bytes done and bytes in all; if it returns false, roam::Cancelled is thrown, and the next call continues. Throws
+/// roam::Error if a file cannot be read, is damaged or cannot be written.
 StorePublication publish_store(const std::filesystem::path& store, const std::filesystem::path& folder,
                                const std::function<bool(std::uint64_t, std::uint64_t)>& progress = {},
                                const WebAccess& web = {});

@@ -39,7 +39,8 @@ World index(const SceneOptions& options, const ImportedScene& scene) {
 }  // namespace
 
 void SceneOptions::add_to(CLI::App& verb) {
-  verb.add_option("SCENE", scenes, "Files, folders of photogrammetry tiles, or a store; several files make one scene")
+  verb.add_option("SCENE", scenes,
+                  "Files, folders of photogrammetry tiles, or a store or its address; several files make one scene")
       ->required()
       ->type_name("");
   add_reading_to(verb);

@@ -58,7 +58,7 @@ std::vector<Mesh> read_store(const Store& store, std::vector<TriangleId>& number
 
 void add_surveyed_to(CLI::App& verb, SceneOptions& options) {
   verb.add_option("SCENE", options.scenes,
-                  "Files, folders of photogrammetry tiles, or a store; several files make one scene")
+                  "Files, folders of photogrammetry tiles, or a store or its address; several files make one scene")
       ->required()
       ->type_name("");
   options.add_reading_to(verb);

@@ -84,8 +84,8 @@ class Handler(http.server.BaseHTTPRequestHandler):
                 return None
         if mode == "stall":
             time.sleep(600)
-        if mode == "slow":
-            time.sleep(0.05)
+        if mode.startswith("late"):  # "late20": by 20 ms
+            time.sleep(int(mode[4:]) / 1000)
         if mode == "garbage":
             self.wfile.write(b"\0\1\2 this is no HTTP\r\n\r\n")
             self.close_connection = True

@@ -75,6 +75,15 @@ TEST(DiskCache, KeepsTheNewestWithinItsSize) {
   EXPECT_FALSE(again.find(key_of(1), 4 << 20));
 }
 
+TEST(DiskCache, KeepsTheFirstAsLongAsThereIsRoom) {
+  for (std::uint64_t seed = 0; seed < 40; ++seed) {
+    const made::Folder folder("disk_cache_first");
+    DiskCache cache(folder.path() / "cache", 4 << 20);
+    for (std::uint64_t n = 0; n < 30; ++n) cache.keep(key_of(1000 * seed + n), content_of(1000 * seed + n));
+    for (std::uint64_t n = 0; n < 30; ++n) EXPECT_TRUE(is_there(cache, 1000 * seed + n)) << seed << ' ' << n;
+  }
+}
+
 TEST(DiskCache, WhatIsUsedStays) {
   const made::Folder folder("disk_cache_used");
   DiskCache cache(folder.path() / "cache", 4 << 20);

@@ -81,7 +81,7 @@ TEST(WebStore, WhatPassesIsTriedAgain) {
   const Served served("web_again");
   const support::Misbehaving server(served.root());
   const std::string there = all_bytes(*Store::open(served.store()));
-  for (const char* mode : {"503once", "429once", "resetonce", "slow"}) {
+  for (const char* mode : {"503once", "429once", "resetonce", "late50"}) {
     const auto store = opened(server.address(mode), patient(20.0));
     // Of one box: a pause for each tile would be long.
     std::string some, right;
@@ -100,7 +100,7 @@ TEST(WebStore, WhatPassesIsTriedAgain) {
 TEST(WebStore, ASlowServerIsNeverPassedThrough) {
   const Served served("web_slow", 3);
   const support::Misbehaving server(served.root());
-  Pager pager(opened(server.address("slow")), {.memory = Pager::least_memory});
+  Pager pager(opened(server.address("late50")), {.memory = Pager::least_memory});
   EXPECT_GT(judged_length(served, pager, 3, 1500), 1.0);
 }
 
@@ -234,7 +234,7 @@ TEST(WebStore, NothingOutsideOfItsFolderIsRequested) {
 TEST(WebStore, NeighboursBecomeOneRequest) {
   const Served served("web_neighbours");
   const support::Misbehaving server(served.root());
-  const auto store = opened(server.address("slow"));
+  const auto store = opened(server.address("late50"));
   static_cast<void>(server.requests());
   Pager pager(store, {.memory = 64 << 20, .loaders = 8});
   EXPECT_TRUE(update_until(pager, {0.3, 0.6}, middle, [&] { return pager.stats().tiles == store->info().tiles; }));

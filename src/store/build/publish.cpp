@@ -110,16 +110,12 @@ StorePublication publish_store(const std::filesystem::path& store, const std::fi
   store::Folder to(folder);
   store::OutputFolder output(to, true, {});
   const auto before = store::held_in(to);
-  if (before && before->info().hash == from->info().hash) {
-    output.keep();
-    StorePublication unchanged;
-    unchanged.hash = from->info().hash;
-    unchanged.unchanged = true;
-    return unchanged;
-  }
   StorePublication done = store::Publisher(*from, to, progress).run();
   output.keep();
-  static_cast<void>(store::tidy(to));
+  // Another publication of the same version must not remove the one before it.
+  const bool is_same = before && before->info().hash == done.hash;
+  done.unchanged = is_same && done.files == 0;
+  if (!is_same) static_cast<void>(store::tidy(to));
   return done;
 }
 

@@ -112,7 +112,7 @@ DiskCache::DiskCache(const std::filesystem::path& file, std::uint64_t bytes) {
   std::memcpy(header.magic, magic, sizeof magic);
   header.bytes = bytes;
   header.buckets = std::max<std::uint64_t>(1, bytes / (bytes_a_slot * bucket_slots));
-  header.written = 0;
+  header.written = 8;  // every entry is younger than a free slot
   if (::ftruncate(file_.number(), 0) != 0 || !write_at<Header>(file_.number(), 0, {&header, 1}) ||
       ::ftruncate(file_.number(), static_cast<off_t>(bytes)) != 0) {
     files::fail("write", file, errno);
