@@ -166,78 +166,12 @@ TEST(ViewLevels, AreDroppedOnlyIfTheyWereNotSeenForLong) {
   EXPECT_EQ(dropped.size(), 1u);
 }
 
-/// A session over a floor of many tiles.
-class OverTiles : public DrivenSession {
- public:
-  explicit OverTiles(const MadeQuadtree& made, std::uint64_t memory = 1ull << 30) {
-    options.scene.scenes = {made.write(folder.file("tiles"))};
-    options.mode = "fly";
-    options.at = {20, -20, 3, 0, -20};
-    options.page_memory = memory;
-    begin();
-  }
-  /// Draws until nothing more comes. Returns the most bytes that the pages had meanwhile.
-  std::uint64_t settle() {
-    std::uint64_t most = 0;
-    const auto end = std::chrono::steady_clock::now() + std::chrono::minutes(2);
-    int quiet = 0;
-    for (std::uint64_t events = 0; quiet < 60 && std::chrono::steady_clock::now() < end; ++quiet) {
-      EXPECT_TRUE(session->frame());
-      session->stage().draw();
-      most = std::max(most, pages().bytes());
-      if (std::exchange(events, pages().events()) != pages().events() || pages().is_reading()) quiet = 0;
-      std::this_thread::sleep_for(std::chrono::milliseconds(2));
-    }
-    return most;
-  }
-  void go_to(const Vec3& place) { session->roamer().walker()->place(place); }
-  [[nodiscard]] const PageSource& pages() const { return session->scene().pages(); }
-};
-
-TEST(ViewLevels, StayWithinTheirMemoryOnAWalkOverTheWholeScene) {
-  const MadeQuadtree made{.levels = 5, .quads = 24};
-  std::uint64_t all = 0;
-  {
-    OverTiles unlimited(made);
-    for (const double x : {20.0, 90.0, 160.0, 230.0}) {
-      unlimited.go_to({x, -100, 3});
-      all = std::max(all, unlimited.settle());
-    }
-    EXPECT_EQ(unlimited.pages().coarser(), 1.0);
-  }
-  const std::uint64_t limit = all / 2;
-  OverTiles limited(made, limit);
-  for (const double x : {20.0, 90.0, 160.0, 230.0}) {
-    limited.go_to({x, -100, 3});
-    // The last page is read as long as there is room for a little.
-    EXPECT_LE(limited.settle(), limit + all / 20) << x;
-    EXPECT_GT(limited.pages().bytes(), limit / 4);
-  }
-  EXPECT_EQ(limited.pages().coarser(), 1.0) << "what is seen fits";
-  EXPECT_EQ(limited.pages().missing(), 0u);
-}
-
-TEST(ViewLevels, AreCoarserWhereWhatIsSeenDoesNotFit) {
-  const MadeQuadtree made{.levels = 5, .quads = 24};
-  std::uint64_t all = 0;
-  {
-    OverTiles unlimited(made);
-    all = unlimited.settle();
-  }
-  OverTiles limited(made, all / 3);
-  limited.settle();
-  EXPECT_LE(limited.pages().bytes(), all / 3 + all / 20);
-  EXPECT_GT(limited.pages().coarser(), 1.0);
-  const ViewReport report = limited.session->finish();
-  std::string notes;
-  for (const std::string& note : report.notes) notes += note + "\n";
-  EXPECT_TRUE(contains(notes, "the picture is coarser than it could be")) << notes;
-  EXPECT_GT(report.page_bytes, 0u);
-}
-
 /// A still of a tileset.
 struct Still {
-  explicit Still(const TestFolder& folder) : folder(folder) { use_no_settings(folder); }
+  Still() {
+    use_no_settings(folder);
+    unsetenv("ROAM_READER");
+  }
   nlohmann::json take(const std::string& scene, const std::string& picture,
                       const std::vector<std::string>& more) const {
     std::vector<std::string> arguments{"view",   scene, "--headless", "--size",       "320x200",
@@ -256,12 +190,12 @@ struct Still {
     }
     return count;
   }
-  const TestFolder& folder;
+  TestFolder folder;
 };
 
 TEST(ViewLevels, LookFromNearLikeTheWholeScene) {
-  const TestFolder folder;
-  const Still still(folder);
+  const Still still;
+  const TestFolder& folder = still.folder;
   const std::vector<std::string> near{"--at", "100,-100,3,0,-60"}, far{"--at", "128,100,60,-90,-20"};
   MadeQuadtree made;
   const std::string levels = made.write(folder.file("levels")).string();
@@ -286,8 +220,8 @@ TEST(ViewLevels, LookFromNearLikeTheWholeScene) {
 }
 
 TEST(ViewLevels, OfADamagedTileAreCoarserThereAndSaid) {
-  const TestFolder folder;
-  const Still still(folder);
+  const Still still;
+  const TestFolder& folder = still.folder;
   const MadeQuadtree made;
   const std::string tileset = made.write(folder.file("tiles")).string();
   for (int x = 0; x < 8; ++x) {

@@ -27,7 +27,7 @@ constexpr double coarsest = 64.0;        // times the allowed error
 constexpr double coarser_step = 1.2;     // factor, which takes half as many pages again at most
 constexpr double coarser_seconds = 0.2;  // between two steps, for pages to be dropped
 constexpr double roomy = 0.5;            // share of the memory below which tiles become finer again,
-constexpr double calm = 5.0;             // s after the last page that was refused
+constexpr double calm = 5.0;             // s after the last step, or the last page that was refused
 
 /// Adds `bytes` to a shared sum while it exists.
 class Counted : public osg::Referenced {
@@ -96,12 +96,14 @@ void PageSource::tend(double now) {
   kept_seconds_ = is_full ? std::max(sooner * kept_seconds_, shortest_kept) : coarser_ > 1.0 ? calm : longest_kept;
   const bool drops = is_full || coarser_ > 1.0;
   rules_->drop_before = drops ? now - kept_seconds_ : -std::numeric_limits<double>::infinity();
-  const bool may_change = now - changed_at_ > coarser_seconds;
+  // Unseen pages must have had their time to go.
+  if (kept_seconds_ > shortest_kept) changed_at_ = now;
   if (refused_.exchange(false) && coarser_ < coarsest) {
     refused_at_ = now;
     ++events_;
-    if (may_change && kept_seconds_ <= shortest_kept) change(coarser_step, now);
-  } else if (coarser_ > 1.0 && may_change && used < roomy * memory && now - refused_at_ > calm) {
+    if (now - changed_at_ > coarser_seconds) change(coarser_step, now);
+  } else if (coarser_ > 1.0 && used < roomy * memory && now - refused_at_ > calm) {
+    refused_at_ = now;
     change(1.0 / coarser_step, now);
   }
 }
