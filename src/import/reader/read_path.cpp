@@ -62,10 +62,11 @@ fs::path tileset_in(const fs::path& folder) {
   return is_tileset ? tileset : fs::path();
 }
 
-/// The tileset at the root of an archive. Throws if there is none.
-fs::path tileset_in_archive(const fs::path& archive, const SceneFiles& files) {
+/// The tileset at the root of an archive. Throws if there is none. For a part of it nothing is searched, so that the
+/// directory of the archive need not be read.
+fs::path tileset_in_archive(const fs::path& archive, const SceneFiles& files, bool is_part) {
   fs::path tileset = archive / "tileset.json";
-  if (!files.find(tileset).empty()) return tileset;
+  if (is_part || !files.find(tileset).empty()) return tileset;
   throw Error(archive.string(),
               "this archive has no tileset.json at its root, so it is none of 3D Tiles; unpack it, and give the scene "
               "in it.");
@@ -98,7 +99,7 @@ void read_path(const std::string& name, SceneFiles& files, MeshSink& sink, const
   refuse_stand_ins(path);
   const std::string extension = extension_of(path);
   if (const Format* format = format_of(extension)) {
-    if (is_archive_name(path)) return read_tileset(tileset_in_archive(path, files), files, sink, settings);
+    if (is_archive_name(path)) return read_tileset(tileset_in_archive(path, files, is_part), files, sink, settings);
     if (format->family == Family::tileset) return read_tileset(path, files, sink, settings);
     if (settings.only_list) return;
     // The library of Inventor opens the files that a scene names by itself.
