@@ -3,7 +3,7 @@
 
 program_packages="g++ cmake ninja-build ccache pkg-config
   libglm-dev libtbb-dev libhwy-dev
-  libopenscenegraph-dev libassimp-dev libdraco-dev libmeshoptimizer-dev zlib1g-dev libfast-float-dev libtinyxml2-dev libtinyobjloader-dev libxxhash-dev
+  libopenscenegraph-dev libassimp-dev libdraco-dev libmeshoptimizer-dev zlib1g-dev libminizip-dev libfast-float-dev libtinyxml2-dev libtinyobjloader-dev libxxhash-dev
   libcli11-dev libfmt-dev nlohmann-json3-dev libcairo2-dev libzstd-dev libssl-dev libcurl4-openssl-dev libseccomp-dev
   libegl-dev libgl-dev libx11-dev libfontconfig-dev libgl1-mesa-dri fonts-dejavu-core"
 device_packages="libsdl2-dev libspnav-dev"  # gamepads and SpaceMice: roam is built without those that are not there

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "import/archive_entry.h"
 #include "roam/import.h"
 
 namespace roam {
@@ -29,7 +30,9 @@ struct ScenePart {
   /// Files of the part: absolute, sorted. For a file that file; it may refer to others. For a tile all files of its
   /// folder, then metadata.xml; empty if the tile is missing.
   std::vector<std::filesystem::path> files{};
-  std::uint64_t bytes = 0;  ///< of these files
+  /// If the scene is an archive: where each of `files`, whose path is then below that of the archive, lies in it.
+  std::vector<ArchiveEntry> entries{};
+  std::uint64_t bytes = 0;  ///< of these files; of entries, packed
 };
 
 /// The parts of a scene, in the order of the paths. Within a folder, tiles whose root is missing come first, then the
@@ -43,7 +46,8 @@ struct ScenePart {
 struct FileLookUp {
   std::filesystem::path file;   ///< absolute, without "..", perhaps with links; empty: the reader's library opens files
                                 ///< that are not reported
-  bool found = false;           ///< whether it is a regular file of the scene
+  bool found = false;           ///< whether it is a regular file of the scene; for an entry of an archive, there or
+                                ///< not, this and the rest are those of the archive
   std::uint64_t bytes = 0;      ///< its size
   std::int64_t changed_ns = 0;  ///< time of change (ctime), ns since 1970
 };

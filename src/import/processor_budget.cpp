@@ -68,6 +68,11 @@ void SceneBudget::add_file(const std::pair<std::uint64_t, std::uint64_t>& file, 
   if (files_.insert(file).second) file_bytes_ += bytes;
 }
 
+void SceneBudget::add_entry(const std::filesystem::path& archive, std::uint64_t begin) {
+  const std::lock_guard lock(mutex_);
+  entries_.emplace(archive, begin);
+}
+
 bool SceneBudget::add(double seconds) {
   const std::lock_guard lock(mutex_);
   seconds_ += seconds;
@@ -80,7 +85,7 @@ double SceneBudget::allowed() const {
 }
 
 double SceneBudget::allowed_now() const {
-  return ProcessorBudget::least_seconds + seconds_per_file * static_cast<double>(files_.size()) +
+  return ProcessorBudget::least_seconds + seconds_per_file * static_cast<double>(files_.size() + entries_.size()) +
          ProcessorBudget::seconds_per_byte * static_cast<double>(file_bytes_);
 }
 

@@ -64,6 +64,8 @@ class SceneBudget {
 
   /// Adds a file of so many bytes on the disk. Each device and inode counts once.
   void add_file(const std::pair<std::uint64_t, std::uint64_t>& file, std::uint64_t bytes);
+  /// Adds an entry of an archive, which begins at that byte, to the number of files. Each counts once.
+  void add_entry(const std::filesystem::path& archive, std::uint64_t begin);
   /// Adds the time of a reader. Returns whether the sum is within the limit.
   [[nodiscard]] bool add(double seconds);
   /// Seconds that all readers together may use so far.
@@ -74,6 +76,7 @@ class SceneBudget {
 
   mutable std::mutex mutex_;
   std::set<std::pair<std::uint64_t, std::uint64_t>> files_;
+  std::set<std::pair<std::filesystem::path, std::uint64_t>> entries_;
   std::uint64_t file_bytes_ = 0;
   double seconds_ = 0.0;
 };

@@ -140,6 +140,7 @@ void read_all(std::span<const Source> sources, const ImportOptions& options, Imp
     reading.path = sources[i].path;
     reading.scope = scope_of(reading.path, options);
     reading.tile = sources[i].tile;
+    reading.entry = sources[i].entry;
     reading.path_bytes = sizes[i];
     reading.options = &options;
     reading.report_progress = say;

@@ -20,6 +20,7 @@ struct Source {
   std::string tile{};                    ///< empty: the whole path
   std::optional<Georeference> frame{};   ///< the frame of the scene, if set before reading
   std::optional<std::uint64_t> bytes{};  ///< unset: not known yet
+  std::optional<ArchiveEntry> entry{};   ///< the tile's, in an archive
 };
 /// One source for each whole path.
 [[nodiscard]] std::vector<Source> sources(std::span<const std::filesystem::path> paths);

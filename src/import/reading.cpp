@@ -49,6 +49,9 @@ std::vector<std::string> arguments_of(const Reading& reading) {
                      {"--frame", fmt::format("{}", o.x), fmt::format("{}", o.y), fmt::format("{}", o.z), frame->srs});
   }
   if (!reading.tile.empty()) arguments.insert(arguments.end(), {"--tile", reading.tile});
+  if (const auto& entry = reading.entry) {
+    arguments.insert(arguments.end(), {"--entry", fmt::format("{}", entry->record), fmt::format("{}", entry->number)});
+  }
   if (reading.wanted == Reading::Wanted::display) arguments.emplace_back("--display");
   if (reading.wanted == Reading::Wanted::pages) arguments.emplace_back("--pages");
   if (reading.wanted == Reading::Wanted::pieces) arguments.emplace_back("--pieces");

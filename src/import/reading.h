@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "import/archive_entry.h"
 #include "import/processor_budget.h"
 #include "import/reader_process.h"
 #include "import/scene_scope.h"
@@ -29,9 +30,10 @@ struct Reading {
   /// The kind of content that the reader sends.
   enum class Wanted { meshes, pieces, display, pages, list };
   Wanted wanted = Wanted::meshes;
-  std::string tile{};            ///< the only tile of a folder to read; empty: all
-  std::optional<Vec3> origin{};  ///< of the parts of the previous paths
-  SceneBudget* scene = nullptr;  ///< that of all parts of the scene, if there are several readings
+  std::string tile{};                   ///< the only tile of a folder to read; empty: all
+  std::optional<ArchiveEntry> entry{};  ///< the tile's, in an archive
+  std::optional<Vec3> origin{};         ///< of the parts of the previous paths
+  SceneBudget* scene = nullptr;         ///< that of all parts of the scene, if there are several readings
   /// Called about every tenth of a second with the bytes read and the triangles received for this path.
   std::function<void(std::uint64_t, std::uint64_t)> report_progress;
 };

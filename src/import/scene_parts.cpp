@@ -4,6 +4,7 @@
 #include <map>
 #include <set>
 #include <system_error>
+#include <utility>
 
 #include "files/escaped.h"
 #include "import/find_reader.h"
@@ -21,6 +22,7 @@ struct Tile {
   fs::path file;
   bool present = false;
   std::string part{};  ///< empty: the tile of a folder
+  ArchiveEntry entry{};
 };
 
 /// Receives the list of a scene's parts.
@@ -44,9 +46,10 @@ class PartList : public reader::StreamReceiver {
     fs::path file = fields.take_text();
     const bool present = fields.take<std::uint8_t>() != 0;
     std::string part = fields.take_text();
+    const auto entry = fields.take<ArchiveEntry>();
     if (!fields.complete()) throw StreamDamaged{"a frame of broken length"};
     if (!tiles_.empty() && tiles_.front().part.empty() != part.empty()) throw StreamDamaged{"parts of two kinds"};
-    tiles_.push_back({std::move(file), present, std::move(part)});
+    tiles_.push_back({std::move(file), present, std::move(part), entry});
   }
   void finish_content(const reader::Totals&) override {}
 
@@ -133,12 +136,30 @@ void add_tiles(const fs::path& path, const std::vector<Tile>& tiles, const std::
   }
 }
 
+/// Checks what a reader says of the entries of an archive. Together they are no longer than the archive, so that
+/// reading all of them costs no more.
+void check_entries(const fs::path& path, const std::vector<Tile>& tiles) {
+  const std::uint64_t size = fs::file_size(path);
+  std::set<std::pair<std::uint64_t, std::uint64_t>> all;
+  for (const Tile& tile : tiles) all.emplace(tile.entry.begin, tile.entry.packed);
+  std::uint64_t end = 0;
+  for (const auto& [begin, bytes] : all) {
+    if (begin < end || begin > size || bytes > size - begin) {
+      throw Error(path.string(),
+                  "the entries of this archive overlap, or reach beyond its end. Copy or export it again.");
+    }
+    end = begin + bytes;
+  }
+}
+
 /// Adds the parts of a tileset: each content, before them what concerns the tileset as a whole.
 void add_contents(const fs::path& path, const std::vector<Tile>& tiles, const std::optional<Georeference>& frame,
                   const reader::SceneScope& scope, const ImportOptions& options, Names& names,
                   std::vector<ScenePart>& parts) {
   std::error_code none;
-  const fs::path folder = fs::is_directory(path, none) ? scope.scene : scope.scene.parent_path();
+  const bool archive = tiles.front().entry != ArchiveEntry();
+  if (archive) check_entries(path, tiles);
+  const fs::path folder = archive || fs::is_directory(path, none) ? scope.scene : scope.scene.parent_path();
   // A tileset may name a file at many places. It is looked up once; unset: absent.
   std::map<fs::path, std::optional<std::uint64_t>> bytes_of;
   const auto bytes_at = [&](const fs::path& file) {
@@ -158,8 +179,16 @@ void add_contents(const fs::path& path, const std::vector<Tile>& tiles, const st
       part.path = path;
       part.frame = frame;
       const fs::path inside = tile.file.lexically_relative(folder);
-      part.name = names.unique((folder.filename() / (inside.empty() ? tile.file.filename() : inside)).string());
+      // The name of an archive is that of its folder, so that both give the same store.
+      const fs::path name = archive ? folder.stem() : folder.filename();
+      part.name = names.unique((name / (inside.empty() ? tile.file.filename() : inside)).string());
       part.tile = tile.part;
+    }
+    if (archive) {
+      parts.back().files.push_back(tile.file);
+      parts.back().entries.push_back(tile.entry);
+      parts.back().bytes += tile.entry.packed;
+      continue;
     }
     // The files may have gone meanwhile; then reading the part says so.
     const std::optional<std::uint64_t> bytes = bytes_at(tile.file);

@@ -14,11 +14,11 @@
 ///                                                                            empty: a library opens files by itself
 ///     progress      u64 bytes read so far                                    at any time
 ///     georeference  f64 x, y, z; text srs                                    of a folder of tiles, at most once
-///     tile          text file; u8 whether it exists; text part               in a list of the parts of a scene: the
-///     root
-///                                                                            of a folder's tile, then `part` is empty;
-///                                                                            or a file of a tileset's part, one after
-///                                                                            the other
+///     tile          text file; u8 whether it exists; text part;              in a list of the parts of a scene: the
+///                   ArchiveEntry                                             root of a folder's tile, then `part` is
+///                                                                            empty; or a file of a tileset's part, one
+///                                                                            after the other, with its place if it is
+///                                                                            in an archive
 ///     object        text name; u8 continues                                  begins a mesh or a piece; a piece that
 ///                                                                            continues has the object of the one
 ///                                                                            before

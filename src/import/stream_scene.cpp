@@ -59,9 +59,12 @@ ImportReport stream_part(const ScenePart& part, const ImportOptions& options, co
                          const LookUpSink& look_ups, reader::SceneBudget* scene) {
   const DefaultFloatingPoint guard;
   reader::SceneBudget alone;
-  const reader::Source source{part.path, part.tile, part.frame, part.bytes};
+  reader::Source source{part.path, part.tile, part.frame, part.bytes, {}};
+  if (part.entries.size() == 1) source.entry = part.entries.front();
   if (!part.tile.empty() && part.files.empty()) return report_missing(source, options);
-  return stream(std::span(&source, 1), options, sink, look_ups, scene != nullptr ? scene : &alone);
+  if (scene == nullptr) scene = &alone;
+  for (const ArchiveEntry& entry : part.entries) scene->add_entry(part.path, entry.begin);
+  return stream(std::span(&source, 1), options, sink, look_ups, scene);
 }
 
 }  // namespace roam

@@ -15,6 +15,7 @@
 #include <string>
 #include <vector>
 
+#include "archive_made.h"
 #include "gltf_made.h"
 #include "import_files.h"
 #include "roam/import.h"
@@ -85,6 +86,13 @@ std::string tileset_of_trees(const fs::path& folder) {
 std::string good_file(const std::string& name, const fs::path& folder) {
   if (name == ".cmpt") return composite_tile();
   if (name == ".json") return tileset_of_trees(folder);
+  if (name == ".3tz") {
+    const Json root = made_node("1.cmpt", Json::array({made_node("2.cmpt"), made_node("inner.json")}));
+    return made_archive({{"tileset.json", made_tileset(root), 8},
+                         {"1.cmpt", composite_tile()},
+                         {"2.cmpt", composite_tile(), 8},
+                         {"inner.json", made_tileset(made_node("1.cmpt"))}});
+  }
   if (name == ".off") return tetrahedron_off;
   if (name == ".ac") return tetrahedron_ac;
   if (name == ".dxf") return triangles_dxf;
@@ -164,13 +172,15 @@ TEST_P(ImportMutations, EndInASceneOrAMessageWithinTheBudget) {
   EXPECT_EQ(scenes + messages, mutations());
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Formats, ImportMutations,
-    testing::Values("recast/nav_test.obj", "building/cpr_obstacle_world.stl", "formats/pittsburgh_mine.ply",
-                    "formats/pittsburgh_mine.osg", "formats/pittsburgh_mine.osgt", "formats/pittsburgh_mine.flt",
-                    "underground/subt_tunnel_practice_1.ive", "contextcapture_tiles/fanvanzh_test.osgb",
-                    "underground/subt_tiles/tunnel_tile_2/meshes/tunnel_tile_2.dae", "building/small_house.glb",
-                    "bim/Duplex_A_20110907.ifc", ".off", ".ac", ".dxf", ".3ds", ".fbx", ".gltf", ".cmpt", ".json"));
+INSTANTIATE_TEST_SUITE_P(Formats, ImportMutations,
+                         testing::Values("recast/nav_test.obj", "building/cpr_obstacle_world.stl",
+                                         "formats/pittsburgh_mine.ply", "formats/pittsburgh_mine.osg",
+                                         "formats/pittsburgh_mine.osgt", "formats/pittsburgh_mine.flt",
+                                         "underground/subt_tunnel_practice_1.ive",
+                                         "contextcapture_tiles/fanvanzh_test.osgb",
+                                         "underground/subt_tiles/tunnel_tile_2/meshes/tunnel_tile_2.dae",
+                                         "building/small_house.glb", "bim/Duplex_A_20110907.ifc", ".off", ".ac", ".dxf",
+                                         ".3ds", ".fbx", ".gltf", ".cmpt", ".json", ".3tz"));
 
 }  // namespace
 }  // namespace roam::test

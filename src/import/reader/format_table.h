@@ -17,7 +17,7 @@ struct Format {
 
 /// If both libraries know a format, the table has the one that reads more files in practice. OpenSceneGraph refuses
 /// Collada of some exporters, and assimp has no hierarchy in 3DS.
-inline constexpr std::array<Format, 27> formats{{{"obj", Family::obj},         {"stl", Family::stl},
+inline constexpr std::array<Format, 29> formats{{{"obj", Family::obj},         {"stl", Family::stl},
                                                  {"ply", Family::ply},         {"ive", Family::osg, "ive"},
                                                  {"osg", Family::osg, "osg"},  {"osgb", Family::osg, "osg"},
                                                  {"osgt", Family::osg, "osg"}, {"osgx", Family::osg, "osg"},
@@ -28,6 +28,7 @@ inline constexpr std::array<Format, 27> formats{{{"obj", Family::obj},         {
                                                  {"glb", Family::gltf},        {"gltf", Family::gltf},
                                                  {"json", Family::tileset},    {"b3dm", Family::tileset},
                                                  {"i3dm", Family::tileset},    {"cmpt", Family::tileset},
+                                                 {"3tz", Family::tileset},     {"zip", Family::tileset},
                                                  {"fbx", Family::assimp},      {"ifc", Family::assimp},
                                                  {"off", Family::assimp},      {"3mf", Family::assimp},
                                                  {"blend", Family::assimp}}};

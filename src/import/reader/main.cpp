@@ -56,7 +56,8 @@ struct Request {
   std::optional<Vec3> origin;
   SceneScope scope;  ///< the files that may be read
   int highest_landlock = any_landlock;
-  bool only_walls = false;  ///< read nothing; only report which walls hold
+  std::optional<ArchiveEntry> entry;  ///< of the part, in an archive
+  bool only_walls = false;            ///< read nothing; only report which walls hold
 };
 
 /// Most bytes of vertices in the temporary file. The shortest vertex of a file has three bytes and is stored as three
@@ -67,8 +68,9 @@ std::uint64_t temporary_bytes(const Request& request) {
   std::filesystem::path file = request.scope.scene;
   std::error_code none;
   const auto folder = std::filesystem::is_directory(file, none) ? file : file.parent_path();
-  // A part of a tileset counts with its content.
-  if (const auto content = content_of(request.settings.tile, folder)) file = request.scope.find(content->file);
+  // A part of a tileset counts with its content, in an archive with the whole archive.
+  const auto content = content_of(request.settings.tile, folder);
+  if (content && !is_archive_name(file)) file = request.scope.find(content->file);
   const auto bytes = std::filesystem::is_regular_file(file, none) ? std::filesystem::file_size(file, none) : 0;
   return 8 * std::min<std::uint64_t>(none ? 0 : bytes, any_memory) + 2 * std::min(memory_limit, any_memory);
 }
@@ -105,6 +107,9 @@ bool parse_arguments(const std::vector<std::string>& arguments, Request& request
       settings.frame = frame;
     } else if (name == "--tile" && left() > 0) {
       settings.tile = arguments[i++];
+    } else if (name == "--entry" && left() > 1) {
+      request.entry = ArchiveEntry{.record = std::stoull(arguments[i]), .number = std::stoull(arguments[i + 1])};
+      i += 2;
     } else if (name == "--folder" && left() > 0) {
       request.scope.folders.emplace_back(arguments[i++]);
     } else if (name == "--file" && left() > 0) {
@@ -165,7 +170,7 @@ int run(const std::vector<std::string>& arguments) {
     if (reads) load_libraries(path, request.display || request.pages);
     if (request.pieces) pieces.emplace(frames, memory);
   });
-  SceneFiles files(request.scope, frames);
+  SceneFiles files(request.scope, frames, request.entry);
   PartPool parts(frames, files, request.origin);
   MeshSink sink(frames, request.settings, request.display ? &parts : nullptr, pieces ? &*pieces : nullptr);
   if (request.pages) {

@@ -13,6 +13,7 @@
 #include <unordered_set>
 #include <vector>
 
+#include "import/archive_entry.h"
 #include "import/reader/display/look.h"
 #include "import/reader/display/part_pool.h"
 #include "import/reader/frame_writer.h"
@@ -87,11 +88,13 @@ class MeshSink {
 
   void count_file() { ++totals_.files; }
   void report_tile(std::string_view root, bool present) {
-    frames_.send(FrameKind::tile, PayloadWriter().add_text(root).add(static_cast<std::uint8_t>(present)).add_text(""));
+    frames_.send(
+        FrameKind::tile,
+        PayloadWriter().add_text(root).add(static_cast<std::uint8_t>(present)).add_text("").add(ArchiveEntry()));
   }
-  /// Reports a file of a tileset's part.
-  void report_part(std::string_view file, std::string_view part) {
-    frames_.send(FrameKind::tile, PayloadWriter().add_text(file).add(std::uint8_t{1}).add_text(part));
+  /// Reports a file of a tileset's part. `entry`: all zero unless it is in an archive.
+  void report_part(std::string_view file, std::string_view part, const ArchiveEntry& entry) {
+    frames_.send(FrameKind::tile, PayloadWriter().add_text(file).add(std::uint8_t{1}).add_text(part).add(entry));
   }
   /// Reports a file for a list.
   void report_missing_page(std::string_view file);

@@ -9,6 +9,7 @@
 #include <cerrno>
 #include <cstdint>
 #include <cstring>
+#include <limits>
 #include <span>
 
 #include "files/descriptor.h"
@@ -87,6 +88,7 @@ std::optional<std::string> whole_file(SceneFiles& files, const fs::path& path) {
   if (!files.resolve(path)) files.leave_out(path);
   const fs::path file = files.open(path);
   if (file.empty()) return std::nullopt;
+  if (files.is_in_archive(file)) return files.read_entry(file, std::numeric_limits<std::uint64_t>::max());
   const files::Descriptor descriptor(::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
   struct stat status {};
   if (!descriptor.is_open()) {

@@ -28,8 +28,8 @@ namespace roam::reader {
                                                      const std::string& uri);
 
 /// The whole file. Looks it up and reports it as opened; a path out of the scene is left out. Unset if there is no such
-/// file, or if its rights forbid to read it. Throws std::bad_alloc for a file that does not fit into memory,
-/// MachineFailure if the disk cannot be read.
+/// file, or if its rights forbid to read it, or if it is a damaged entry of an archive. Throws std::bad_alloc for a
+/// file that does not fit into memory, MachineFailure if the disk cannot be read.
 [[nodiscard]] std::optional<std::string> whole_file(SceneFiles& files, const std::filesystem::path& path);
 
 }  // namespace roam::reader

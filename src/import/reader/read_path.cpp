@@ -24,9 +24,8 @@ struct Unsupported {
   std::string_view extension;
   std::string_view advice;
 };
-constexpr std::array<Unsupported, 10> unsupported{
+constexpr std::array<Unsupported, 9> unsupported{
     {{"pnts", "point clouds have no surface; make a mesh of it first"},
-     {"3tz", "archives of 3D Tiles are not read yet; unpack it (it is a zip file) and give its tileset.json"},
      {"tif", "elevation rasters are not read yet; convert it to a mesh in OBJ or PLY"},
      {"tiff", "elevation rasters are not read yet; convert it to a mesh in OBJ or PLY"},
      {"las", "point clouds have no surface; make a mesh of it first"},
@@ -63,6 +62,16 @@ fs::path tileset_in(const fs::path& folder) {
   return is_tileset ? tileset : fs::path();
 }
 
+/// The tileset at the root of an archive. Throws if there is none. For a part of it nothing is searched, so that the
+/// directory of the archive need not be read.
+fs::path tileset_in_archive(const fs::path& archive, const SceneFiles& files, bool is_part) {
+  fs::path tileset = archive / "tileset.json";
+  if (is_part || !files.find(tileset).empty()) return tileset;
+  throw Error(archive.string(),
+              "this archive has no tileset.json at its root, so it is none of 3D Tiles; unpack it, and give the scene "
+              "in it.");
+}
+
 }  // namespace
 
 void load_libraries(const std::string& name, bool images) {
@@ -82,12 +91,15 @@ void read_path(const std::string& name, SceneFiles& files, MeshSink& sink, const
     const fs::path tileset = tileset_in(path);
     return tileset.empty() ? read_tiles(path, files, sink, settings) : read_tileset(tileset, files, sink, settings);
   }
-  if (files.open(path).empty()) {
+  // A part of a tileset depends on its content and its place, not on the tileset's other tiles.
+  const bool is_part = !settings.tile.empty();
+  if ((is_part ? files.find(path) : files.open(path)).empty()) {
     throw Error(name, "this is not a file that can be read; a scene is a file or a folder.");
   }
   refuse_stand_ins(path);
   const std::string extension = extension_of(path);
   if (const Format* format = format_of(extension)) {
+    if (is_archive_name(path)) return read_tileset(tileset_in_archive(path, files, is_part), files, sink, settings);
     if (format->family == Family::tileset) return read_tileset(path, files, sink, settings);
     if (settings.only_list) return;
     // The library of Inventor opens the files that a scene names by itself.

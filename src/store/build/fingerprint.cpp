@@ -82,7 +82,12 @@ class FileHash {
   /// Device and inode.
   [[nodiscard]] std::pair<std::uint64_t, std::uint64_t> number() const { return {status_.st_dev, status_.st_ino}; }
 
-  std::string digits() {
+  /// Of the file, or of an entry of it.
+  std::string digits(const ArchiveEntry& entry) {
+    if (entry != ArchiveEntry()) {
+      add_data(static_cast<off_t>(entry.begin), static_cast<off_t>(entry.begin + entry.packed));
+      return hash_.digits();
+    }
     off_t at = 0;
     // Also reads beyond the former size: a file that has grown is being changed.
     for (const off_t size = status_.st_size; at < size;) {
@@ -260,6 +265,7 @@ void Sources::look(const std::vector<SourcePart>& parts, const std::function<voi
     std::string name;
     const reader::SceneScope* scope;
     bool is_reference;
+    ArchiveEntry entry;
     fs::path real;
     Seen seen;
     Number number;
@@ -270,17 +276,20 @@ void Sources::look(const std::vector<SourcePart>& parts, const std::function<voi
   for (const SourcePart& part : parts) {
     const reader::SceneScope* const its_scope = &scope(part.path);
     const std::lock_guard lock(mutex_);
-    const auto take = [&](const std::string& name, bool is_reference) {
+    const auto take = [&](const std::string& name, bool is_reference, const ArchiveEntry& entry) {
       if (seen_.contains(name) || !taken.insert(name).second) return;
-      files.push_back({name, its_scope, is_reference, {}, {}, {}});
+      files.push_back({name, its_scope, is_reference, entry, {}, {}, {}});
     };
-    for (const fs::path& file : part.files) take(fs::absolute(file).lexically_normal().string(), false);
-    for (const auto& [name, file] : part.references) take(file.string(), true);
+    for (std::size_t i = 0; i < part.files.size(); ++i) {
+      take(fs::absolute(part.files[i]).lexically_normal().string(), false,
+           part.entries.empty() ? ArchiveEntry() : part.entries.at(i));
+    }
+    for (const auto& [name, file] : part.references) take(file.string(), true, {});
   }
   tbb::parallel_for(std::size_t{0}, files.size(), [&](std::size_t i) {
     File& file = files[i];
     // The folder may change meanwhile, so no link is followed from here on.
-    file.real = file.scope->find(file.name);
+    file.real = file.scope->find(file.entry == ArchiveEntry() ? fs::path(file.name) : file.scope->scene);
     if (file.real.empty() && file.is_reference) {
       file.seen.is_absent = file.hashed = true;
       return;
@@ -298,10 +307,10 @@ void Sources::look(const std::vector<SourcePart>& parts, const std::function<voi
     tick();
   });
   // A file may have many names, by links of either kind. It is read once.
-  std::map<Number, std::size_t> first;
+  std::map<std::pair<Number, std::uint64_t>, std::size_t> first;  // with the place in an archive
   for (std::size_t i = 0; i < files.size(); ++i) {
     if (files[i].seen.is_absent) continue;
-    const auto [same, is_new] = first.emplace(files[i].number, i);
+    const auto [same, is_new] = first.emplace(std::pair(files[i].number, files[i].entry.begin), i);
     if (!is_new && files[i].hashed && !files[same->second].hashed) same->second = i;
   }
   std::vector<std::size_t> unread;
@@ -316,11 +325,11 @@ void Sources::look(const std::vector<SourcePart>& parts, const std::function<voi
     }
     FileHash hash(file.real, tick);
     if (hash.number() != file.number) fail_changed(file.name);
-    file.seen.hash = hash.digits();
+    file.seen.hash = hash.digits(file.entry);
   });
   const std::lock_guard lock(mutex_);
   for (File& file : files) {
-    if (!file.hashed) file.seen.hash = files[first.at(file.number)].seen.hash;
+    if (!file.hashed) file.seen.hash = files[first.at({file.number, file.entry.begin})].seen.hash;
     if (!file.seen.is_absent && file.real != file.name) linked_.insert({file.name, file.real});
     seen_.insert({std::move(file.name), file.seen});
   }
@@ -333,9 +342,14 @@ std::string Sources::fingerprint(const SourcePart& part, const std::string& opti
     const Vec3& o = part.frame->origin;
     text += fmt::format("{} {} {} {}\n", part.frame->srs, o.x, o.y, o.z);
   }
-  for (const fs::path& file : part.files) {
+  for (std::size_t i = 0; i < part.files.size(); ++i) {
+    const fs::path& file = part.files[i];
     const Seen& seen = seen_.at(fs::absolute(file).lexically_normal().string());
-    text += fmt::format("{} {} {}\n", seen.hash, seen.size, name_in(part, file));
+    // The hash of an entry is that of its packed bytes.
+    const std::string size = part.entries.empty()
+                                 ? fmt::format("{}", seen.size)
+                                 : fmt::format("{} method {}", part.entries[i].bytes, part.entries[i].method);
+    text += fmt::format("{} {} {}\n", seen.hash, size, name_in(part, file));
   }
   for (const auto& [name, file] : part.references) {
     const Seen& seen = seen_.at(file.string());

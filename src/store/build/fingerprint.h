@@ -32,7 +32,8 @@ void read_as(const std::string& text, ImportOptions& options);
 /// are those of the last time. It is read again if that change was too recent for the file system's clock.
 ///
 /// The fingerprint of a part depends on names, contents and options, not on times: a copy of the scene has the same
-/// one. It covers the files that scene_parts() lists and the references, with those that are absent.
+/// one. It covers the files that scene_parts() lists and the references, with those that are absent. An entry of an
+/// archive is a file: its hash is that of its bytes in the archive, and the time is that of the archive.
 ///
 /// Thread-safe, except save().
 class Sources {

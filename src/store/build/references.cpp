@@ -60,7 +60,7 @@ std::uint64_t references_cost(const std::vector<std::string>& names) {
 }
 
 LookUps::LookUps(const ScenePart& part, const reader::SceneScope& scope, std::uint64_t most_bytes)
-    : part_(part.name), scope_(scope), bytes_left_(most_bytes) {
+    : part_(part.name), scope_(scope), is_archive_(!part.entries.empty()), bytes_left_(most_bytes) {
   for (const fs::path& file : part.files) {
     listed_.insert(fs::absolute(file).lexically_normal().string());
     listed_.insert(scope.find(file).string());  // without links, as some readers name it again
@@ -70,12 +70,15 @@ LookUps::LookUps(const ScenePart& part, const reader::SceneScope& scope, std::ui
 void LookUps::add(const FileLookUp& file) {
   if (file.file.empty()) are_all_ = false;
   if (file.file.empty() || listed_.contains(file.file.string())) return;
-  const std::optional<std::string> name = reference_name(file.file, scope_);
+  FileLookUp found = file;
+  // Whether an archive has another entry, and which, only its own bytes say.
+  if (!below(file.file, scope_.scene).empty() && is_archive_) found.file = scope_.scene;
+  const std::optional<std::string> name = reference_name(found.file, scope_);
   if (!name) {
-    if (file.found) are_all_ = false;
+    if (found.found) are_all_ = false;
     return;
   }
-  if (!files_.try_emplace(*name, file).second) return;
+  if (!files_.try_emplace(*name, found).second) return;
   const std::uint64_t bytes = look_up_cost + 2 * name->size();
   if (bytes > bytes_left_) {
     throw Error(part_, "it refers to more files than there is memory for; give --memory more");

@@ -36,7 +36,8 @@ struct SourcePart : ScenePart {
   std::map<std::string, std::filesystem::path> references;  ///< by reference_name; such a file may be absent
 };
 
-/// The files that a reader looks up while it reads a part, without those that scene_parts() lists.
+/// The files that a reader looks up while it reads a part, without those that scene_parts() lists. In place of an entry
+/// of an archive it is the archive.
 class LookUps {
  public:
   /// `most_bytes` of memory for them.
@@ -53,6 +54,7 @@ class LookUps {
  private:
   std::string part_;
   const reader::SceneScope& scope_;
+  bool is_archive_;
   std::uint64_t bytes_left_;
   std::set<std::string> listed_;
   std::map<std::string, FileLookUp> files_;

@@ -129,6 +129,9 @@ fs::path find_image_file(SceneFiles& files, const fs::path& folder, const std::s
 
 std::string image_bytes(SceneFiles& files, const fs::path& file) {
   const fs::path opened = files.open(file);
+  if (const auto entry = files.entry(opened)) {
+    return entry->bytes > image_bytes_limit ? std::string() : files.read_entry(opened, entry->bytes).value_or("");
+  }
   std::error_code none;
   const auto size = opened.empty() ? 0 : fs::file_size(opened, none);
   if (none || size > image_bytes_limit) return {};

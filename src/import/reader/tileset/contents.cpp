@@ -3,11 +3,10 @@
 #include <fcntl.h>
 #include <sys/stat.h>
 
-#include <array>
 #include <cerrno>
 #include <cstdint>
 #include <span>
-#include <string_view>
+#include <utility>
 
 #include "files/descriptor.h"
 #include "import/reader/file_names.h"
@@ -29,6 +28,7 @@ fs::path TileContents::place(const fs::path& folder, const std::string& uri) {
 
 fs::path TileContents::find(const fs::path& path) {
   if (path.empty() || !path.has_filename()) return {};
+  if (files_.is_in_archive(path)) return files_.find(path);
   const fs::path folder = path.parent_path();
   auto known = folders_.find(folder);
   if (known == folders_.end()) known = folders_.emplace(folder, files_.resolve(folder)).first;
@@ -48,25 +48,35 @@ fs::path TileContents::find(const fs::path& path) {
   return files_.find(path);
 }
 
-TileContents::State TileContents::state_of(const fs::path& path) {
-  const fs::path file = find(path);
-  if (file.empty()) return State::missing;
+std::optional<TileContents::Start> TileContents::start_of(const fs::path& file) {
+  if (const auto entry = files_.entry(file)) {
+    std::optional<std::string> bytes = files_.read_entry(file, content_start_bytes);
+    return bytes ? std::optional(Start{std::move(*bytes), entry->bytes}) : std::nullopt;
+  }
   const files::Descriptor descriptor(::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
   struct stat status {};
   if (!descriptor.is_open() || ::fstat(descriptor.number(), &status) != 0) {
-    fail_unless_missing(errno, path);
-    return State::missing;
+    fail_unless_missing(errno, file);
+    return std::nullopt;
   }
-  std::array<char, content_start_bytes> start{};
-  const std::size_t read = files::read_fully(descriptor.number(), 0, std::as_writable_bytes(std::span(start)));
-  if (read < start.size()) fail_unless_missing(errno, path);
-  const std::string_view bytes(start.data(), read);
+  std::string bytes(content_start_bytes, '\0');
+  const std::size_t read = files::read_fully(descriptor.number(), 0, std::as_writable_bytes(std::span(bytes)));
+  if (read < bytes.size()) fail_unless_missing(errno, file);
+  bytes.resize(read);
+  return Start{std::move(bytes), static_cast<std::uint64_t>(status.st_size)};
+}
+
+TileContents::State TileContents::state_of(const fs::path& path) {
+  const fs::path file = find(path);
+  if (file.empty()) return State::missing;
+  const std::optional<Start> start = start_of(file);
+  if (!start) return State::missing;
+  const std::string& bytes = start->bytes;
   const std::string extension = extension_of(path);
   if (is_gzip(bytes)) return extension == "json" ? State::tileset : State::mesh;
   const ContentKind kind = kind_of(bytes);
   const bool states_length = kind == ContentKind::mesh || kind == ContentKind::points;
-  const bool cut =
-      states_length && (read < content_start_bytes || stated_bytes(bytes) > static_cast<std::uint64_t>(status.st_size));
+  const bool cut = states_length && (bytes.size() < content_start_bytes || stated_bytes(bytes) > start->size);
   if (kind == ContentKind::unknown || cut) return State::missing;
   if (kind == ContentKind::points) return State::points;
   return kind == ContentKind::json && extension != "gltf" ? State::tileset : State::mesh;

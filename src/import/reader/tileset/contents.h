@@ -2,6 +2,7 @@
 /// \file
 /// The files of a tileset's contents: whether they are there, and of which kind.
 
+#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <optional>
@@ -27,6 +28,13 @@ class TileContents {
   [[nodiscard]] State state_of(const std::filesystem::path& path);
 
  private:
+  struct Start {
+    std::string bytes;  ///< the first ones, for kind_of
+    std::uint64_t size = 0;
+  };
+  /// That of a file from find(); unset if it cannot be read.
+  [[nodiscard]] std::optional<Start> start_of(const std::filesystem::path& file);
+
   SceneFiles& files_;
   std::map<std::filesystem::path, std::optional<std::filesystem::path>> folders_;  ///< without links; unset: outside
 };

@@ -56,15 +56,16 @@ class Hash {
   std::uint64_t value_ = 0xcbf29ce484222325ull;
 };
 
-void list(const Outline& outline, const fs::path& folder, MeshSink& sink) {
+void list(const Outline& outline, const fs::path& folder, const SceneFiles& files, MeshSink& sink) {
   Hash hash;
   for (const TileContent& content : outline.contents) hash.add(token_of(content, folder) + "\n");
   hash.add(fmt::format("{} {} {}", outline.missing, outline.stand_ins, outline.points));
   for (const std::string& note : outline.notes) hash.add(note);
   const std::string name = fmt::format("{} {:016x}", outline_part, hash.value());
-  for (const fs::path& file : outline.files) sink.report_part(file.string(), name);
-  for (const TileContent& content : outline.contents)
-    sink.report_part(content.file.string(), token_of(content, folder));
+  for (const fs::path& file : outline.files) sink.report_part(file.string(), name, files.located_entry(file));
+  for (const TileContent& content : outline.contents) {
+    sink.report_part(content.file.string(), token_of(content, folder), files.located_entry(content.file));
+  }
 }
 
 }  // namespace
@@ -88,7 +89,7 @@ void read_tileset(const fs::path& path, SceneFiles& files, MeshSink& sink, const
   if (sink.parts() != nullptr && whole_scene && hand_on_pages(path, files, sink, settings)) return;
   const Outline outline = outline_of(path, files, sink, settings);
   report(outline, sink, path.string());
-  if (settings.only_list) return list(outline, folder, sink);
+  if (settings.only_list) return list(outline, folder, files, sink);
   if (only_outline) return;
   if (outline.contents.empty() && outline.missing > 0) {
     throw Error(path.string(),
