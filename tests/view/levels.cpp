@@ -166,6 +166,77 @@ TEST(ViewLevels, AreDroppedOnlyIfTheyWereNotSeenForLong) {
   EXPECT_EQ(dropped.size(), 1u);
 }
 
+/// A session over a floor of many tiles.
+class OverTiles : public DrivenSession {
+ public:
+  explicit OverTiles(const MadeQuadtree& made, std::uint64_t memory = 1ull << 30) {
+    options.scene.scenes = {made.write(folder.file("tiles"))};
+    options.mode = "fly";
+    options.at = {20, -20, 3, 0, -20};
+    options.page_memory = memory;
+    begin();
+  }
+  /// Draws until nothing more comes. Returns the most bytes that the pages had meanwhile.
+  std::uint64_t settle() {
+    std::uint64_t most = 0;
+    const auto end = std::chrono::steady_clock::now() + std::chrono::minutes(2);
+    int quiet = 0;
+    for (std::uint64_t events = 0; quiet < 60 && std::chrono::steady_clock::now() < end; ++quiet) {
+      EXPECT_TRUE(session->frame());
+      session->stage().draw();
+      most = std::max(most, pages().bytes());
+      if (std::exchange(events, pages().events()) != pages().events() || pages().is_reading()) quiet = 0;
+      std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    }
+    return most;
+  }
+  void go_to(const Vec3& place) { session->roamer().walker()->place(place); }
+  [[nodiscard]] const PageSource& pages() const { return session->scene().pages(); }
+};
+
+/// Many tiles are seen at once, so that a page is a small share of them.
+const MadeQuadtree seen_from_far{.levels = 5, .quads = 12, .error = 64.0};
+
+TEST(ViewLevels, StayWithinTheirMemoryOnAWalkOverTheWholeScene) {
+  const std::vector<double> places{20.0, 90.0, 160.0, 230.0};
+  std::uint64_t all = 0;
+  {
+    OverTiles unlimited(seen_from_far);
+    for (const double y : places) {
+      unlimited.go_to({20, -y, 3});
+      all = std::max(all, unlimited.settle());
+    }
+    EXPECT_EQ(unlimited.pages().bytes(), all) << "there is room for what is not seen any more";
+    EXPECT_EQ(unlimited.pages().coarser(), 1.0);
+  }
+  const std::uint64_t limit = all * 8 / 10, page = all / 10;
+  OverTiles limited(seen_from_far, limit);
+  for (const double y : places) {
+    limited.go_to({20, -y, 3});
+    EXPECT_LE(limited.settle(), limit + page) << y;
+    EXPECT_GT(limited.pages().bytes(), limit / 4);
+  }
+  EXPECT_LT(limited.pages().coarser(), 2.0) << "what is not seen goes first";
+  EXPECT_EQ(limited.pages().missing(), 0u);
+}
+
+TEST(ViewLevels, AreCoarserWhereWhatIsSeenDoesNotFit) {
+  std::uint64_t all = 0;
+  {
+    OverTiles unlimited(seen_from_far);
+    all = unlimited.settle();
+  }
+  OverTiles limited(seen_from_far, all / 3);
+  limited.settle();
+  EXPECT_LE(limited.pages().bytes(), all / 3 + all / 10);
+  EXPECT_GT(limited.pages().coarser(), 1.0);
+  const ViewReport report = limited.session->finish();
+  std::string notes;
+  for (const std::string& note : report.notes) notes += note + "\n";
+  EXPECT_TRUE(contains(notes, "the picture is coarser than it could be")) << notes;
+  EXPECT_GT(report.page_bytes, 0u);
+}
+
 /// A still of a tileset.
 struct Still {
   Still() {
