@@ -28,7 +28,7 @@ struct Options {
 
 using Scores = std::array<LabelScore, kind_count>;
 
-/// Whole numbers and the rest of the file's lines are answers, in the order of the sweeps.
+/// The numbers of a file, one for each sweep, in their order.
 std::vector<double> read_answers(const std::string& file, std::size_t count) {
   constexpr std::uint64_t most_bytes = std::uint64_t{1} << 34;
   const std::string text = files::read_named(file, most_bytes);

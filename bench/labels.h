@@ -36,7 +36,7 @@ struct LabelledSweep {
 static_assert(sizeof(LabelledSweep) == 184);
 
 inline constexpr int kind_count = 9;
-/// What makes the sweeps of a kind hard: "grazing", "sliver", ...
+/// "grazing", "sliver", ...
 [[nodiscard]] std::string kind_name(int kind);
 
 /// Computes the label of a sweep: everything from `hit` on but the sweep itself.
@@ -52,7 +52,7 @@ void make_labelled(std::uint64_t count, std::uint64_t seed,
 /// Reads such a file. Throws roam::Error if it is another.
 [[nodiscard]] std::vector<LabelledSweep> read_labelled(const std::filesystem::path& file);
 
-/// What is wrong with answers to the sweeps of one kind.
+/// The wrong answers to the sweeps of one kind.
 struct LabelScore {
   std::uint64_t sweeps = 0, hits = 0;
   std::uint64_t missed = 0;  ///< answered free, but the body gets deeper in the triangle than `tolerated`

@@ -42,7 +42,7 @@ void Filtered::ignore_beyond(std::span<const HalfSpace> half_spaces) {
     if (!is_finite(normal) || !std::isfinite(distance)) throw Error("a half space to ignore is not finite");
   }
   if (std::equal(half_spaces.begin(), half_spaces.end(), beyond_.begin(), beyond_.end())) return;
-  beyond_.assign(half_spaces.begin(), half_spaces.end());
+  beyond_ = std::vector<HalfSpace>(half_spaces.begin(), half_spaces.end());  // which may be part of beyond_
   state_ = next_revision();
 }
 

@@ -1,6 +1,7 @@
 #include "roam/patchwork.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <mutex>
 #include <optional>
@@ -78,11 +79,12 @@ struct Patchwork::State {
   std::vector<Leaving> leaving;
   BoxTree tree;
   std::uint64_t revision = 0;
-  bool lost = false;  ///< an update ran out of memory: patches may be missing, so all space is unknown
+  /// An update ran out of memory: patches may be missing, so all space is unknown, and no message matters.
+  std::atomic<bool> lost = false;
 
   /// Posts a message and returns the worlds to free. The caller holds the lock, and frees them after releasing it.
   [[nodiscard]] std::vector<World> post(Message message) {
-    inbox.push_back(std::move(message));
+    if (!lost) inbox.push_back(std::move(message));
     return std::exchange(replaced, {});
   }
   /// The index of the patch in `delivered`. Throws if the patch is not expected, or if its `delivered` differs from
@@ -168,9 +170,9 @@ struct Patchwork::State {
       messages.swap(inbox);
     }
     if (messages.empty() && !patches.unsettled() && leaving.empty()) return false;
-    // A body that overlaps something already has nothing to protect.
-    const bool guarded = body && self.clearance(*body, place, room_kept).distance > 0.0;
     try {
+      // A body that overlaps something already has nothing to protect.
+      const bool guarded = body && self.clearance(*body, place, room_kept).distance > 0.0;
       return settle(std::move(messages), guarded ? body : nullptr, body, place);
     } catch (...) {
       lost = true;

@@ -65,7 +65,7 @@ TEST(ImportArchives, AreTheSameSceneAsTheirFolder) {
       EXPECT_TRUE(scene.report.notes.empty());
     }
   }
-  EXPECT_EQ(show({folder.path() / "city.3tz"}).triangles.size(), 54u);
+  EXPECT_EQ(show_finest({folder.path() / "city.3tz"}).triangles.size(), 54u);
 }
 
 TEST(ImportArchives, AreReadPartByPart) {

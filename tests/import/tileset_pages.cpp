@@ -183,6 +183,28 @@ TEST(ImportTilesetPages, FollowImplicitTilingsFromSubtreeToSubtree) {
   EXPECT_EQ(not_shown(import_scene(folder.path() / "tiles"), all, 1e-5), 0u);
 }
 
+TEST(ImportTilesetPages, ReadASubtreeAnewForATilingOfOtherLength) {
+  const TemporaryFolder folder;
+  folder.write("tiles/bits", std::string(8, '\xff'));
+  folder.write("tiles/s.json", Json{{"buffers", {{{"uri", "bits"}, {"byteLength", 8}}}},
+                                    {"bufferViews", {{{"buffer", 0}, {"byteOffset", 0}, {"byteLength", 1}}}},
+                                    {"tileAvailability", {{"bitstream", 0}}},
+                                    {"contentAvailability", {{{"constant", 0}}}},
+                                    {"childSubtreeAvailability", {{"constant", 0}}}}
+                                   .dump());
+  const auto tiling = [](int levels) {
+    Json root = tile("{level}.b3dm", 2);
+    root["implicitTiling"] = {{"subdivisionScheme", "QUADTREE"},
+                              {"subtreeLevels", levels},
+                              {"availableLevels", levels},
+                              {"subtrees", {{"uri", "s.json"}}}};
+    return root;
+  };
+  Paging paging(write_scene(folder, tile("1.b3dm", 4, {tiling(2), tiling(20)}), 1));
+  const std::string error = paging.error(paging.root.pages.at(0).levels.at(1));
+  EXPECT_NE(error.find("fewer bits"), std::string::npos) << error;
+}
+
 TEST(ImportTilesetPages, AreTheTrianglesThatStopBodies) {
   const TemporaryFolder folder;
   folder.write("tiles/deep/inner.json",

@@ -8,7 +8,9 @@
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
+#include <memory>
 #include <new>
+#include <optional>
 #include <string>
 
 #include "files/descriptor.h"
@@ -43,6 +45,7 @@ bool take_request(std::string& token) {
 struct Kept {
   PageStates states;
   TileTrees trees;
+  std::shared_ptr<Archive> archive;  ///< of the scene, so that its directory is read once; null unless opened
 };
 
 void read_page(const std::string& token, SceneFiles& files, MeshSink& sink, Kept& kept) {
@@ -71,12 +74,13 @@ int serve_pages(FrameWriter& frames, const ReadingSettings& settings, const std:
   while (take_request(token)) {
     frames.begin_stream();
     greet();
-    SceneFiles files(scope, frames);
+    SceneFiles files(scope, frames, std::nullopt, kept.archive);
     PartPool parts(frames, files, origin);
     MeshSink sink(frames, settings, &parts, nullptr);
     try {
       read_page(token, files, sink, kept);
       sink.end();
+      kept.archive = files.opened_archive();
     } catch (const Error& error) {
       frames.fail(error);
     } catch (const MachineFailure& failure) {

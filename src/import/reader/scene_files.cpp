@@ -26,8 +26,9 @@ LookedUp state_of(const fs::path& real) {
 
 }  // namespace
 
-SceneFiles::SceneFiles(SceneScope scope, FrameWriter& frames, std::optional<ArchiveEntry> known)
-    : scope_(std::move(scope)), frames_(frames), known_(known) {
+SceneFiles::SceneFiles(SceneScope scope, FrameWriter& frames, std::optional<ArchiveEntry> known,
+                       std::shared_ptr<Archive> opened)
+    : scope_(std::move(scope)), frames_(frames), known_(known), archive_(std::move(opened)) {
   if (is_archive_name(scope_.scene)) archive_file_ = scope_.find(scope_.scene);
 }
 
@@ -38,7 +39,7 @@ std::string SceneFiles::name_in_archive(const fs::path& path) const {
 }
 
 Archive& SceneFiles::archive() const {
-  if (archive_ == nullptr) archive_ = std::make_unique<Archive>(archive_file_, scope_.scene.string(), known_);
+  if (archive_ == nullptr) archive_ = std::make_shared<Archive>(archive_file_, scope_.scene.string(), known_);
   return *archive_;
 }
 

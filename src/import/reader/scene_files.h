@@ -23,8 +23,9 @@ namespace roam::reader {
 class SceneFiles {
  public:
   /// `frames`: receives reports of files that were looked up, opened or left out.
-  /// `known`: see Archive.
-  SceneFiles(SceneScope scope, FrameWriter& frames, std::optional<ArchiveEntry> known = std::nullopt);
+  /// `known`: see Archive. `opened`: the archive, if another SceneFiles of this scene has opened it.
+  SceneFiles(SceneScope scope, FrameWriter& frames, std::optional<ArchiveEntry> known = std::nullopt,
+             std::shared_ptr<Archive> opened = nullptr);
 
   /// See SceneScope. A path out of an archive leads outside.
   [[nodiscard]] std::optional<std::filesystem::path> resolve(const std::filesystem::path& path) const;
@@ -36,6 +37,8 @@ class SceneFiles {
   std::filesystem::path look_up(const std::filesystem::path& path);
   /// The same as look_up(), and reports the file as opened. Call it before a file is read.
   std::filesystem::path open(const std::filesystem::path& path);
+  /// The archive; null unless it has been opened.
+  [[nodiscard]] std::shared_ptr<Archive> opened_archive() const { return archive_; }
   /// Whether the path is that of an entry, whether there is one or not.
   [[nodiscard]] bool is_in_archive(const std::filesystem::path& path) const { return !name_in_archive(path).empty(); }
   /// The entry at a path; unset if there is none.
@@ -64,7 +67,7 @@ class SceneFiles {
   FrameWriter& frames_;
   std::filesystem::path archive_file_;  ///< without links; empty if the scene is no archive
   std::optional<ArchiveEntry> known_;
-  mutable std::unique_ptr<Archive> archive_;                                 ///< opened for the first entry
+  mutable std::shared_ptr<Archive> archive_;                                 ///< opened for the first entry
   std::unordered_set<std::size_t> looked_up_, opened_, left_out_, damaged_;  ///< hashes of paths
   std::string first_left_out_;
 };

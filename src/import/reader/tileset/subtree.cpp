@@ -98,7 +98,7 @@ Error Subtree::damaged(const char* what) const {
 
 bool Subtree::Bits::operator[](std::uint64_t i) const {
   if (bytes.empty()) return constant;
-  return (static_cast<unsigned char>(bytes[i / 8]) >> i % 8 & 1) != 0;
+  return i / 8 < bytes.size() && (static_cast<unsigned char>(bytes[i / 8]) >> i % 8 & 1) != 0;
 }
 
 Subtree::Bits Subtree::bits(const Json& availability, std::uint64_t count) {

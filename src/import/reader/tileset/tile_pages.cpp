@@ -7,6 +7,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <limits>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -159,7 +160,8 @@ class TilePageWalk {
   TileTrees& trees_;
   TileContents contents_;
   PartGraph& part_;
-  std::map<fs::path, std::unique_ptr<Subtree>> subtrees_;  ///< null: missing
+  /// Null: missing. One file may serve several tilings, each of which says how long its parts are.
+  std::map<std::pair<const ImplicitTiling*, fs::path>, std::unique_ptr<Subtree>> subtrees_;
   std::vector<Planned> planned_;
   std::vector<Error> missing_;
   bool has_anything_ = false;
@@ -168,7 +170,9 @@ class TilePageWalk {
 };
 
 const Subtree* TilePageWalk::subtree_of(const TileRef& ref, ImplicitTile& tile) {
-  const ImplicitTiling& tiling = *tree_tile(ref).tiling;
+  const TreeTile& of = tree_tile(ref);
+  if (of.tiling == nullptr) throw Error(ref.file.string(), "this tileset has changed; open it anew.");
+  const ImplicitTiling& tiling = *of.tiling;
   tile.level_in_subtree = tile.level % tiling.subtree_levels;
   const std::uint64_t shift = tile.level_in_subtree;
   const ImplicitTile root{tile.level - shift, tile.x >> shift, tile.y >> shift, tile.z >> shift};
@@ -179,7 +183,7 @@ const Subtree* TilePageWalk::subtree_of(const TileRef& ref, ImplicitTile& tile) 
   }
   const std::string uri = ImplicitTiling::uri(tiling.subtrees, root);
   const fs::path file = contents_.place(ref.file.parent_path(), uri);
-  const auto [at, is_new] = subtrees_.try_emplace(file.empty() ? fs::path(uri) : file);
+  const auto [at, is_new] = subtrees_.try_emplace({&tiling, file.empty() ? fs::path(uri) : file});
   if (!is_new) return at->second.get();
   std::optional<std::string> bytes = contents_.find(file).empty() ? std::nullopt : whole_file(files_, file);
   try {
@@ -275,7 +279,7 @@ bool TilePageWalk::show_within_depth(TileRef ref, std::uint32_t group, bool toge
   if (!passes_through || children.empty()) return own_complete && tilesets_complete;
   if (planned_.size() > together_limit) {
     for (const TileRef& child : children) add_page(group, {child, false}, place_of(child, tree));
-    return true;
+    return are_replaced || (own_complete && tilesets_complete);
   }
   bool complete = true;
   for (const TileRef& child : children) complete = show(child, group, true) && complete;
@@ -354,6 +358,9 @@ bool hand_on_pages(const fs::path& tileset, SceneFiles& files, MeshSink& sink, c
   const glm::dmat4 transform = root.transform == nullptr ? glm::dmat4(1.0) : *root.transform;
   const EarthPlace earth = place_on_earth(member(json, "root"), transform, tileset.string(), settings);
   TileRef ref{file, 0, {}, earth.to_scene, earth.to_scene};
+  // Without any error the finer tiles are always drawn.
+  const double error = number(member(json, "geometricError"), 0.0);
+  ref.error = error > 0.0 ? error : coordinate_limit;
   if (!root.volume.around(earth.to_scene * transform, earth.to_scene)) return false;
   for (const std::string& note : earth.notes) sink.report_note(note);
   if (earth.georeference) sink.report_georeference(*earth.georeference);
@@ -369,6 +376,7 @@ bool hand_on_pages(const fs::path& tileset, SceneFiles& files, MeshSink& sink, c
 }
 
 const TileTree& TileTrees::of(const fs::path& file, SceneFiles& files, MeshSink& sink) {
+  last_ = file;
   const auto known = trees_.find(file);
   if (known != trees_.end()) return known->second;
   TileTree tree = tree_of(tileset_json(file, files, sink), file);
@@ -378,8 +386,8 @@ const TileTree& TileTrees::of(const fs::path& file, SceneFiles& files, MeshSink&
 
 void TileTrees::shrink() {
   if (tiles_ <= tiles_kept) return;
-  trees_.clear();
-  tiles_ = 0;
+  std::erase_if(trees_, [this](const auto& tree) { return tree.first != last_; });
+  tiles_ = trees_.empty() ? 0 : trees_.begin()->second.tiles.size();
 }
 
 void read_tile_page(const TilePage& page, SceneFiles& files, MeshSink& sink, TileTrees& trees) {

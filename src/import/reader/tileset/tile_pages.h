@@ -30,11 +30,12 @@ class TileTrees {
  public:
   /// The tiles of a file. Throws roam::Error if it cannot be read. Stays valid until shrink().
   const TileTree& of(const std::filesystem::path& file, SceneFiles& files, MeshSink& sink);
-  /// Forgets all tilesets if there are too many tiles.
+  /// Forgets all tilesets but the last one if there are too many tiles.
   void shrink();
 
  private:
   std::map<std::filesystem::path, TileTree> trees_;
+  std::filesystem::path last_;
   std::size_t tiles_ = 0;
 };
 
