@@ -5,7 +5,7 @@
 #
 # The order is that of the picture: a folder may include from folders on lower lines. The table says of each public
 # header to which folder it belongs. Above the line of the core only src/store may open the core's own folders; all may include
-# src/motion/carrying.h. No other folder than bench includes from tests/made.
+# src/motion/carrying.h. No other folder than bench includes from tests/made and tests/support.
 set -euo pipefail
 
 check() {
@@ -71,7 +71,7 @@ check() {
       if (to == "") { fail(what ", which is nowhere"); next }
       if (from == to) next
       ++checked
-      if (from == "bench" && target ~ /^tests\/made\//) next
+      if (from == "bench" && target ~ /^tests\/(made|support)\//) next
       if (to == "tests" || rank[to] < rank[from]) wrong(from, to, what)
       else if (target ~ /^src\/(motion|world|index|sweep)\// && rank[from] < line && from !~ /^src\/store/ &&
                target != "src/motion/carrying.h") wrong(from, to, what)
