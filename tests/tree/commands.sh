@@ -52,6 +52,8 @@ with_stand_ins() {
   case $command in
     "roam make gallery -o gallery.ply") command+=" --triangles 50k" ;;
     "roam bench scale") command+=" --least 20k --triangles 50k" ;;
+    "roam bench labels "*.npy) command+=" --count 100" ;;
+    "roam bench labels "*) ;;
     bench_osg_intersectors*) command+=" --triangles 50k" ;;
     "roam bench "*)
       [[ $command == *--triangles* || $command == *--scene* ]] || command+=" --triangles 50k"
@@ -67,6 +69,7 @@ with_stand_ins() {
 # is_complete COMMAND: it names an input, and can be run.
 is_complete() {
   case $1 in
+    *" --judge "*) false ;;
     "roam make "*) [[ $1 == *" -o "* ]] ;;
     "roam help "* | "roam --version") true ;;
     "roam bench "* | bench_*" "*) true ;;
@@ -105,7 +108,7 @@ has_option() {
     for verb in ${verbs//|/ }; do help_of roam "$verb"; all_helps+=$help; done
     for verb in gallery terrain city; do help_of roam make "$verb"; all_helps+=$help; done
     help_of roam cluster slurm; all_helps+=$help
-    [[ ${ROAM_NO_BENCH:-} ]] || for verb in engines paper scale walkers; do help_of roam bench "$verb"; all_helps+=$help; done
+    [[ ${ROAM_NO_BENCH:-} ]] || for verb in engines labels paper scale walkers; do help_of roam bench "$verb"; all_helps+=$help; done
   fi
   grep -qE -- "(^|[ ,])$1\b" <<< "$all_helps"
 }
