@@ -264,6 +264,49 @@ struct Still {
   TestFolder folder;
 };
 
+/// Films a walk of half a metre. Returns all that is said.
+std::string film(const TestFolder& folder, const std::string& scene, const std::string& path,
+                 const std::vector<std::string>& more) {
+  std::vector<std::string> arguments{"300",        ROAM_PROGRAM,
+                                     "view",       scene,
+                                     "--headless", "--size",
+                                     "160x96",     "--json",
+                                     "--path",     folder.write("p.path", path),
+                                     "--record",   folder.file("film.mp4")};
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  const ProgramResult result = run_program("/usr/bin/timeout", arguments);
+  EXPECT_EQ(result.status, 0) << "124: it has no end. " << result.err;
+  return result.out;
+}
+
+TEST(ViewLevels, OfAFilmOverFullMemoryComeToAnEnd) {
+  const Still still;
+  const std::string scene = seen_from_far.write(still.folder.file("tiles")).string();
+  const std::string path = "20 -20 0.3\n20.5 -20 0.3\n";
+  const std::string said = film(still.folder, scene, path, {"--page-memory", "400K"});
+  EXPECT_TRUE(contains(said, "the picture is coarser than it could be")) << said;
+  const std::string finest = film(still.folder, scene, path, {"--page-memory", "800K", "--tile-error", "0"});
+  EXPECT_TRUE(contains(finest, "the picture is coarser than it could be")) << finest;
+  EXPECT_FALSE(contains(finest, "not in the picture")) << "fewer are enough: " << finest;
+}
+
+TEST(ViewLevels, ByDistanceThatDoNotFitAreSaid) {
+  const Still still;
+  const std::string floor =
+      "Geode {\nnum_drawables 1\nGeometry {\nPrimitives 1\n{\nDrawArrays QUADS 0 4\n}\nVertexArray Vec3Array 4\n{\n"
+      "-20 -20 0\n20 -20 0\n20 20 0\n-20 20 0\n}\n}\n}\n";
+  std::string root = "Group {\nnum_children 3\n";
+  for (const char* page : {"a.osg", "b.osg", "c.osg"}) {
+    still.folder.write(page, floor);
+    root += std::string("PagedLOD {\nCenter 0 0 0\nRadius 30\nRangeList 2 {\n1e+9 1e+10\n0 1e+9\n}\nFileNameList 2 ") +
+            "{\n\"\"\n\"" + page + "\"\n}\nnum_children 1\n" + floor + "}\n";
+  }
+  const std::string scene = still.folder.write("root.osg", root + "}\n");
+  const std::string said = film(still.folder, scene, "0 0 0.3\n0.5 0 0.3\n", {"--page-memory", "1"});
+  EXPECT_TRUE(contains(said, "some pages of the scene are not in the picture")) << said;
+  EXPECT_FALSE(contains(said, "coarser than it could be")) << said;
+}
+
 TEST(ViewLevels, LookFromNearLikeTheWholeScene) {
   const Still still;
   const TestFolder& folder = still.folder;

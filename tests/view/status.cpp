@@ -174,7 +174,12 @@ TEST(Thrift, GivesTheMedianOfSlowFramesOnly) {
     return last;
   };
   EXPECT_FALSE(block(16.0, 900.0)) << "stills and loading are slow";
+  EXPECT_FALSE(block(85.0, 1.0)) << "once may be another program's";
+  EXPECT_FALSE(block(16.0, 1.0));
+  EXPECT_FALSE(block(85.0, 1.0)) << "not in a row";
   EXPECT_EQ(block(84.0, 1.0), 84.0);
+  EXPECT_FALSE(block(85.0, 1.0)) << "of the next quality";
+  EXPECT_EQ(block(83.0, 1.0), 83.0);
   EXPECT_FALSE(block(0.9 * Thrift::slowest, 2.0));
 }
 

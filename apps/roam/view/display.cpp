@@ -85,10 +85,15 @@ void Display::tell_news() {
 void Display::tell_of_pages() {
   const std::vector<std::string> notes = scene_.pages().notes();
   for (; page_notes_told_ < notes.size(); ++page_notes_told_) news_.note(notes[page_notes_told_]);
-  if (scene_.pages().coarser() <= 1.0 || std::exchange(coarser_told_, true)) return;
+  const PageSource& pages = scene_.pages();
   constexpr double mib = 1024.0 * 1024.0;
-  news_.note(fmt::format("the picture is coarser than it could be: its pages fill {:.0f} MiB (--page-memory)",
-                         static_cast<double>(scene_.pages().bytes()) / mib));
+  const auto tell = [&](bool& told, const char* what) {
+    if (std::exchange(told, true)) return;
+    news_.note(
+        fmt::format("{}: its pages fill {:.0f} MiB (--page-memory)", what, static_cast<double>(pages.bytes()) / mib));
+  };
+  if (pages.coarser() > 1.0) tell(coarser_told_, "the picture is coarser than it could be");
+  if (pages.lacks()) tell(lack_told_, "some pages of the scene are not in the picture");
 }
 
 bool Display::is_due() const { return shown_at_ < 0.0 || stage_.now() - shown_at_ >= period; }

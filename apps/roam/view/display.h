@@ -77,7 +77,7 @@ class Display {
   bool display_told_ = false;
   std::uint64_t pages_told_ = 0;
   std::size_t page_notes_told_ = 0;
-  bool coarser_told_ = false;
+  bool coarser_told_ = false, lack_told_ = false;
 };
 
 }  // namespace roam::app

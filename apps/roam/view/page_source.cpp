@@ -28,6 +28,7 @@ constexpr double coarser_step = 1.2;     // factor, which takes half as many pag
 constexpr double coarser_seconds = 0.2;  // between two steps, for pages to be dropped
 constexpr double roomy = 0.5;            // share of the memory below which tiles become finer again,
 constexpr double calm = 5.0;             // s after the last step, or the last page that was refused
+constexpr int steady_frames = 6;         // without a refused page, until the next one is the first again
 
 /// Adds `bytes` to a shared sum while it exists.
 class Counted : public osg::Referenced {
@@ -73,6 +74,8 @@ std::string PageSource::problem() const {
 }
 
 osg::ref_ptr<osg::Group> PageSource::make(const DisplayPart& part, int depth) {
+  const auto is_by_error = [](const DisplayPages& pages) { return pages.measure == DisplayMeasure::error; };
+  if (std::any_of(part.pages.begin(), part.pages.end(), is_by_error)) by_error_ = true;
   return make_node(
       part, quality_, [&](const std::string& token) { return name_of(part, token, depth); }, *objects_, rules_);
 }
@@ -90,28 +93,49 @@ std::string PageSource::name_of(const DisplayPart& part, const std::string& toke
   return at->second;
 }
 
+bool PageSource::is_full() const {
+  return static_cast<double>(*memory_) > full * static_cast<double>(settings_.memory);
+}
+
 void PageSource::tend(double now) {
   const auto memory = static_cast<double>(settings_.memory), used = static_cast<double>(*memory_);
-  const bool is_full = used > full * memory;
+  const bool is_full = this->is_full();
   kept_seconds_ = is_full ? std::max(sooner * kept_seconds_, shortest_kept) : coarser_ > 1.0 ? calm : longest_kept;
   const bool drops = is_full || coarser_ > 1.0;
   rules_->drop_before = drops ? now - kept_seconds_ : -std::numeric_limits<double>::infinity();
   // Unseen pages must have had their time to go.
   if (kept_seconds_ > shortest_kept) changed_at_ = now;
-  if (refused_.exchange(false) && coarser_ < coarsest) {
-    refused_at_ = now;
-    ++events_;
-    if (now - changed_at_ > coarser_seconds) change(coarser_step, now);
+  if (refused_.exchange(false)) {
+    // Pages of the view before are still there when the first one is refused.
+    if (frames_since_refused_ > steady_frames) changed_at_ = now;
+    frames_since_refused_ = 0;
+    refuse(now);
   } else if (coarser_ > 1.0 && used < roomy * memory && now - refused_at_ > calm) {
     refused_at_ = now;
     change(1.0 / coarser_step, now);
+  } else {
+    ++frames_since_refused_;
+  }
+}
+
+/// After a page was refused. Counts an event only if more may come, so that who waits for an end finds one.
+void PageSource::refuse(double now) {
+  refused_at_ = now;
+  const bool waits = now - changed_at_ <= coarser_seconds, changes = by_error_ && coarser_ < coarsest;
+  if (waits || changes) ++events_;
+  if (waits) return;
+  if (changes) {
+    change(coarser_step, now);
+  } else {
+    lacks_ = true;
   }
 }
 
 void PageSource::change(double factor, double now) {
   coarser_ = std::clamp(factor * coarser_, 1.0, coarsest);
   changed_at_ = now;
-  rules_->allowed_error = coarser_ * settings_.allowed_error;
+  const double least = coarser_ > 1.0 && settings_.allowed_error <= 0.0 ? 1.0 : settings_.allowed_error;  // pixels
+  rules_->allowed_error = coarser_ * least;
 }
 
 osg::ref_ptr<osg::Node> PageSource::read(const std::string& name, const Page& page) {

@@ -28,7 +28,8 @@ struct PageSettings {
 /// OpenSceneGraph requests again in every frame. Thread-safe.
 ///
 /// Memory. Above nine tenths of the limit the pages that were not seen for longest are dropped, and above the limit no
-/// more are read. If all that is left is seen, tiles are drawn coarser by and by, until it fits.
+/// more are read. If all that is left is seen, tiles are drawn coarser by and by, until it fits. Levels that are not
+/// chosen by an error stay as they are: the rest is lacking.
 class PageSource : public osgDB::ReadFileCallback {
  public:
   /// `objects` receives the names of the scene's objects; not null.
@@ -43,8 +44,12 @@ class PageSource : public osgDB::ReadFileCallback {
   void tend(double now);
   /// Bytes of the pages in memory.
   [[nodiscard]] std::uint64_t bytes() const { return *memory_; }
+  /// Whether they are as many as make unseen ones go.
+  [[nodiscard]] bool is_full() const;
   /// How many times the allowed error is drawn, because more would not fit.
   [[nodiscard]] double coarser() const { return coarser_; }
+  /// Whether pages did not fit, though all that could be coarser was.
+  [[nodiscard]] bool lacks() const { return lacks_; }
   /// Ends every read at once, present and future ones.
   void cancel() { reader_.cancel(); }
 
@@ -84,6 +89,7 @@ class PageSource : public osgDB::ReadFileCallback {
   /// Throws roam::Error, or roam::Cancelled.
   osg::ref_ptr<osg::Node> read(const std::string& name, const Page& page);
   void note(const std::string& name, const DisplayPart& part);
+  void refuse(double now);
   void change(double factor, double now);
 
   PageReader reader_;
@@ -92,8 +98,11 @@ class PageSource : public osgDB::ReadFileCallback {
   PageSettings settings_;
   std::shared_ptr<PageRules> rules_;
   double kept_seconds_, coarser_ = 1.0, changed_at_ = 0.0, refused_at_ = 0.0;  ///< of the thread that draws
-  std::atomic<bool> refused_ = false;                                          ///< a page, since the last tend()
-  std::shared_ptr<std::atomic<std::uint64_t>> memory_;                         ///< bytes of the pages in memory
+  int frames_since_refused_ = 0;
+  bool lacks_ = false;
+  std::atomic<bool> by_error_ = false;                  ///< levels of some page
+  std::atomic<bool> refused_ = false;                   ///< a page, since the last tend()
+  std::shared_ptr<std::atomic<std::uint64_t>> memory_;  ///< bytes of the pages in memory
   mutable std::mutex mutex_;
   std::map<std::pair<std::uint32_t, std::string>, std::string> names_;  ///< by source and token
   std::map<std::string, Page> pages_;                                   ///< by name

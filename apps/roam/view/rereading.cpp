@@ -51,8 +51,7 @@ void Rereading::leave_out_ahead() {
     news_.tell("no object with a name is in the middle of the picture");
   } else if (arrival_.pager() != nullptr) {
     news_.tell("a store keeps its objects: build one with --ignore to leave some out");
-  } else if (const auto* world = dynamic_cast<const World*>(roamer_.space().get());
-             world != nullptr && world->stats().objects == 1) {
+  } else if (const auto world = arrival_.world(); world != nullptr && world->stats().objects == 1) {
     news_.tell("the scene has only this object");
   } else if (is_possible()) {
     leave_out(pattern_of(name));

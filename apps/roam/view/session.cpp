@@ -1,5 +1,7 @@
 #include "view/session.h"
 
+#include <algorithm>
+#include <chrono>
 #include <memory>
 #include <utility>
 
@@ -175,12 +177,18 @@ void Session::turn_around() {
 /// A film without a screen is made faster or slower than time goes by, so pages are waited for.
 void Session::load_pages_of_film() {
   if (!stage_.headless() || !stage_.is_filmed() || !runs() || !scene_.report() || !scene_.report()->paged) return;
+  // Over full memory, pages that take each other's place would come for ever.
+  constexpr auto longest_full = std::chrono::seconds(60);
+  auto full_at = std::chrono::steady_clock::time_point::max();
   stage_.hold_film(true);
   do {
     stop_if_interrupted();
+    // Pages grow old by the viewer's time.
+    stage_.viewer().advance(stage_.now());
     stage_.draw_if_seen(true);
     scene_.update();
-  } while (!scene_.is_complete());
+    if (scene_.pages().is_full()) full_at = std::min(full_at, std::chrono::steady_clock::now());
+  } while (!scene_.is_complete() && std::chrono::steady_clock::now() - longest_full < full_at);
   stage_.hold_film(false);
 }
 

@@ -8,13 +8,14 @@
 
 namespace roam::app {
 
-/// Judges the times of frames by their median, so that a few slow ones, such as those of stills, do not count.
+/// Judges the times of frames by their median, so that a few slow ones, such as those of stills, do not count; and only
+/// by two blocks in a row, because a short load of the machine is no reason to draw less.
 class Thrift {
  public:
   static constexpr double slowest = 1000.0 / 15.0;  ///< ms: at fewer than 15 pictures a second one does not walk well
   static constexpr std::size_t frames = 60;
 
-  /// After each block of so many frames: their median if it is above `slowest`. Else none.
+  /// After two blocks of so many frames: the median of the second if both medians are above `slowest`. Else none.
   [[nodiscard]] std::optional<double> take(double ms) {
     times_.push_back(ms);
     if (times_.size() < frames) return std::nullopt;
@@ -22,11 +23,14 @@ class Thrift {
     std::nth_element(times_.begin(), middle, times_.end());
     const double median = *middle;
     times_.clear();
-    return median > slowest ? std::optional(median) : std::nullopt;
+    const bool slow = median > slowest, twice = slow && was_slow_;
+    was_slow_ = slow && !twice;
+    return twice ? std::optional(median) : std::nullopt;
   }
 
  private:
   std::vector<double> times_;
+  bool was_slow_ = false;  ///< the block before
 };
 
 }  // namespace roam::app
