@@ -60,10 +60,7 @@ class Publisher {
       file.write(piece);
       tick(piece.size());
     }
-    const std::string written = file.commit_by_hash();
-    if (written != hash) {
-      remove_file(to_,
-                  std::string(split(name).first) + "/" + written + std::filesystem::path(name).extension().string());
+    if (!file.commit_if_hash_is(hash)) {
       throw Error::at(from_.name,
                       fmt::format("cannot publish {}: {} is damaged; `roam verify` says what is, and repairs "
                                   "it from the scene",
