@@ -128,4 +128,20 @@ TEST_F(Publish, AHostileUpstreamRemovesNothing) {
   EXPECT_EQ(all_bytes(*Store::open(to())), right);
 }
 
+TEST_F(Publish, AManifestThatChangesMeanwhileIsRefused) {
+  make(1);
+  const std::string file = roam::store::manifest_file(Store::open(from())->info().hash);
+  const support::Misbehaving server(folder_.path());
+  for (const std::string& upstream : {from().string(), server.address("good", "from")}) {
+    make(1);
+    EXPECT_THROW(static_cast<void>(roam::publish_store(upstream, to(),
+                                                       [&](auto, auto) {
+                                                         std::ofstream(from() / file) << "<html>Who are you?</html>";
+                                                         return true;
+                                                       })),
+                 roam::Error);
+    EXPECT_FALSE(fs::exists(to() / "CURRENT"));
+  }
+}
+
 }  // namespace
