@@ -193,4 +193,15 @@ TEST(DiskCache, NobodyWaitsForTheLock) {
   EXPECT_TRUE(is_there(cache, 2));
 }
 
+TEST(DiskCache, ZerosOfAPowerCutAreAnEmptyCache) {
+  const made::Folder folder("disk_cache_zeros");
+  const auto file = folder.path() / "cache";
+  static_cast<void>(DiskCache(file, 4 << 20));
+  std::filesystem::resize_file(file, 0);
+  std::filesystem::resize_file(file, 4 << 20);
+  DiskCache cache(file, 4 << 20);
+  cache.keep(key_of(1), content_of(1));
+  EXPECT_TRUE(is_there(cache, 1));
+}
+
 }  // namespace

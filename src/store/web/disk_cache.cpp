@@ -122,8 +122,10 @@ bool DiskCache::is_made(const std::filesystem::path& file, std::uint64_t bytes) 
   const Locked lock(file_.number());
   if (!lock) return false;
   if (read(header) && header.bytes == bytes) return true;
+  // A power cut may leave zeros at the start of a cache.
   std::array<std::byte, header_bytes> start{};
-  const bool is_empty = files::read_fully(file_.number(), 0, start) == 0;
+  static_cast<void>(files::read_fully(file_.number(), 0, start));
+  const bool is_empty = std::all_of(start.begin(), start.end(), [](std::byte b) { return b == std::byte{0}; });
   if (!is_empty && std::memcmp(start.data(), magic, sizeof magic) != 0) {
     throw Error(file.string(), "this is no cache, and would be overwritten; remove it, or name another file");
   }
