@@ -204,4 +204,16 @@ TEST(DiskCache, ZerosOfAPowerCutAreAnEmptyCache) {
   EXPECT_TRUE(is_there(cache, 1));
 }
 
+TEST(DiskCache, OthersMayNotWriteToIt) {
+  using std::filesystem::perms;
+  const made::Folder folder("disk_cache_rights");
+  const auto file = folder.path() / "cache";
+  for (const perms right : {perms::group_write, perms::others_write}) {
+    static_cast<void>(DiskCache(file, 4 << 20));
+    std::filesystem::permissions(file, perms(0600) | right);
+    EXPECT_THROW(DiskCache(file, 4 << 20), roam::Error);
+    std::filesystem::remove(file);
+  }
+}
+
 }  // namespace

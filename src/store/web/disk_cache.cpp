@@ -109,6 +109,9 @@ DiskCache::DiskCache(const std::filesystem::path& file, std::uint64_t bytes) {
   if (!S_ISREG(status.st_mode) || status.st_uid != ::geteuid() || status.st_nlink != 1) {
     throw Error(name, "this is no file of your own with one name; name another for the cache");
   }
+  if ((status.st_mode & (S_IWGRP | S_IWOTH)) != 0) {
+    throw Error(name, "others may write to this file; remove it, or name another for the cache");
+  }
   for (int i = 0; i < tries; ++i) {
     if (is_made(file, bytes)) return;
     std::this_thread::sleep_for(pause);

@@ -22,7 +22,7 @@ class DiskCache {
   static constexpr std::size_t key_bytes = 64;
 
   /// Opens the file, or makes it and its folder, for its owner alone. A file of another size becomes empty. Throws
-  /// roam::Error if it cannot be used, or `bytes` is less than least_bytes. If another
+  /// roam::Error if it cannot be used or others may write to it, or `bytes` is less than least_bytes. If another
   /// process holds the file's lock, a new cache or one of another size is not made: this object then keeps nothing.
   DiskCache(const std::filesystem::path& file, std::uint64_t bytes);
 
