@@ -8,6 +8,7 @@
 #include "environment_variable.h"
 #include "store/files.h"
 #include "store/opened.h"
+#include "store/web/disk_cache.h"
 #include "web_made.h"
 
 namespace {
@@ -332,6 +333,24 @@ TEST(WebStore, AHostileManifestLeavesNothingInTheCacheForTheRightOne) {
   static_cast<void>(server.requests());
   EXPECT_EQ(all_bytes(*opened(server.address("good"), web)), right);
   EXPECT_EQ(server.requests().size(), 1U) << "the right page is cached, too";
+}
+
+TEST(WebStore, AWrongEntryOfTheCacheIsRequestedAgain) {
+  const Served served("web_entry");
+  const support::Misbehaving server(served.root());
+  const WebAccess web = with_cache(served.folder.path() / "web.cache", 16 << 20);
+  const auto disk = Store::open(served.store());
+  const auto& state = disk->state();
+  const roam::store::PageRef& page = state.pages[0].ref;
+  const std::string what = fmt::format("{}/{} {} {} {:016x}", server.address("good"), state.packs[state.pages[0].shard],
+                                       page.offset, page.bytes, page.hash);
+  const std::string key = roam::store::sha256(std::as_bytes(std::span(what)));
+  roam::web::DiskCache cache(web.cache, web.cache_bytes);
+  cache.keep(key, std::vector<std::byte>(page.bytes));
+  EXPECT_EQ(all_bytes(*opened(server.address("good"), web)), all_bytes(*disk));
+  std::vector<std::byte> now(page.bytes);
+  ASSERT_TRUE(cache.find(key, now));
+  EXPECT_EQ(roam::store::xxh3(now), page.hash) << "overwritten";
 }
 
 }  // namespace
