@@ -23,13 +23,16 @@ class StoreBytes {
   /// Fills `out` with a file's bytes from `offset` on; the file is one such as "packs/<64 digits>.pack". Returns null,
   /// or the reason of the failure as a text of static lifetime. `stop` ends a read that waits for the network. Does not
   /// throw; a folder does not allocate from the second read of a file on. A pager treats an exception as a failure.
+  /// Caches are not used.
   [[nodiscard]] virtual const char* read(const std::string& file, std::uint64_t offset, std::span<std::byte> out,
                                          const std::stop_token& stop) = 0;
   [[nodiscard]] const char* read(const std::string& file, std::uint64_t offset, std::span<std::byte> out) {
     return read(file, offset, out, {});
   }
-  /// Called with bytes that were read and have the checksum that leads to them: a cache may keep them.
-  virtual void keep(const std::string& /*file*/, std::uint64_t /*offset*/, std::span<const std::byte> /*bytes*/) {}
+  /// read() of bytes that must have this XXH3, or a failure. They may come from a cache, and be kept there.
+  [[nodiscard]] virtual const char* read_checked(const std::string& file, std::uint64_t offset,
+                                                 std::span<std::byte> out, std::uint64_t hash,
+                                                 const std::stop_token& stop);
   /// Number of reads that are best made at once.
   [[nodiscard]] virtual int best_at_once() const { return 1; }
 };

@@ -131,6 +131,12 @@ std::string NewFile::commit_by_hash() {
   return digits;
 }
 
+bool NewFile::commit_if_hash_is(const std::string& digits) {
+  if (hash_.digits() != digits) return false;
+  commit_as(digits + fs::path(name_).extension().string());
+  return true;
+}
+
 void write_file(const Folder& store, const std::string& name, std::string_view text) {
   NewFile out(store, name);
   out.write(std::as_bytes(std::span(text)));

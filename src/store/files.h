@@ -58,6 +58,8 @@ class NewFile {
   /// Commits under a name made of the final path's folder, the SHA-256 and the final path's extension. Returns the
   /// digits.
   std::string commit_by_hash();
+  /// Commits as commit_by_hash if the SHA-256 is `digits`. Else returns false, and nothing is committed.
+  [[nodiscard]] bool commit_if_hash_is(const std::string& digits);
 
  private:
   void commit_as(const std::string& last);

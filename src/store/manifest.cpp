@@ -16,6 +16,8 @@ namespace {
 constexpr std::uint64_t current_limit = 4096;
 constexpr std::string_view current_start = "roam store ";
 constexpr const char* manifest_name = "the manifest";
+/// Versions published while a store is opened, each of which removes the one before.
+constexpr int most_versions = 10;
 constexpr const char* no_current = "it is none of a store";
 
 std::string text_of(const std::vector<std::byte>& content) {
@@ -97,7 +99,7 @@ Manifest read_manifest(StoreBytes& bytes, const std::string& store, std::string*
     }
   };
   std::string current = text_of(whole(current_file, current_limit, current_file));
-  for (;;) {
+  for (int versions = 1;; ++versions) {
     const std::string named = named_by(current, store);
     const std::string file = manifest_file(named);
     std::vector<std::byte> content;
@@ -107,6 +109,11 @@ Manifest read_manifest(StoreBytes& bytes, const std::string& store, std::string*
       // Another manifest may have been published since CURRENT was read, and this one removed.
       std::string now = text_of(whole(current_file, current_limit, current_file));
       if (now == current) throw;
+      if (versions == most_versions) {
+        throw Error::at(store, fmt::format("cannot open {}: its {} named {} manifests in turn, and none of them can be "
+                                           "read; open it again later",
+                                           store, current_file, versions));
+      }
       current = std::move(now);
       continue;
     }

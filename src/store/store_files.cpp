@@ -122,6 +122,12 @@ class Files : public StoreBytes {
 
 }  // namespace
 
+const char* StoreBytes::read_checked(const std::string& file, std::uint64_t offset, std::span<std::byte> out,
+                                     std::uint64_t hash, const std::stop_token& stop) {
+  if (const char* problem = read(file, offset, out, stop)) return problem;
+  return xxh3(out) == hash ? nullptr : "its checksum is wrong";
+}
+
 std::shared_ptr<StoreBytes> files_of(const Folder& folder) { return std::make_shared<Files>(folder); }
 
 }  // namespace roam::store

@@ -38,9 +38,8 @@ std::vector<std::byte> TileReader::read(std::uint64_t page, std::uint64_t offset
                                         std::uint64_t hash, const std::string& what) {
   std::vector<std::byte> content(static_cast<std::size_t>(bytes));
   const std::string& file = store_.packs[store_.pages[page].shard];
-  if (const char* problem = store_.bytes->read(file, offset, content)) refuse(store_, what + " in " + file, problem);
-  if (xxh3(content) != hash) refuse(store_, what + " in " + file, "its checksum is wrong");
-  store_.bytes->keep(file, offset, content);
+  const char* const problem = store_.bytes->read_checked(file, offset, content, hash, {});
+  if (problem) refuse(store_, what + " in " + file, problem);
   return content;
 }
 

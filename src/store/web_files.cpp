@@ -39,7 +39,7 @@ class WebFiles : public StoreBytes {
   std::vector<std::byte> whole(const std::string& file, std::uint64_t limit) override {
     demand_asked_for(file);
     const bool is_manifest = file.starts_with("manifests/");
-    const std::string key = is_manifest && cache_ ? key_of(file, 0, 0) : std::string();
+    const std::string key = is_manifest && cache_ ? key_of(file) : std::string();
     if (!key.empty()) {
       std::optional<std::vector<std::byte>> kept = cache_->find(key, limit);
       if (kept && is_named_for(file, *kept)) return std::move(*kept);
@@ -64,13 +64,21 @@ class WebFiles : public StoreBytes {
                    const std::stop_token& stop) override {
     demand_asked_for(file);
     if (out.empty()) return nullptr;
-    if (cache_ && cache_->find(key_of(file, offset, out.size()), out)) return nullptr;
     const web::Answer answer = server_.get({.file = file, .offset = offset, .out = out}, stop);
     return answer.missing ? gone : answer.problem;
   }
 
-  void keep(const std::string& file, std::uint64_t offset, std::span<const std::byte> bytes) override {
-    if (cache_) cache_->keep(key_of(file, offset, bytes.size()), bytes);
+  const char* read_checked(const std::string& file, std::uint64_t offset, std::span<std::byte> out, std::uint64_t hash,
+                           const std::stop_token& stop) override {
+    if (!cache_) return StoreBytes::read_checked(file, offset, out, hash, stop);
+    // With the hash: bytes that one manifest leads to are never those of another.
+    const std::string key = key_of(fmt::format("{} {} {} {:016x}", file, offset, out.size(), hash));
+    const bool is_kept = cache_->find(key, out) && xxh3(out) == hash;
+    if (!is_kept) {
+      if (const char* problem = StoreBytes::read_checked(file, offset, out, hash, stop)) return problem;
+    }
+    cache_->keep(key, out);
+    return nullptr;
   }
 
   [[nodiscard]] int best_at_once() const override { return requests_at_once; }
@@ -80,8 +88,8 @@ class WebFiles : public StoreBytes {
     if (!is_asked_for(file)) throw Error(name_, "a file that no store has is not asked for");
   }
   /// The address is part of it: the bytes of one server are never those of another.
-  [[nodiscard]] std::string key_of(const std::string& file, std::uint64_t offset, std::uint64_t size) const {
-    const std::string key = fmt::format("{}/{} {} {}", name_, file, offset, size);
+  [[nodiscard]] std::string key_of(const std::string& what) const {
+    const std::string key = name_ + "/" + what;
     return sha256(std::as_bytes(std::span(key)));
   }
   [[nodiscard]] static bool is_named_for(const std::string& file, std::span<const std::byte> bytes) {

@@ -150,6 +150,25 @@ TEST(Publish, WhileAnotherReadsLeadsItToTheNewOne) {
   EXPECT_NE(error_of([&] { (void)read_manifest(bytes, "s"); }), "");
 }
 
+TEST(Publish, ForEverEndsTheOpening) {
+  struct Endless : StoreBytes {
+    int reads = 0;
+    std::vector<std::byte> whole(const std::string& file, std::uint64_t) override {
+      if (file != "CURRENT" || ++reads > 1000) throw Error(file + " is not there");
+      const std::string text = "roam store 1\n" + sha256(std::as_bytes(std::span(&reads, 1))) + "\n";
+      const auto bytes = std::as_bytes(std::span(text));
+      return {bytes.begin(), bytes.end()};
+    }
+    const char* read(const std::string&, std::uint64_t, std::span<std::byte>,
+                     const std::stop_token& /*stop*/) override {
+      return "not asked for";
+    }
+  } bytes;
+  const std::string error = error_of([&] { (void)read_manifest(bytes, "s"); });
+  EXPECT_NE(error.find("open it again later"), std::string::npos) << error;
+  EXPECT_LE(bytes.reads, 12);
+}
+
 TEST(Publish, EveryFlippedBitOfWhatIsReadFirstIsRefused) {
   const TemporaryFolder folder;
   const std::string hash = publish(folder.path(), some_manifest());

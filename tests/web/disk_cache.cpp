@@ -2,8 +2,10 @@
 
 #include "store/web/disk_cache.h"
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <signal.h>
+#include <sys/file.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -166,6 +168,50 @@ TEST(DiskCache, ReadsNoDamagedEntry) {
     for (std::uint64_t n = 0; n < 20; ++n) static_cast<void>(is_there(cache, n));
     std::filesystem::resize_file(file, seed % 3 == 0 ? 100 : 4 << 20);
     for (std::uint64_t n = 0; n < 20; ++n) static_cast<void>(is_there(cache, n));
+    std::filesystem::remove(file);
+  }
+}
+
+TEST(DiskCache, NobodyWaitsForTheLock) {
+  const made::Folder folder("disk_cache_lock");
+  const auto file = folder.path() / "cache";
+  DiskCache cache(file, 4 << 20);
+  cache.keep(key_of(1), content_of(1));
+  const roam::files::Descriptor other(::open(file.c_str(), O_RDWR | O_CLOEXEC));
+  ASSERT_EQ(::flock(other.number(), LOCK_EX), 0);
+  const auto begin = std::chrono::steady_clock::now();
+  cache.keep(key_of(2), content_of(2));
+  EXPECT_FALSE(is_there(cache, 2));
+  DiskCache same(file, 4 << 20);
+  EXPECT_TRUE(is_there(same, 1));
+  DiskCache larger(file, 8 << 20);
+  larger.keep(key_of(1), content_of(1));
+  EXPECT_FALSE(is_there(larger, 1));
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(10));
+  ASSERT_EQ(::flock(other.number(), LOCK_UN), 0);
+  cache.keep(key_of(2), content_of(2));
+  EXPECT_TRUE(is_there(cache, 2));
+}
+
+TEST(DiskCache, ZerosOfAPowerCutAreAnEmptyCache) {
+  const made::Folder folder("disk_cache_zeros");
+  const auto file = folder.path() / "cache";
+  static_cast<void>(DiskCache(file, 4 << 20));
+  std::filesystem::resize_file(file, 0);
+  std::filesystem::resize_file(file, 4 << 20);
+  DiskCache cache(file, 4 << 20);
+  cache.keep(key_of(1), content_of(1));
+  EXPECT_TRUE(is_there(cache, 1));
+}
+
+TEST(DiskCache, OthersMayNotWriteToIt) {
+  using std::filesystem::perms;
+  const made::Folder folder("disk_cache_rights");
+  const auto file = folder.path() / "cache";
+  for (const perms right : {perms::group_write, perms::others_write}) {
+    static_cast<void>(DiskCache(file, 4 << 20));
+    std::filesystem::permissions(file, perms(0600) | right);
+    EXPECT_THROW(DiskCache(file, 4 << 20), roam::Error);
     std::filesystem::remove(file);
   }
 }

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "roam/store_build.h"
+#include "store/files.h"
 #include "store/opened.h"
 #include "web_made.h"
 
@@ -109,6 +110,38 @@ TEST_F(Publish, MirrorsAStoreOnAWebServer) {
       static_cast<void>(roam::publish_store(server.address("bits", "from"), folder_.path() / "bad", {}, patient(1.0))),
       roam::Error);
   EXPECT_FALSE(fs::exists(folder_.path() / "bad" / "CURRENT"));
+}
+
+TEST_F(Publish, AHostileUpstreamRemovesNothing) {
+  make(1);
+  static_cast<void>(roam::publish_store(from(), to()));
+  const std::string right = all_bytes(*Store::open(to()));
+  const auto before = packs();
+  // The pack in force, under the name of another.
+  roam::store::Manifest manifest = Store::open(from())->state().manifest;
+  const std::string other(64, 'a');
+  fs::rename(from() / roam::store::pack_file(manifest.shards[0].pack), from() / roam::store::pack_file(other));
+  manifest.shards[0].pack = other;
+  roam::store::publish(from(), manifest);
+  EXPECT_THROW(static_cast<void>(roam::publish_store(from(), to())), roam::Error);
+  EXPECT_EQ(packs(), before);
+  EXPECT_EQ(all_bytes(*Store::open(to())), right);
+}
+
+TEST_F(Publish, AManifestThatChangesMeanwhileIsRefused) {
+  make(1);
+  const std::string file = roam::store::manifest_file(Store::open(from())->info().hash);
+  const support::Misbehaving server(folder_.path());
+  for (const std::string& upstream : {from().string(), server.address("good", "from")}) {
+    make(1);
+    EXPECT_THROW(static_cast<void>(roam::publish_store(upstream, to(),
+                                                       [&](auto, auto) {
+                                                         std::ofstream(from() / file) << "<html>Who are you?</html>";
+                                                         return true;
+                                                       })),
+                 roam::Error);
+    EXPECT_FALSE(fs::exists(to() / "CURRENT"));
+  }
 }
 
 }  // namespace

@@ -6,7 +6,9 @@
 #include <map>
 
 #include "environment_variable.h"
+#include "store/files.h"
 #include "store/opened.h"
+#include "store/web/disk_cache.h"
 #include "web_made.h"
 
 namespace {
@@ -303,6 +305,52 @@ TEST(WebStore, WhatIsCachedIsNotRequestedAgain) {
   }
   EXPECT_EQ(all_bytes(*opened(server.address("good"), web)), right);
   EXPECT_GT(server.requests().size(), 2U);
+}
+
+TEST(WebStore, AHostileManifestLeavesNothingInTheCacheForTheRightOne) {
+  const Served served("web_planted");
+  const support::Misbehaving server(served.root());
+  const WebAccess web = with_cache(served.folder.path() / "web.cache", 16 << 20);
+  const std::string right = all_bytes(*Store::open(served.store()));
+  const auto genuine = roam::store::read_file(served.store(), "CURRENT", 4096);
+  // Another page in the same pack, with the checksum that a manifest of its own names.
+  roam::store::Manifest manifest = Store::open(served.store())->state().manifest;
+  roam::store::PageRef& page = manifest.shards[0].pages[0];
+  const auto pack = std::filesystem::path(served.store()) / roam::store::pack_file(manifest.shards[0].pack);
+  std::filesystem::copy_file(pack, served.folder.path() / "pack");
+  std::fstream file(pack, std::ios::in | std::ios::out | std::ios::binary);
+  std::string bytes(page.bytes, ' ');
+  file.seekg(static_cast<std::streamoff>(page.offset)).read(bytes.data(), page.bytes);
+  bytes.back() = static_cast<char>(bytes.back() ^ 1);  // in the mask of a tile
+  file.seekp(static_cast<std::streamoff>(page.offset)).write(bytes.data(), page.bytes);
+  file.close();
+  page.hash = roam::store::xxh3(std::as_bytes(std::span(bytes)));
+  roam::store::publish(served.store(), manifest);
+  EXPECT_EQ(all_bytes(*opened(server.address("good"), web)), right) << "only a mask differs";
+  std::filesystem::copy_file(served.folder.path() / "pack", pack, std::filesystem::copy_options::overwrite_existing);
+  roam::store::write_file(served.store(), "CURRENT", {reinterpret_cast<const char*>(genuine.data()), genuine.size()});
+  EXPECT_EQ(all_bytes(*opened(server.address("good"), web)), right);
+  static_cast<void>(server.requests());
+  EXPECT_EQ(all_bytes(*opened(server.address("good"), web)), right);
+  EXPECT_EQ(server.requests().size(), 1U) << "the right page is cached, too";
+}
+
+TEST(WebStore, AWrongEntryOfTheCacheIsRequestedAgain) {
+  const Served served("web_entry");
+  const support::Misbehaving server(served.root());
+  const WebAccess web = with_cache(served.folder.path() / "web.cache", 16 << 20);
+  const auto disk = Store::open(served.store());
+  const auto& state = disk->state();
+  const roam::store::PageRef& page = state.pages[0].ref;
+  const std::string what = fmt::format("{}/{} {} {} {:016x}", server.address("good"), state.packs[state.pages[0].shard],
+                                       page.offset, page.bytes, page.hash);
+  const std::string key = roam::store::sha256(std::as_bytes(std::span(what)));
+  roam::web::DiskCache cache(web.cache, web.cache_bytes);
+  cache.keep(key, std::vector<std::byte>(page.bytes));
+  EXPECT_EQ(all_bytes(*opened(server.address("good"), web)), all_bytes(*disk));
+  std::vector<std::byte> now(page.bytes);
+  ASSERT_TRUE(cache.find(key, now));
+  EXPECT_EQ(roam::store::xxh3(now), page.hash) << "overwritten";
 }
 
 }  // namespace

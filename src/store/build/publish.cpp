@@ -33,6 +33,12 @@ class Publisher {
     for (const PartInfo& part : from_.manifest.parts) copy(part_file(part.file), part.file, part.bytes);
     for (const ShardInfo& shard : from_.manifest.shards) copy(pack_file(shard.pack), shard.pack, shard.bytes);
     const std::vector<std::byte> manifest = from_.bytes->whole(manifest_file(done_.hash), Store::usual_memory);
+    // A second request may have another answer than the first, such as the page of a login.
+    if (sha256(manifest) != done_.hash) {
+      throw Error::at(from_.name, fmt::format("cannot publish {}: {} is not what it was when the store was opened; "
+                                              "publish again",
+                                              from_.name, manifest_file(done_.hash)));
+    }
     publish(to_, {reinterpret_cast<const char*>(manifest.data()), manifest.size()}, from_.manifest.format);
     return done_;
   }
@@ -60,10 +66,7 @@ class Publisher {
       file.write(piece);
       tick(piece.size());
     }
-    const std::string written = file.commit_by_hash();
-    if (written != hash) {
-      remove_file(to_,
-                  std::string(split(name).first) + "/" + written + std::filesystem::path(name).extension().string());
+    if (!file.commit_if_hash_is(hash)) {
       throw Error::at(from_.name,
                       fmt::format("cannot publish {}: {} is damaged; `roam verify` says what is, and repairs "
                                   "it from the scene",

@@ -134,13 +134,10 @@ const char* Loaders::read(const Work& work, std::span<std::byte> out, Outcome& o
   const std::uint64_t offset = work.entry ? work.entry->offset : page.ref.offset;
   const std::uint64_t hash = work.entry ? work.entry->hash : page.ref.hash;
   const auto begin = Clock::now();
-  const char* const problem = s.bytes->read(s.packs[page.shard], offset, out, ending_.get_token());
+  const char* const problem = s.bytes->read_checked(s.packs[page.shard], offset, out, hash, ending_.get_token());
   outcome.read_s = seconds_since(begin);
-  if (problem) return problem;
-  outcome.bytes = out.size();
-  if (store::xxh3(out) != hash) return "its checksum is wrong";
-  s.bytes->keep(s.packs[page.shard], offset, out);
-  return nullptr;
+  if (!problem) outcome.bytes = out.size();
+  return problem;
 }
 
 const char* Loaders::load_tile(const Work& work, Tools& tools, Outcome& outcome) const {

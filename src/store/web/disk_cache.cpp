@@ -10,8 +10,10 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <chrono>
 #include <cstring>
 #include <system_error>
+#include <thread>
 
 #include "files/file_error.h"
 #include "roam/error.h"
@@ -54,10 +56,14 @@ std::uint64_t check_of(std::string_view key, std::span<const std::byte> bytes) {
   return XXH3_64bits_withSeed(bytes.data(), bytes.size(), XXH3_64bits(key.data(), key.size()));
 }
 
-/// The lock of the file, against other processes.
+/// Waits for another process that opens the cache: tries, and pauses between them.
+constexpr int tries = 20;
+constexpr std::chrono::milliseconds pause{10};
+
+/// The lock of the file, against other processes. One that is stopped may hold it for ever, so that nobody waits.
 class Locked {
  public:
-  explicit Locked(int file) : file_(file), held_(again([&] { return ::flock(file, LOCK_EX); }) == 0) {}
+  explicit Locked(int file) : file_(file), held_(again([&] { return ::flock(file, LOCK_EX | LOCK_NB); }) == 0) {}
   ~Locked() {
     if (held_) ::flock(file_, LOCK_UN);
   }
@@ -103,12 +109,30 @@ DiskCache::DiskCache(const std::filesystem::path& file, std::uint64_t bytes) {
   if (!S_ISREG(status.st_mode) || status.st_uid != ::geteuid() || status.st_nlink != 1) {
     throw Error(name, "this is no file of your own with one name; name another for the cache");
   }
-  const Locked lock(file_.number());
-  Header header{};
-  if (read(header) && header.bytes == bytes) return;
-  if (status.st_size > 0 && std::memcmp(header.magic, magic, sizeof magic) != 0) {
-    throw Error(name, "this is no cache, and would be overwritten; remove it, or name another file");
+  if ((status.st_mode & (S_IWGRP | S_IWOTH)) != 0) {
+    throw Error(name, "others may write to this file; remove it, or name another for the cache");
   }
+  for (int i = 0; i < tries; ++i) {
+    if (is_made(file, bytes)) return;
+    std::this_thread::sleep_for(pause);
+  }
+  file_.close();
+}
+
+bool DiskCache::is_made(const std::filesystem::path& file, std::uint64_t bytes) const {
+  Header header{};
+  if (read(header) && header.bytes == bytes) return true;
+  const Locked lock(file_.number());
+  if (!lock) return false;
+  if (read(header) && header.bytes == bytes) return true;
+  // A power cut may leave zeros at the start of a cache.
+  std::array<std::byte, header_bytes> start{};
+  static_cast<void>(files::read_fully(file_.number(), 0, start));
+  const bool is_empty = std::all_of(start.begin(), start.end(), [](std::byte b) { return b == std::byte{0}; });
+  if (!is_empty && std::memcmp(start.data(), magic, sizeof magic) != 0) {
+    throw Error(file.string(), "this is no cache, and would be overwritten; remove it, or name another file");
+  }
+  header = {};
   std::memcpy(header.magic, magic, sizeof magic);
   header.bytes = bytes;
   header.buckets = std::max<std::uint64_t>(1, bytes / (bytes_a_slot * bucket_slots));
@@ -117,6 +141,7 @@ DiskCache::DiskCache(const std::filesystem::path& file, std::uint64_t bytes) {
       ::ftruncate(file_.number(), static_cast<off_t>(bytes)) != 0) {
     files::fail("write", file, errno);
   }
+  return true;
 }
 
 bool DiskCache::read(Header& header) const {

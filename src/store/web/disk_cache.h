@@ -22,7 +22,8 @@ class DiskCache {
   static constexpr std::size_t key_bytes = 64;
 
   /// Opens the file, or makes it and its folder, for its owner alone. A file of another size becomes empty. Throws
-  /// roam::Error if it cannot be used, or `bytes` is less than least_bytes.
+  /// roam::Error if it cannot be used or others may write to it, or `bytes` is less than least_bytes. If another
+  /// process holds the file's lock, a new cache or one of another size is not made: this object then keeps nothing.
   DiskCache(const std::filesystem::path& file, std::uint64_t bytes);
 
   // Keys have key_bytes characters. Any thread may call these. They throw nothing: an entry that cannot be read is not
@@ -38,6 +39,8 @@ class DiskCache {
  private:
   struct Header;
   struct Slot;
+  /// Makes the file a cache of this size unless it is one. False: its lock is held.
+  [[nodiscard]] bool is_made(const std::filesystem::path& file, std::uint64_t bytes) const;
   [[nodiscard]] bool read(Header& header) const;
   [[nodiscard]] bool read(const Header& header, std::string_view key, std::span<Slot> slots) const;
   [[nodiscard]] bool read(const Header& header, const Slot& slot, std::span<std::byte> out) const;
