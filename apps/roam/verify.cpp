@@ -91,7 +91,12 @@ std::string text_report(const VerifyOptions& options, const StoreVerification& f
                        short_count(static_cast<double>(found.bytes)), found.tiles,
                        origin.yours ? " by you" : "; by whom is not known: " + printable_part(origin.why_not));
   }
-  return damage_text(options, found) +
+  const std::string text = damage_text(options, found);
+  if (Store::is_address(options.store.native())) {
+    return text +
+           "tiles that are damaged are solid; verify and mend the store that was published, and publish it again\n";
+  }
+  return text +
          fmt::format("tiles that are damaged are solid; `roam verify {} --repair SCENE` mends the store\n", store);
 }
 

@@ -39,6 +39,16 @@
 namespace roam::app {
 namespace {
 
+/// The triangle in the scene; empty, after a note, if that part of a store cannot be read. A name costs no report.
+std::optional<SourceTriangle> source_of(const OpenScene& scene, TriangleId triangle) {
+  try {
+    return scene.source(triangle);
+  } catch (const Error& error) {
+    tell(std::string("note: ") + error.what());
+    return std::nullopt;
+  }
+}
+
 /// Records every step of a walk.
 class Recorder {
  public:
@@ -90,8 +100,8 @@ class Recorder {
     report.ducked = along_->ducked();
     if (report.mode != Mode::ghost) report.reach = reach_;
     if (!report.narrowest || scene.objects() <= 1) return;
-    report.left = scene.source(report.narrowest->left_triangle).object;
-    report.right = scene.source(report.narrowest->right_triangle).object;
+    if (const auto left = source_of(scene, report.narrowest->left_triangle)) report.left = left->object;
+    if (const auto right = source_of(scene, report.narrowest->right_triangle)) report.right = right->object;
   }
   [[nodiscard]] const verification::PieceLog& pieces() const { return pieces_; }
   [[nodiscard]] const draw::Record& record() const { return record_; }
@@ -324,10 +334,9 @@ ExitStatus walk(WalkOptions options) {
     const TriangleId triangle = report.result.blocked_at->triangle;
     if (report.result.outcome == Outcome::held) {
       report.object = scene.why_unknown(triangle);
-    } else {
-      const SourceTriangle source = scene.source(triangle);
-      report.object = source.object;
-      report.result.blocked_at->triangle = source.scene;
+    } else if (const auto source = source_of(scene, triangle)) {
+      report.object = source->object;
+      report.result.blocked_at->triangle = source->scene;
     }
   }
   recorder.describe(report, scene);

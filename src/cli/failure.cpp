@@ -4,13 +4,16 @@
 #include <nlohmann/json.hpp>
 #include <string_view>
 
+#include "text/web_address.h"
+
 namespace roam::app {
 
 Json failure_report(const Error& error) {
-  const std::string_view where = error.where();
-  return {
-      {"error",
-       {{"message", error.what()}, {"what", error.reason()}, {"where", where.empty() ? Json(nullptr) : Json(where)}}}};
+  const std::string where = without_secrets(error.where());
+  return {{"error",
+           {{"message", without_secrets(error.what())},
+            {"what", without_secrets(error.reason())},
+            {"where", where.empty() ? Json(nullptr) : Json(where)}}}};
 }
 
 void print_failure(const Error& error, std::span<const std::string> arguments) {

@@ -10,7 +10,8 @@
 
 namespace roam::app {
 
-/// {"error": {"message", "what", "where"}}: what(), reason() and where() of the error; null if it has no place.
+/// {"error": {"message", "what", "where"}}: what(), reason() and where() of the error; null if it has no place;
+/// without the secrets of addresses.
 [[nodiscard]] Json failure_report(const Error& error);
 
 /// Prints that object if the arguments, which may be wrong otherwise, want JSON and no report was printed.

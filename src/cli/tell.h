@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Sentences for people on standard error, made safe for terminals.
+/// Sentences for people on standard error, made safe for terminals, without the secrets of addresses.
 
 #include <string>
 #include <string_view>

@@ -26,7 +26,10 @@ bool triangles_in(const Store& store, const Box& box, std::size_t most, const st
     into.triangles.insert(into.triangles.end(), triangles.begin(), triangles.end());
   };
   try {
-    store.for_each_triangle(box, take, [&](const std::string& what) { into.missing.push_back(what); });
+    store.for_each_triangle(box, take, [&](const std::string& what) {
+      if (!goes_on()) throw Cancelled();
+      into.missing.push_back(what);
+    });
   } catch (const Enough&) {
     return false;
   }

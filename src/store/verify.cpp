@@ -15,11 +15,22 @@
 #include "store/held.h"
 #include "store/part_bytes.h"
 #include "store/tile_reader.h"
+#include "store/web/server.h"
 #include "store/web_files.h"
 
 namespace roam {
 namespace store {
 namespace {
+
+/// A failure of the network or the server: nothing is known of the file.
+struct NotReached : Error {
+  using Error::Error;
+};
+
+/// Whether a web server's answer tells that its file is not the one that was written.
+bool is_damage(std::string_view problem) {
+  return problem.find("404 or 410") != std::string_view::npos || problem == web::too_short;
+}
 
 class Verifier {
  public:
@@ -85,7 +96,10 @@ class Verifier {
     std::vector<std::byte> piece(std::min<std::uint64_t>(bytes, 1U << 20));
     for (std::uint64_t at = 0; at < bytes; at += piece.size()) {
       piece.resize(std::min<std::uint64_t>(bytes - at, piece.size()));
-      if (const char* problem = state_.bytes->read(file, at, piece)) throw Error(problem);
+      if (const char* const problem = state_.bytes->read(file, at, piece)) {
+        if (is_damage(problem)) throw Error(problem);
+        throw NotReached(store_->name(), "cannot be verified: " + file + ": " + problem);
+      }
       hash.add(piece);
       tick(piece.size());
     }
@@ -132,6 +146,8 @@ class Verifier {
         return false;
       };
       PartBytes(state_, part).visit(std::move(visitor));
+    } catch (const NotReached&) {
+      throw;
     } catch (const Error& error) {
       damage({file + " (" + part.name + ")", error.what(), Box{}});
     }
@@ -143,6 +159,8 @@ class Verifier {
     try {
       whole = hash_of(file, shard.bytes) == shard.pack;
       if (!whole) damage({file, "its SHA-256 is not its name", shard.bounds});
+    } catch (const NotReached&) {
+      throw;
     } catch (const Error& error) {
       damage({file, error.what(), shard.bounds});
       return;  // missing or unreadable

@@ -16,15 +16,34 @@ TEST(Address, KeepsItsQueryToItself) {
   EXPECT_EQ(address.of("CURRENT"), "https://host:81/a/dam.roam/CURRENT?key=value&b=%20");
   EXPECT_EQ(Address("http://host").of("CURRENT"), "http://host/CURRENT");
   EXPECT_TRUE(Address::is_one("http://host"));
+  EXPECT_TRUE(Address::is_one("HtTpS://host"));
+  EXPECT_EQ(Address("HTTPS://Host/A?b").of("CURRENT"), "https://Host/A/CURRENT?b");
+  EXPECT_EQ(Address("http://host/a?mail=me@host").query(), "mail=me@host");
   EXPECT_FALSE(Address::is_one("./http://host"));
   EXPECT_FALSE(Address::is_one("ftp://host"));
 }
 
 TEST(Address, RefusesWhatNoServerIsAskedFor) {
-  for (const char* text :
-       {"http://", "http:///a", "https://?a", "file:///etc/passwd", "http://me@host/a", "dam.roam", "http://host/a b",
-        "http://host/a\nb", "http://host/a#b", "http://host/a?b\r\nc: d", "http://host/\xc3\xa4", "http://host/a\\b"}) {
+  for (const char* text : {"http://", "http:///a", "https://?a", "file:///etc/passwd", "http://me@host/a", "dam.roam",
+                           "http://host/a b", "http://host/a\nb", "http://host/a#b", "http://host/a?b#c",
+                           "http://host/a@b", "http://host/a?b\r\nc: d", "http://host/\xc3\xa4", "http://host/a\\b"}) {
     EXPECT_THROW(static_cast<void>(Address(text)), roam::Error) << text;
+  }
+}
+
+TEST(Address, APasswordIsRefusedAndNotShown) {
+  for (const char* text : {"http://me:SECRET@host/a", "HTTP://me:SECRET@host/a", "http://me:SEC/RET@host/a",
+                           "http://me:SEC?RET@host/a", "http://me:SEC/RE?T@host/a?b", "http://SECRET@host/a?SEC@b"}) {
+    try {
+      static_cast<void>(Address(text));
+      ADD_FAILURE() << text;
+    } catch (const roam::Error& error) {
+      const std::string message = error.what();
+      EXPECT_EQ(message.find("SEC"), std::string::npos) << message;
+      EXPECT_EQ(message.find("RE"), std::string::npos) << message;
+      EXPECT_NE(message.find("://...@host/a: "), std::string::npos) << message;
+      EXPECT_NE(message.find(".netrc"), std::string::npos) << message;
+    }
   }
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <fstream>
+#include <future>
 #include <map>
 
 #include "environment_variable.h"
@@ -209,6 +210,15 @@ TEST(WebStore, ProxiesAndNetrcHoldAsForCurl) {
   static_cast<void>(server.requests());
   static_cast<void>(opened(server.address("good")));
   for (const std::string& request : server.requests()) EXPECT_TRUE(request.ends_with("Basic bWU6d29yZA==")) << request;
+  // The password of another host is not for who redirects there, nor for a line without encryption.
+  std::ofstream(served.folder.path() / ".netrc") << "default login me password word\n";
+  static_cast<void>(opened(server.address("all-elsewhere"), following(2.0)));
+  for (const std::string& request : server.requests()) {
+    EXPECT_EQ(request.find("/all-good/") == std::string::npos, request.ends_with("Basic bWU6d29yZA==")) << request;
+  }
+  const EnvironmentVariable through("http_proxy", proxy.c_str());
+  static_cast<void>(opened("http://name.invalid/good/x.roam"));
+  for (const std::string& request : server.requests()) EXPECT_FALSE(request.ends_with("d29yZA==")) << request;
 }
 
 TEST(WebStore, NothingOutsideOfItsFolderIsRequested) {
@@ -256,6 +266,38 @@ TEST(WebStore, APagerOfAStalledServerEndsAtOnce) {
     begin = std::chrono::steady_clock::now();
   }
   EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(2));
+}
+
+TEST(WebStore, WhoStopsTakesNoNeighbourWithHim) {
+  const Served served("web_stops");
+  const support::Misbehaving server(served.root());
+  const auto store = opened(server.address("stall"), patient(60.0));
+  const std::string pack = store->state().packs.front();
+  const auto read = [&](std::uint64_t offset, std::stop_token stop) {
+    return std::async(std::launch::async, [&store, &pack, offset, stop = std::move(stop)] {
+      std::vector<std::byte> out(100);
+      return store->state().bytes->read(pack, offset, out, stop);
+    });
+  };
+  std::stop_source first, second;
+  auto a = read(0, first.get_token()), b = read(100, second.get_token());
+  EXPECT_EQ(a.wait_for(std::chrono::milliseconds(300)), std::future_status::timeout);
+  first.request_stop();
+  EXPECT_EQ(a.wait_for(std::chrono::seconds(2)), std::future_status::ready);
+  EXPECT_EQ(b.wait_for(std::chrono::milliseconds(100)), std::future_status::timeout);
+  second.request_stop();
+  EXPECT_EQ(b.wait_for(std::chrono::seconds(2)), std::future_status::ready);
+}
+
+TEST(WebStore, AFailureOfTheServerIsNoDamage) {
+  const Served served("web_verified");
+  const support::Misbehaving server(served.root());
+  for (const char* mode : {"403", "503", "reset", "stall", "whole"}) {
+    EXPECT_THROW(static_cast<void>(roam::verify_store(server.address(mode), {}, patient(0.3))), roam::Error) << mode;
+  }
+  for (const char* mode : {"404", "416", "short", "bits"}) {
+    EXPECT_FALSE(roam::verify_store(server.address(mode), {}, patient(0.3)).whole()) << mode;
+  }
 }
 
 TEST(WebStore, AReplacedStoreGoesOnAsTheOldOneOrSaysSo) {

@@ -43,7 +43,9 @@ World part_of(const Store& store, const Box& box, const std::function<bool()>& g
                  [&](const Triangle& triangle) { return meet(box, box_around(triangle)); });
     if (mesh.triangles.size() + near.size() <= most_plan_triangles) store::append(mesh, near);
   };
-  store.for_each_triangle(box, take, [](const std::string&) {});
+  store.for_each_triangle(box, take, [&](const std::string&) {
+    if (!goes_on()) throw Cancelled();
+  });
   return World::build({&mesh, 1}, {.threads = 1});
 }
 

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "text/printable.h"
+#include "text/web_address.h"
 
 namespace roam::app {
 namespace {
@@ -37,7 +38,7 @@ void News::tell(std::string sentence, bool warning) {
 }
 
 void News::tell_as_is(const std::string& sentence, bool warning) {
-  std::string shown = printable(sentence, longest_sentence);
+  std::string shown = printable(without_secrets(sentence), longest_sentence);
   const double seconds = std::max(least_seconds, letter_seconds * static_cast<double>(shown.size()));
   items_.push_back({{std::move(shown), warning}, now_ + seconds});
   if (items_.size() > most_items) items_.erase(items_.begin());

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "roam/error.h"
+#include "text/web_address.h"
 
 namespace roam::web {
 namespace {
@@ -17,21 +18,22 @@ std::string_view without_scheme(std::string_view text) {
 
 }  // namespace
 
-bool Address::is_one(std::string_view text) { return text.starts_with(plain) || text.starts_with(secured); }
+bool Address::is_one(std::string_view text) { return scheme_size(text) > 0; }
 
 Address::Address(std::string_view text) {
-  const std::size_t question = std::min(text.find('?'), text.size());
-  shown_ = text.substr(0, question);
+  const std::size_t question = std::min(text.find('?'), text.size()), scheme = scheme_size(text);
+  shown_ = scheme == 0 ? "" : scheme == plain.size() ? plain : secured;
+  shown_ += text.substr(scheme, question - std::min(scheme, question));
   query_ = text.substr(std::min(question + 1, text.size()));
   const auto refuse = [&](const char* why) { throw Error(shown_, why); };
   const std::string_view rest = is_one(shown_) ? without_scheme(shown_) : std::string_view();
   const std::string_view host = rest.substr(0, std::min(rest.find('/'), rest.size()));
-  if (host.find('@') != std::string_view::npos) {
-    shown_ = std::string(plain) + "..." + std::string(host.substr(host.rfind('@')));
+  if (login_size(text.substr(scheme)) > 0) {
+    shown_ = without_secrets(text);
     refuse("an address with a name or a password is seen by others; keep them in ~/.netrc");
   }
   if (host.empty()) refuse("this is no address of a web server: write http://HOST/STORE or https://HOST/STORE");
-  if (shown_.find('#') != std::string::npos) refuse("an address of a store has no '#'; write %23 for it");
+  if (text.find('#') != std::string_view::npos) refuse("an address of a store has no '#'; write %23 for it");
   const auto cannot_be = [](char c) { return c <= ' ' || c >= 127 || c == '"' || c == '<' || c == '>' || c == '\\'; };
   if (std::any_of(shown_.begin(), shown_.end(), cannot_be) || std::any_of(query_.begin(), query_.end(), cannot_be)) {
     refuse("an address holds no blanks, quotes or letters beyond ASCII; write %20 for a blank");

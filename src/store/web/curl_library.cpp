@@ -2,6 +2,8 @@
 
 #include <dlfcn.h>
 
+#include <string>
+
 #include "roam/error.h"
 
 namespace roam::web {
@@ -27,6 +29,11 @@ Function* Curl::find(const char* name) {
 }
 
 Curl::Curl() {
+  const curl_version_info_data& version = *version_info(CURLVERSION_NOW);
+  if (version.version_num < 0x075500) {
+    throw Error(std::string("stores on web servers are read with libcurl 7.85 or later, and this is ") +
+                version.version + "; install a later one, or copy the store");
+  }
   if (global_init(CURL_GLOBAL_DEFAULT) != CURLE_OK) throw Error("libcurl cannot be started; copy the store");
 }
 

@@ -10,7 +10,7 @@ namespace roam::web {
 /// Functions of libcurl, without "curl_" in their names.
 class Curl {
  public:
-  /// Loads the library at the first call. Throws roam::Error if it is not installed.
+  /// Loads the library at the first call. Throws roam::Error if it is not installed, or too old.
   [[nodiscard]] static const Curl& library();
 
  private:
@@ -23,6 +23,7 @@ class Curl {
  public:
 #define ROAM_CURL(name) decltype(::curl_##name)* const name = find<decltype(::curl_##name)>("curl_" #name)
   ROAM_CURL(global_init);
+  ROAM_CURL(version_info);
   ROAM_CURL(slist_append);
   ROAM_CURL(slist_free_all);
   ROAM_CURL(easy_init);

@@ -28,6 +28,8 @@ constexpr double first_pause = 0.1, longest_pause = 5.0;
 constexpr int most_hops = 5;
 
 constexpr const char* stopped = "it is no longer wanted";
+constexpr const char* no_memory = "there is no memory left to read it";
+constexpr const char* not_started = "libcurl cannot start the request";
 
 std::chrono::nanoseconds seconds(double s) {
   return std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::duration<double>(s));
@@ -66,10 +68,9 @@ Server::~Server() {
   {
     const std::lock_guard lock(mutex_);
     end_ = true;
+    Curl::library().multi_wakeup(multi_);  // under the lock: the thread ends with it
   }
-  Curl::library().multi_wakeup(multi_);
   thread_.join();
-  Curl::library().multi_cleanup(multi_);
 }
 
 Answer Server::get(const Wanted& wanted, const std::stop_token& stop) {
@@ -89,7 +90,7 @@ void Server::run() noexcept {
     try {
       {
         const std::lock_guard lock(mutex_);
-        if (end_) return;
+        if (end_) break;
         std::size_t all = waiting_.size() + coming_.size();
         for (const auto& transfer : active_) all += transfer->jobs.size();
         waiting_.reserve(all);  // settle() needs no memory then
@@ -98,16 +99,18 @@ void Server::run() noexcept {
       }
       drop_stopped();
       start_all();
+      int running = 0;
+      curl.multi_perform(multi_, &running);
+      collect();
     } catch (const std::exception&) {
-      const Answer none{"there is no memory left to read it"};
+      const Answer none{no_memory};
       for (Job* job : waiting_) end(*job, none);
       waiting_.clear();
     }
-    int running = 0;
-    curl.multi_perform(multi_, &running);
-    collect();
     curl.multi_poll(multi_, nullptr, 0, pause(), nullptr);
   }
+  active_.clear();
+  curl.multi_cleanup(multi_);  // here, where signals are blocked
 }
 
 /// Milliseconds until there is something to do, unless the network or a caller has something before.
@@ -135,9 +138,17 @@ void Server::drop_stopped() {
     return true;
   });
   active_.remove_if([&](const std::unique_ptr<Transfer>& transfer) {
-    if (!std::all_of(transfer->jobs.begin(), transfer->jobs.end(), is_stopped)) return false;
+    if (std::none_of(transfer->jobs.begin(), transfer->jobs.end(), is_stopped)) return false;
     Curl::library().multi_remove_handle(multi_, transfer->handle);
-    for (Job* job : transfer->jobs) end(*job, {stopped});
+    for (Job* job : transfer->jobs) {
+      if (is_stopped(job)) {
+        end(*job, {stopped});
+      } else if (transfer->has_all(*job)) {
+        end(*job, {});
+      } else {
+        waiting_.push_back(job);
+      }
+    }
     return true;
   });
 }
@@ -179,8 +190,11 @@ void Server::start(std::vector<Job*>&& jobs) {
   const std::string address = address_.of(jobs.front()->wanted.file);
   const std::vector<Job*> started = jobs;
   active_.push_back(std::make_unique<Transfer>(std::move(jobs), address, manners_));
-  Curl::library().multi_add_handle(multi_, active_.back()->handle);
   std::erase_if(waiting_, [&](Job* job) { return std::find(started.begin(), started.end(), job) != started.end(); });
+  if (Curl::library().multi_add_handle(multi_, active_.back()->handle) != CURLM_OK) {
+    for (Job* job : started) end(*job, {not_started});
+    active_.pop_back();
+  }
 }
 
 void Server::collect() {
@@ -193,11 +207,18 @@ void Server::collect() {
         std::find_if(active_.begin(), active_.end(), [&](const auto& transfer) { return transfer->handle == handle; });
     Curl::library().multi_remove_handle(multi_, handle);
     if (at == active_.end()) continue;
-    if (settle(**at, result)) {
-      active_.erase(at);
-    } else {
-      Curl::library().multi_add_handle(multi_, handle);
+    bool is_over = true;
+    const char* problem = nullptr;
+    try {
+      is_over = settle(**at, result);
+      if (!is_over && Curl::library().multi_add_handle(multi_, handle) != CURLM_OK) problem = not_started;
+    } catch (const std::exception&) {
+      problem = no_memory;  // for its redirect: no job has ended
     }
+    if (problem) {
+      for (Job* job : (*at)->jobs) end(*job, {problem});
+    }
+    if (is_over || problem) active_.erase(at);
   }
 }
 
@@ -222,7 +243,8 @@ bool Server::settle(Transfer& transfer, int code) {
     }
     const double share = std::uniform_real_distribution<>(0.5, 1.0)(random_);
     const double own = std::min(longest_pause, first_pause * static_cast<double>(1U << std::min(job->tries, 10)));
-    job->next = now + seconds(std::max(share * own, transfer.wished_pause()));
+    job->wished = std::max(job->wished, now + seconds(transfer.wished_pause()));
+    job->next = std::max(now + seconds(share * own), job->wished);
     ++job->tries;
     if (!transfer.may_pass(result) || job->next > job->begin + seconds(manners_.patience)) {
       end(*job, answer);

@@ -36,6 +36,9 @@ struct Answer {
   bool too_large = false;  ///< the file is larger than the limit
 };
 
+/// The problem of a range beyond the file's end.
+inline constexpr const char* too_short = "the file is shorter than the manifest says";
+
 /// A file to get, or a range of one.
 struct Wanted {
   std::string file;                         ///< e.g. "packs/<64 digits>.pack"
@@ -51,6 +54,7 @@ struct Job {
   const Wanted& wanted;
   const std::stop_token& stop;
   Clock::time_point begin = Clock::now(), next = begin;  ///< of the next try
+  Clock::time_point wished{};                            ///< by the server: no try before
   int tries = 0;
   Answer answer{};
   bool done = false;

@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "roam/version.h"
+#include "text/web_address.h"
 
 namespace roam::web {
 namespace {
@@ -27,7 +28,6 @@ constexpr const char* no_ranges =
     "the web server ignores ranges and sends the whole file; use one that serves ranges, as nginx does";
 constexpr const char* wrong_range = "the web server sends another range than the one it was asked for";
 constexpr const char* too_much = "the web server sends more bytes than it says";
-constexpr const char* too_short = "the file is shorter than the manifest says";
 constexpr const char* larger = "it is larger than any file of its kind";
 constexpr const char* no_memory = "there is no memory left to read it";
 constexpr const char* broken = "the connection to the web server broke";
@@ -105,6 +105,18 @@ bool same_name(std::string_view a, std::string_view lower) {
          });
 }
 
+/// "host:port" of an address.
+std::string_view host_of(std::string_view address) {
+  const std::string_view rest = address.substr(scheme_size(address));
+  return rest.substr(0, rest.find_first_of("/?"));
+}
+
+bool is_loopback(std::string_view host) {
+  const std::string_view name = host.starts_with('[') ? host.substr(0, host.find(']')) : host.substr(0, host.find(':'));
+  const bool is_number = name.find_first_not_of("0123456789.") == std::string_view::npos;
+  return name == "localhost" || name == "[::1" || (is_number && name.starts_with("127."));
+}
+
 /// A number at the start of a text, which then loses it. False if there is none.
 bool number(std::string_view& text, std::uint64_t& value) {
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
@@ -138,7 +150,10 @@ void Transfer::prepare() {
   set(CURLOPT_PROTOCOLS_STR, "http,https");
   set(CURLOPT_FOLLOWLOCATION, 0L);
   set(CURLOPT_USERAGENT, "roam/" ROAM_VERSION_STRING);
-  set(CURLOPT_NETRC, long{CURL_NETRC_OPTIONAL});
+  set_login();
+#if LIBCURL_VERSION_NUM >= 0x075700
+  set(CURLOPT_QUICK_EXIT, 1L);  // no end waits for the look-up of a name
+#endif
   set(CURLOPT_NOSIGNAL, 1L);
   set(CURLOPT_PIPEWAIT, 1L);
   set(CURLOPT_SUPPRESS_CONNECT_HEADERS, 1L);
@@ -160,9 +175,17 @@ void Transfer::prepare() {
   }
 }
 
+/// Passwords are for the first host alone, and for no line where others read along.
+void Transfer::set_login() {
+  const bool may = !is_elsewhere_ && (address.starts_with("https:") || is_loopback(host_of(address)));
+  set(CURLOPT_NETRC, long{may ? CURL_NETRC_OPTIONAL : CURL_NETRC_IGNORED});
+}
+
 void Transfer::redirect(const std::string& to) {
+  is_elsewhere_ = is_elsewhere_ || host_of(to) != host_of(address);
   address = to;
   ++hops;
+  set_login();
   set(CURLOPT_URL, address.c_str());
 }
 
@@ -214,7 +237,8 @@ bool Transfer::headers_end() {
     if (!problem_) {
       try {
         jobs.front()->wanted.whole->clear();
-        jobs.front()->wanted.whole->reserve(length_);
+        // Memory that is not written to is none: growth would take the old and the new at once.
+        jobs.front()->wanted.whole->reserve(length_ > 0 ? length_ : jobs.front()->wanted.limit);
       } catch (const std::exception&) {
         problem_ = no_memory;
       }

@@ -40,6 +40,7 @@ class Transfer {
   static std::size_t take_body(char* bytes, std::size_t one, std::size_t size, void* self) noexcept;
   static int keep_from_children(void* self, curl_socket_t socket, curlsocktype type) noexcept;
   void prepare();
+  void set_login();
   void header(std::string_view line);
   [[nodiscard]] bool headers_end();
   [[nodiscard]] bool body(std::span<const std::byte> bytes);
@@ -51,7 +52,8 @@ class Transfer {
   [[nodiscard]] bool is_cut() const { return has_range_ && received_ <= range_last_ - range_first_; }
 
   Manners manners_;
-  const bool is_whole_;  ///< not a range; asking the jobs would be too late once one has ended
+  const bool is_whole_;        ///< not a range; asking the jobs would be too late once one has ended
+  bool is_elsewhere_ = false;  ///< redirected to another host
   std::string range_;
   curl_slist* headers_ = nullptr;
   std::uint64_t first_ = 0, size_ = 0;  ///< the range of all jobs

@@ -1,0 +1,21 @@
+#pragma once
+/// \file
+/// Addresses of web servers in text, whose secrets are not shown.
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+
+namespace roam {
+
+/// The size of "http://" or "https://" at the start of a text, in any case; 0: none.
+[[nodiscard]] std::size_t scheme_size(std::string_view text);
+
+/// The size of a name and a password, with the @, at the start of an address behind its scheme; 0: none.
+[[nodiscard]] std::size_t login_size(std::string_view address);
+
+/// The text with every address in it cut at its question mark, and without a name and a password. An address ends at
+/// the next blank; one whose slashes became one, as in a path, counts too.
+[[nodiscard]] std::string without_secrets(std::string_view text);
+
+}  // namespace roam
