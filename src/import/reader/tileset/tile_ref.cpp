@@ -10,7 +10,7 @@ namespace {
 
 /// The first text of a token. Those of OpenSceneGraph's pages begin with an absolute path.
 constexpr std::string_view own_page = "tile", page_of_children = "children";
-constexpr std::uint8_t most_levels = 60;
+constexpr std::uint8_t most_token_levels = 60;
 
 void add(PayloadWriter& to, const glm::dmat4& matrix) {
   for (int i = 0; i < 16; ++i) to.add(matrix[i / 4][i % 4]);
@@ -54,7 +54,7 @@ std::optional<TilePage> tile_page_of(std::string_view token) {
   for (std::uint64_t* value : {&implicit.level, &implicit.x, &implicit.y, &implicit.z}) {
     *value = from.take<std::uint64_t>();
   }
-  if (implicit.level > most_levels) return std::nullopt;
+  if (implicit.level > most_token_levels) return std::nullopt;
   if (is_implicit) tile.implicit = implicit;
   tile.above = take_matrix(from);
   tile.earth = take_matrix(from);
