@@ -11,6 +11,7 @@
 #include "build/steps.h"
 #include "cli/exit_status.h"
 #include "cli/interrupt.h"
+#include "cli/output_file.h"
 #include "cli/report.h"
 #include "cli/tell.h"
 #include "cli/values.h"
@@ -235,6 +236,7 @@ void check_usage(const BuildVerb& verb) {
 }
 
 ExitStatus build(BuildVerb verb) {
+  demand_no_address("-o", verb.output);
   check_usage(verb);
   take_kept_frame(verb.scene);
   if (verb.output.empty()) {

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/exit_status.h"
+#include "cli/output_file.h"
 #include "cli/progress.h"
 #include "cli/report.h"
 #include "cli/tell.h"
@@ -82,6 +83,7 @@ std::string text_report(const PublishOptions& options, const StorePublication& p
 }
 
 ExitStatus publish(const PublishOptions& options) {
+  demand_no_address("DIR", options.folder);
   if (options.nginx) demand_plain_name(options.folder);
   StorePublication published;
   {

@@ -8,6 +8,7 @@
 
 #include "cli/exit_status.h"
 #include "cli/standard_streams.h"
+#include "text/web_address.h"
 
 namespace roam::app {
 
@@ -24,11 +25,18 @@ std::optional<Obstacle> obstacle(const std::filesystem::path& file) {
                   "name a file elsewhere"};
 }
 
+void demand_no_address(const std::string& option, const std::filesystem::path& output) {
+  if (scheme_size(output.native()) == 0) return;
+  throw UsageError(
+      Error(option + " " + output.string(), "a web server cannot be written to; name a place on the disk"));
+}
+
 void check_output(std::span<const std::filesystem::path> scenes, const std::string& option,
                   const std::filesystem::path& file) {
   namespace fs = std::filesystem;
   if (file.empty()) throw UsageError(option, "a file needs a name");
   if (is_standard(file)) throw UsageError(option + " -", "standard output takes paths and traces only; name a file");
+  demand_no_address(option, file);
   const std::string where = option + " " + file.string();
   std::error_code none;
   for (const fs::path& scene : scenes) {

@@ -19,8 +19,11 @@ struct Obstacle {
 /// None if nothing prevents writing `file`, which must have a name.
 [[nodiscard]] std::optional<Obstacle> obstacle(const std::filesystem::path& file);
 
-/// Throws UsageError, naming the option, for a file that cannot be written: one without a name, a folder, one of the
-/// scenes, or one in a folder that does not exist or is not writable.
+/// Throws UsageError, naming the option, for the address of a web server.
+void demand_no_address(const std::string& option, const std::filesystem::path& output);
+
+/// Throws UsageError, naming the option, for a file that cannot be written: one without a name, an address, a folder,
+/// one of the scenes, or one in a folder that does not exist or is not writable.
 void check_output(std::span<const std::filesystem::path> scenes, const std::string& option,
                   const std::filesystem::path& file);
 

@@ -99,8 +99,11 @@ std::vector<std::string> SceneOptions::arguments() const {
   if (!through_link) words.emplace_back("--no-scene-link");
   if (threads > 0) words.push_back(fmt::format("--threads={}", threads));
   if (memory) words.push_back(fmt::format("--memory={}", *memory));
-  if (!web.cache.empty()) words.push_back(fmt::format("--cache={}", web.cache_bytes));
-  if (web.redirects) words.emplace_back("--redirects");
+  // Verbs that read no address do not know these.
+  if (std::any_of(scenes.begin(), scenes.end(), [](const auto& scene) { return Store::is_address(scene.native()); })) {
+    if (!web.cache.empty()) words.push_back(fmt::format("--cache={}", web.cache_bytes));
+    if (web.redirects) words.emplace_back("--redirects");
+  }
   words.emplace_back("--");
   for (const auto& scene : scenes) {
     words.push_back(scene.string());

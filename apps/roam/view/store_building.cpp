@@ -51,6 +51,9 @@ void StoreBuilding::toggle(const Pager* used, const Vec3& place, std::uint64_t t
     news_.tell(fmt::format("the scene of {} is not known: nothing can be built", what_.store.string()));
   } else if (used != nullptr && !is_stale_) {
     news_.tell(fmt::format("{} is of this very scene: there is nothing to build", used->store().name()));
+  } else if (Store::is_address(what_.store.native())) {
+    news_.tell(
+        fmt::format("{} is on a web server: `roam build` and `roam publish` make it anew", what_.store.string()));
   } else if (!build_wish_.confirms(news_.now())) {
     ask(triangles);
   } else {

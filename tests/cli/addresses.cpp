@@ -1,0 +1,46 @@
+// Addresses of web servers: their secrets are in no message, and nothing is written to them.
+
+#include <gtest/gtest.h>
+
+#include "program.h"
+
+namespace {
+
+TEST(Addresses, NoMessageHoldsASecret) {
+  const TestFolder folder;
+  const std::string file = folder.write("a.ply", "ply\n"), place = "://127.0.0.1:1/a";
+  for (const std::string scheme : {"http", "HTTP", "https"}) {
+    const std::string address = scheme + place + "?sig=SECRET", login = scheme + "://me:SEC/RET@127.0.0.1:1/a";
+    for (const std::vector<std::string>& arguments :
+         std::vector<std::vector<std::string>>{{"info", address},
+                                               {"info", login},
+                                               {"info", address, "--json"},
+                                               {"publish", file, address},
+                                               {"build", address},
+                                               {"build", login},
+                                               {"build", file, "-o", address},
+                                               {"check", file, address},
+                                               {"walk", file, "--path", file, "--against", address},
+                                               {"verify", file, address}}) {
+      const ProgramResult told = run_program(ROAM_PROGRAM, arguments);
+      EXPECT_NE(told.status, 0) << arguments[0];
+      for (const std::string& text : {told.out, told.err}) {
+        EXPECT_EQ(text.find("SECRET"), std::string::npos) << text;
+        EXPECT_EQ(text.find("SEC/RET"), std::string::npos) << text;
+      }
+    }
+  }
+}
+
+TEST(Addresses, NothingIsWrittenToThem) {
+  const TestFolder folder;
+  const std::string file = folder.write("a.ply", "ply\n");
+  for (const std::vector<std::string>& arguments : std::vector<std::vector<std::string>>{
+           {"build", file, "-o", "http://127.0.0.1:1/a.roam"}, {"publish", file, "HTTP://127.0.0.1:1/a.roam"}}) {
+    const ProgramResult told = run_program(ROAM_PROGRAM, arguments);
+    EXPECT_EQ(told.status, 2) << told.err;
+    EXPECT_NE(told.err.find("a web server cannot be written to"), std::string::npos) << told.err;
+  }
+}
+
+}  // namespace
