@@ -17,7 +17,7 @@ using Clock = std::chrono::steady_clock;
 using Arguments = std::vector<std::string>;
 
 /// A second and, for a machine that is busy, more.
-constexpr double soon = 3.0;
+constexpr double soon = 6.0;
 
 double since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
