@@ -28,10 +28,11 @@ constexpr std::uint64_t at_a_time = 32;
 /// Bytes of the file before its header's text.
 constexpr std::size_t before_text = 10;
 
-/// Whether the body is free up to `time`.
-bool is_free(const LabelledSweep& s, double time) {
-  return oracle::least_distance<Quad>(s.body(), s.start(), s.way(), time, s.corners()) >= Quad(s.radius);
+/// Metres. The least gap up to `time`; less than 0 if the body is not free until then.
+Quad gap_until(const LabelledSweep& s, double time) {
+  return oracle::least_distance<Quad>(s.body(), s.start(), s.way(), time, s.corners()) - Quad(s.radius);
 }
+bool is_free(const LabelledSweep& s, double time) { return gap_until(s, time) >= 0; }
 
 /// The greatest double up to which the body is free. It is at time 0 and not at time 1; `guess` is any time.
 double last_free_time(const LabelledSweep& s, double guess) {
@@ -138,8 +139,9 @@ Triangle LabelledSweep::corners() const {
 std::string kind_name(int kind) { return adversarial::name(adversarial::kinds[kind]); }
 
 void label(LabelledSweep& s) {
-  s.gap = double(oracle::least_distance<Quad>(s.body(), s.start(), s.way(), 1.0, s.corners()) - Quad(s.radius));
-  s.hit = is_free(s, 1.0) ? 0 : 1;
+  const Quad gap = gap_until(s, 1.0);
+  s.gap = double(gap);
+  s.hit = gap < 0 ? 1 : 0;
   if (s.hit == 0) return;
   s.time = 0.0;
   if (!is_free(s, 0.0)) return;
