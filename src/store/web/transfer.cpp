@@ -69,34 +69,36 @@ const char* meaning(long status, bool is_signed) {
   }
 }
 
-const char* meaning(CURLcode code) {
-  switch (code) {
-    case CURLE_COULDNT_RESOLVE_PROXY:
-      return "the proxy's name is not known; check http_proxy and https_proxy";
-    case CURLE_COULDNT_RESOLVE_HOST:
-      return "the web server's name is not known, or there is no network";
-    case CURLE_COULDNT_CONNECT:
-      return "there is no connection to the web server";
-    case CURLE_OPERATION_TIMEDOUT:
-      return "the web server does not answer, or too slowly";
-    case CURLE_PARTIAL_FILE:
-    case CURLE_GOT_NOTHING:
-    case CURLE_RECV_ERROR:
-    case CURLE_SEND_ERROR:
-    case CURLE_HTTP2:
-    case CURLE_HTTP2_STREAM:
-      return broken;
-    case CURLE_PEER_FAILED_VERIFICATION:
-      return "the web server's certificate is not one of this server, or of nobody whom this system trusts";
-    case CURLE_SSL_CONNECT_ERROR:
-      return "there is no encrypted connection to the web server";
-    case CURLE_SSL_CACERT_BADFILE:
-      return "this system's certificates cannot be read; check CURL_CA_BUNDLE and SSL_CERT_FILE";
-    case CURLE_OUT_OF_MEMORY:
-      return no_memory;
-    default:
-      return "the web server's answer is no HTTP";
+/// A failure of libcurl. One that may pass is tried again.
+struct Failure {
+  CURLcode code;
+  const char* meaning;
+  bool may_pass;
+};
+constexpr Failure failures[] = {
+    {CURLE_COULDNT_RESOLVE_PROXY, "the proxy's name is not known; check http_proxy and https_proxy", false},
+    {CURLE_COULDNT_RESOLVE_HOST, "the web server's name is not known, or there is no network", true},
+    {CURLE_COULDNT_CONNECT, "there is no connection to the web server", true},
+    {CURLE_OPERATION_TIMEDOUT, "the web server does not answer, or too slowly", true},
+    {CURLE_PARTIAL_FILE, broken, true},
+    {CURLE_GOT_NOTHING, broken, true},
+    {CURLE_RECV_ERROR, broken, true},
+    {CURLE_SEND_ERROR, broken, true},
+    {CURLE_HTTP2, broken, true},
+    {CURLE_HTTP2_STREAM, broken, true},
+    {CURLE_PEER_FAILED_VERIFICATION,
+     "the web server's certificate is not one of this server, or of nobody whom this system trusts", false},
+    {CURLE_SSL_CONNECT_ERROR, "there is no encrypted connection to the web server", true},
+    {CURLE_SSL_CACERT_BADFILE, "this system's certificates cannot be read; check CURL_CA_BUNDLE and SSL_CERT_FILE",
+     false},
+    {CURLE_OUT_OF_MEMORY, no_memory, false},
+};
+
+Failure failure_of(CURLcode code) {
+  for (const Failure& failure : failures) {
+    if (failure.code == code) return failure;
   }
+  return {code, "the web server's answer is no HTTP", false};
 }
 
 bool same_name(std::string_view a, std::string_view lower) {
@@ -299,7 +301,7 @@ std::string Transfer::redirected() const {
 
 Answer Transfer::answer(CURLcode result) const {
   if (problem_) return {problem_, false, too_large_};
-  if (result != CURLE_OK && (status_ < 300 || result != CURLE_WRITE_ERROR)) return {meaning(result)};
+  if (result != CURLE_OK && (status_ < 300 || result != CURLE_WRITE_ERROR)) return {failure_of(result).meaning};
   if (is_redirect(status_)) {
     return {manners_.redirects ? "the web server redirects too often, or to an address without encryption"
                                : "the web server redirects to another address; --redirects follows it"};
@@ -325,21 +327,7 @@ bool Transfer::may_pass(CURLcode result) const {
     default:
       break;
   }
-  switch (result) {
-    case CURLE_COULDNT_RESOLVE_HOST:
-    case CURLE_COULDNT_CONNECT:
-    case CURLE_OPERATION_TIMEDOUT:
-    case CURLE_PARTIAL_FILE:
-    case CURLE_GOT_NOTHING:
-    case CURLE_RECV_ERROR:
-    case CURLE_SEND_ERROR:
-    case CURLE_HTTP2:
-    case CURLE_HTTP2_STREAM:
-    case CURLE_SSL_CONNECT_ERROR:
-      return true;
-    default:
-      return false;
-  }
+  return failure_of(result).may_pass;
 }
 
 double Transfer::wished_pause() const {
