@@ -42,29 +42,6 @@ std::string paged(const std::string& coarse, const std::vector<std::string>& fil
   return "PagedLOD {\nCenter 1 2 3\nRadius 10\n" + ranges + "}\n" + names + "}\nnum_children 1\n" + coarse + "}\n";
 }
 
-/// The pages of a scene, read as they are named.
-struct Paging {
-  explicit Paging(const fs::path& file, const ImportOptions& options = {}) : reader({file}, options) {
-    const Shown shown = show({file}, options);
-    report = shown.report;
-    if (shown.pages().size() != 1) throw std::runtime_error("the scene is not paged");
-    root = reader.read(0, report.origin, shown.pages()[0]->levels.at(0).page);
-  }
-  DisplayPart page(const DisplayLevel& level) { return reader.read(0, report.origin, level.page); }
-  std::string error(const DisplayLevel& level) {
-    try {
-      static_cast<void>(page(level));
-      return "";
-    } catch (const Error& error) {
-      return error.what();
-    }
-  }
-
-  PageReader reader;
-  DisplayReport report;
-  DisplayPart root;
-};
-
 const std::string moved = "Matrix {\n2 0 0 0\n0 2 0 0\n0 0 2 0\n10 0 0 1\n}\n";
 
 TEST(ImportDisplayPages, AreReadWithWhatStandsAboveThem) {

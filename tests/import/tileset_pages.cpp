@@ -49,36 +49,18 @@ Heights heights_of(const DisplayPart& part, std::uint32_t group) {
   return heights;
 }
 
-/// The pages of a tileset, read as they are named.
-struct Paging {
-  explicit Paging(const fs::path& tileset, const ImportOptions& options = {}) : reader({tileset}, options) {
-    const Shown shown = show({tileset}, options);
-    report = shown.report;
-    if (shown.pages().size() != 1 || !shown.triangles.empty()) throw std::runtime_error("the tileset is not paged");
-    first = *shown.pages()[0];
-    root = page(first.levels.at(0));
+/// The same of a tileset, all of which is in its page.
+struct TilesetPaging : Paging {
+  explicit TilesetPaging(const fs::path& tileset, const ImportOptions& options = {}) : Paging(tileset, options) {
+    if (!shown.triangles.empty()) throw std::runtime_error("the tileset is not paged");
   }
-  DisplayPart page(const DisplayLevel& level) { return reader.read(0, report.origin, level.page); }
-  std::string error(const DisplayLevel& level) {
-    try {
-      static_cast<void>(page(level));
-      return "";
-    } catch (const Error& error) {
-      return error.what();
-    }
-  }
-
-  PageReader reader;
-  DisplayReport report;
-  DisplayPages first;
-  DisplayPart root;
 };
 
 TEST(ImportTilesetPages, ReplaceATileByAllItsChildrenAtOnce) {
   const TemporaryFolder folder;
   Json root = tile("1.b3dm", 4, {tile("2.b3dm", 0), tile("3.b3dm", 2, Json::array({tile("4.b3dm", 0)}))});
   root["transform"] = {3, 0, 0, 0, 0, 3, 0, 0, 0, 0, 3, 0, 100, 0, 0, 1};
-  Paging paging(write_scene(folder, root, 4), {.unit = LengthUnit::cm});
+  TilesetPaging paging(write_scene(folder, root, 4), {.unit = LengthUnit::cm});
   EXPECT_EQ(paging.first.measure, DisplayMeasure::error);
   EXPECT_LT(glm::length(paging.first.center - Vec3(1, 0, 0)), 1e-6);
   EXPECT_LT(glm::length(paging.first.half - glm::vec3(0.3f, 0.6f, 0.9f)), 1e-6f);
@@ -105,7 +87,7 @@ TEST(ImportTilesetPages, ReplaceATileByAllItsChildrenAtOnce) {
 
 TEST(ImportTilesetPages, AddTilesOneByOne) {
   const TemporaryFolder folder;
-  Paging paging(write_scene(folder, tile("1.b3dm", 4, {tile("2.b3dm", 0), tile("3.b3dm", 0)}, "ADD"), 3));
+  TilesetPaging paging(write_scene(folder, tile("1.b3dm", 4, {tile("2.b3dm", 0), tile("3.b3dm", 0)}, "ADD"), 3));
   ASSERT_EQ(paging.root.pages.size(), 3u);
   const DisplayPages& node = paging.root.pages[0];
   ASSERT_EQ(node.levels.size(), 2u);
@@ -124,10 +106,10 @@ TEST(ImportTilesetPages, PassThroughTilesWithoutContent) {
   const TemporaryFolder folder;
   // Below a tile that is replaced, at once: nothing else is there to be seen.
   const Json empty = tile("", 2, {tile("2.b3dm", 0), tile("", 1, Json::array({tile("3.b3dm", 0)}))});
-  Paging replaced(write_scene(folder, tile("1.b3dm", 4, Json::array({empty})), 3));
+  TilesetPaging replaced(write_scene(folder, tile("1.b3dm", 4, Json::array({empty})), 3));
   EXPECT_EQ(heights_of(replaced.page(replaced.root.pages.at(0).levels.at(1)), 0), (Heights{2, 3}));
   // Else one by one, as near as their errors say.
-  Paging alone(write_scene(folder, tile("", 4, {tile("1.b3dm", 0), empty}), 3));
+  TilesetPaging alone(write_scene(folder, tile("", 4, {tile("1.b3dm", 0), empty}), 3));
   EXPECT_EQ(alone.root.triangles, 0u);
   ASSERT_EQ(alone.root.pages.size(), 3u);
   EXPECT_EQ(alone.root.pages[0].error, 4.0f);
@@ -169,7 +151,7 @@ Json write_implicit(const TemporaryFolder& folder, bool inner_contents) {
 
 TEST(ImportTilesetPages, FollowImplicitTilingsFromSubtreeToSubtree) {
   const TemporaryFolder folder;
-  Paging paging(write_scene(folder, write_implicit(folder, true), 0));
+  TilesetPaging paging(write_scene(folder, write_implicit(folder, true), 0));
   EXPECT_EQ(heights_of(paging.root, paging.root.pages.at(0).levels[0].group), Heights{1});
   const DisplayPart second = paging.page(paging.root.pages[0].levels.at(1));
   ASSERT_EQ(second.pages.size(), 4u);
@@ -200,7 +182,7 @@ TEST(ImportTilesetPages, ReadASubtreeAnewForATilingOfOtherLength) {
                               {"subtrees", {{"uri", "s.json"}}}};
     return root;
   };
-  Paging paging(write_scene(folder, tile("1.b3dm", 4, {tiling(2), tiling(20)}), 1));
+  TilesetPaging paging(write_scene(folder, tile("1.b3dm", 4, {tiling(2), tiling(20)}), 1));
   const std::string error = paging.error(paging.root.pages.at(0).levels.at(1));
   EXPECT_NE(error.find("fewer bits"), std::string::npos) << error;
 }
@@ -248,7 +230,7 @@ TEST(ImportTilesetPages, LieInTheFrameOfTheScene) {
   Json root = tile("", 100, Json::array({child}));
   root["boundingVolume"] = region;
   const fs::path tileset = write_scene(folder, root, 2);
-  Paging paging(tileset);
+  TilesetPaging paging(tileset);
   ASSERT_TRUE(paging.report.import.georeference);
   EXPECT_EQ(paging.report.import.georeference->srs, "ENU:46.2,8.1");
   EXPECT_EQ(paging.report.import.notes, import_scene(tileset).report.notes);
@@ -263,7 +245,7 @@ TEST(ImportTilesetPages, KeepTheCoarserTileWhereAFinerOneIsMissing) {
   for (const char* content : {"", "b3dm", "version https://git-lfs.github.com/spec/v1\n"}) {
     const fs::path tileset = write_scene(folder, tile("1.b3dm", 4, {tile("2.b3dm", 0), tile("3.b3dm", 0)}), 2);
     if (*content != '\0') folder.write("tiles/3.b3dm", content);
-    Paging paging(tileset);
+    TilesetPaging paging(tileset);
     EXPECT_TRUE(contains(paging.error(paging.root.pages.at(0).levels.at(1)), "tiles/3.b3dm: this tile is absent"));
     const Finest shown = show_finest({tileset});
     EXPECT_EQ(not_shown(import_scene(tileset), shown, 1e-5), 0u) << content;
@@ -349,7 +331,7 @@ TEST(ImportTilesetPages, CostLittleWhenTheyAreHostile) {
                                              {"childSubtreeAvailability", {{"constant", 0}}}}
                                             .dump());
   const fs::path many = write_scene(folder, tile("1.b3dm", 4, Json::array({endless_tiles})), 1);
-  Paging paging(many);
+  TilesetPaging paging(many);
   EXPECT_NE(paging.error(paging.root.pages.at(0).levels.at(1)), "");
   // Wrong types everywhere.
   for (const Json& odd : {Json(1), Json("x"), Json(nullptr), Json::array({1, nullptr}), Json{{"uri", 7}}}) {

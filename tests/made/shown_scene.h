@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <stdexcept>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -138,6 +139,31 @@ inline Finest show_finest(const std::vector<std::filesystem::path>& paths, const
   for (const auto& part : roots.parts) add_finest(reader, *part, finest);
   return finest;
 }
+
+/// The pages of a scene with a single page at its root, read as they are named.
+struct Paging {
+  explicit Paging(const std::filesystem::path& file, const ImportOptions& options = {})
+      : reader({file}, options), shown(show({file}, options)), report(shown.report) {
+    if (shown.pages().size() != 1) throw std::runtime_error("the scene is not paged");
+    first = *shown.pages()[0];
+    root = page(first.levels.at(0));
+  }
+  DisplayPart page(const DisplayLevel& level) { return reader.read(0, report.origin, level.page); }
+  std::string error(const DisplayLevel& level) {
+    try {
+      static_cast<void>(page(level));
+      return "";
+    } catch (const Error& error) {
+      return error.what();
+    }
+  }
+
+  PageReader reader;
+  Shown shown;
+  DisplayReport report;
+  DisplayPages first;  ///< the node of the root
+  DisplayPart root;
+};
 
 inline std::string display_error(const std::filesystem::path& path, const ImportOptions& options = {}) {
   try {
