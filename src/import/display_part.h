@@ -88,7 +88,7 @@ struct DisplayLevel {
   std::string page;         ///< the argument of PageReader::read
 };
 
-/// What the ranges of levels are measured in.
+/// The measure of the ranges of levels.
 enum class DisplayMeasure : std::uint8_t {
   metres,  ///< from the eye to the centre
   pixels,  ///< of the sphere on the screen

@@ -19,7 +19,8 @@ constexpr int requests_at_once = 8;
 constexpr const char* gone =
     "the web server has it no longer (status 404 or 410): the store was replaced or removed; open it anew";
 
-/// Whether a store has a file of this name, and a web server may be asked for it. Manifests come from strangers.
+/// Whether a store has a file of this name. Only such files are requested from a web server, for manifests come from
+/// strangers.
 bool is_asked_for(std::string_view file) {
   if (file == current_file) return true;
   const auto is = [&](std::string_view folder, std::string_view extension) {

@@ -1,4 +1,4 @@
-// What a program that reads a store takes in all: --memory, and 25 MiB for itself and its libraries.
+// The memory of a program that reads a store: --memory, and 25 MiB for itself and its libraries.
 #include <gtest/gtest.h>
 
 #include <random>

@@ -218,7 +218,7 @@ TEST(ImportArchives, AreRefusedIfCutOff) {
     const std::string error = import_error(folder.write("city.3tz", whole.substr(0, whole.size() * i / 16)));
     EXPECT_TRUE(contains(error, "no whole zip archive")) << error;
   }
-  // What does not begin at its first byte is read, as by all programs for zip.
+  // Archives may begin behind other bytes, as for all programs that read zip.
   EXPECT_EQ(import_error(folder.write("city.3tz", "#!/bin/sh\n" + whole)), "");
 }
 

@@ -78,7 +78,7 @@ struct Drawn {
     made->add_range(1.0f, endless);
     return made;
   }
-  /// What is seen from a place, looking at zero.
+  /// The view from a place, looking at zero.
   Names from(osg::Node& node, const osg::Vec3d& eye) {
     seen.clear();
     const osg::ref_ptr<osgUtil::CullVisitor> cull = new osgUtil::CullVisitor;

@@ -12,7 +12,7 @@
 
 namespace roam::app {
 
-/// What holds for all nodes of pages in a session. Read and written by the thread that draws.
+/// State shared by all nodes of pages in a session. Only the thread that draws uses it.
 struct PageRules {
   double allowed_error = 0.0;  ///< pixels; see DisplayMeasure::error. 0: the finest level everywhere
   /// Pages that were seen last before this time (osg::FrameStamp's reference time, s) may be dropped.

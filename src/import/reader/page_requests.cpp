@@ -41,7 +41,7 @@ bool take_request(std::string& token) {
   return take(token.data(), length);
 }
 
-/// What the pages read before leave for those after them.
+/// State kept from page to page.
 struct Kept {
   PageStates states;
   TileTrees trees;

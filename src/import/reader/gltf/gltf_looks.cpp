@@ -38,7 +38,7 @@ using Linear = glm::dvec3;  ///< red, green, blue
 
 double brightness(const Linear& c) { return std::sqrt(0.299 * c.r * c.r + 0.587 * c.g * c.g + 0.114 * c.b * c.b); }
 
-/// What a surface that is not metal mirrors.
+/// Reflectance of surfaces that are not metal.
 constexpr double dielectric = 0.04;
 
 /// The metalness with which a surface looks as one of this diffuse and specular colour: the root of a quadratic
