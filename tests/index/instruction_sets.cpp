@@ -40,7 +40,8 @@ Answers ask(const roam::World& world) {
   for (int q = 0; q < 20000; ++q) {
     const roam::Body body{random.between(0.0, 0.5), q % 2 == 0 ? 0.0 : random.between(0.0, 1.0)};
     constexpr double longest[] = {0.001, 0.01, 0.1, 1.0, 10.0, 30.0};
-    const roam::Vec3 from = random.in_box(22.0), motion = random.direction() * random.between(0.0, longest[q % 6]);
+    const roam::Vec3 from = random.in_box(22.0), direction = random.direction();
+    const roam::Vec3 motion = random.between(0.0, longest[q % 6]) * direction;
     out.sweeps.push_back(world.sweep(body, from, motion));
     const roam::Vec3 way = q % 3 == 0 ? roam::Vec3(0.0) : motion;
     out.clearances.push_back(world.clearance(body, from, way, 0.5));
@@ -113,8 +114,8 @@ void expect_the_same_bits(bool lossless, std::uint64_t expected) {
   EXPECT_GT(tried, 0);
 }
 
-TEST(InstructionSets, GiveTheSameBits) { expect_the_same_bits(false, 8042661797176573727U); }
+TEST(InstructionSets, GiveTheSameBits) { expect_the_same_bits(false, 17301523681686410206U); }
 
-TEST(InstructionSets, GiveTheSameBitsInALosslessWorld) { expect_the_same_bits(true, 338836237956711142U); }
+TEST(InstructionSets, GiveTheSameBitsInALosslessWorld) { expect_the_same_bits(true, 4781347701602041412U); }
 
 }  // namespace
