@@ -201,7 +201,16 @@ HWY_INLINE std::uint32_t met_children(const Node& node, const Swept& swept) {
   const auto on_grid = [&](const std::int32_t* plane) {
     return hn::DemoteTo(few, hn::Shr(hn::Sub(hn::Load(axes, plane), origin), shift));
   };
-  const auto lower = on_grid(swept.lower), upper = on_grid(swept.upper);
+#if HWY_ARCH_ARM
+  // Highway 1.0.3 looks bytes up only in whole vectors of NEON.
+  const auto table = [&](const auto& four) {
+    const hn::FixedTag<std::uint8_t, 8> eight;
+    return hn::Combine(bytes, hn::Zero(eight), hn::Combine(eight, four, four));
+  };
+#else
+  const auto table = [](const auto& four) { return four; };
+#endif
+  const auto lower = table(on_grid(swept.lower)), upper = table(on_grid(swept.upper));
   auto apart = hn::Zero(bytes);
   for (int k = 0; k < 3; ++k) {
     const auto axis = hn::Set(bytes, static_cast<std::uint8_t>(k));

@@ -22,7 +22,7 @@ std::size_t name_size(std::string_view text) {
   return at;
 }
 
-bool ends_address(char c) { return (c >= 0 && c <= ' ') || c == '"' || c == '<' || c == '>'; }
+bool ends_address(char c) { return static_cast<unsigned char>(c) <= ' ' || c == '"' || c == '<' || c == '>'; }
 
 bool is_of_sentence(char c) { return std::string_view(":;,.)'`").find(c) != std::string_view::npos; }
 

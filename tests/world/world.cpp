@@ -12,6 +12,7 @@
 #include "judged_queries.h"
 #include "oracle.h"
 #include "roam/error.h"
+#include "test_seed.h"
 
 namespace {
 
@@ -46,7 +47,7 @@ class WorldAgainstBruteForce : public testing::TestWithParam<Case> {};
 
 TEST_P(WorldAgainstBruteForce, SweepsAreNeverLateAndNeverEarlyByMoreThanTheGrid) {
   const clutter::Recipe& c = GetParam().scene;
-  Random random(7);
+  Random random(test_seed(7));
   const Mesh mesh = clutter::make(random, c);
   const World world = World::build({&mesh, 1}, {.threads = 0, .lossless = GetParam().lossless, .progress = {}});
   const double farthest = GetParam().lossless ? farthest_lossless : farthest_off;
@@ -83,7 +84,7 @@ TEST_P(WorldAgainstBruteForce, SweepsAreNeverLateAndNeverEarlyByMoreThanTheGrid)
 
 TEST_P(WorldAgainstBruteForce, ClearanceIsALowerBoundAndTight) {
   const clutter::Recipe& c = GetParam().scene;
-  Random random(8);
+  Random random(test_seed(8));
   const Mesh mesh = clutter::make(random, c);
   const World world = World::build({&mesh, 1}, {.threads = 0, .lossless = GetParam().lossless, .progress = {}});
   const double farthest = GetParam().lossless ? farthest_lossless : farthest_off;
@@ -110,7 +111,7 @@ TEST_P(WorldAgainstBruteForce, ClearanceIsALowerBoundAndTight) {
 
 TEST_P(WorldAgainstBruteForce, ContactsAreAllTrianglesWithinReach) {
   const clutter::Recipe& c = GetParam().scene;
-  Random random(9);
+  Random random(test_seed(9));
   const Mesh mesh = clutter::make(random, c);
   const World world = World::build({&mesh, 1}, {.threads = 0, .lossless = GetParam().lossless, .progress = {}});
   const double farthest = GetParam().lossless ? farthest_lossless : farthest_off;
