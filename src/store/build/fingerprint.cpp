@@ -13,7 +13,6 @@
 #include "store/build/layout.h"
 #include "store/build/scene_file.h"
 #include "store/files.h"
-#include "store/json_reader.h"
 #include "store/manifest.h"
 #include "text/printable.h"
 
@@ -102,25 +101,43 @@ void read_as(const std::string& text, ImportOptions& options) {
   options = std::move(read);
 }
 
+Json json_of(const SceneFiles& files) {
+  Json json = Json::object();
+  for (const auto& [name, file] : files) json[name] = {file.size, file.changed_ns, file.hash};
+  return json;
+}
+
+SceneFiles scene_files_of(const Json& json) {
+  SceneFiles files;
+  if (!json.is_object()) return files;
+  for (const auto& [name, item] : json.items()) {
+    if (!item.is_array() || item.size() != 3 || !item[0].is_number_unsigned() || !item[1].is_number_integer() ||
+        !item[2].is_string()) {
+      continue;
+    }
+    files[name] = {item[0].get<std::uint64_t>(), item[1].get<std::int64_t>(), item[2].get<std::string>()};
+  }
+  return files;
+}
+
 Sources::Sources(Folder store, const std::optional<StoreKey>& key, const ImportOptions& import)
     : store_(std::move(store)), key_(key), import_(import) {
   if (!size_of(store_, sources_file)) return;
   if (*size_of(store_, sources_file) > sources_memory / 4) return;
   const std::optional<std::string> text = read_coded(store_, sources_file, sources_memory / 4, key_);
   if (!text) return;
-  Json json;
   try {
-    json = parse_json(*text, sources_file, sources_memory);
-  } catch (const Error&) {
-    return;
+    known_ = scene_files_of(parse_json(*text, sources_file, sources_memory));
+  } catch (const Error&) {  // the files are read again
   }
-  if (!json.is_object()) return;
-  for (const auto& [name, item] : json.items()) {
-    if (!item.is_array() || item.size() != 3 || !item[0].is_number_unsigned() || !item[1].is_number_integer() ||
-        !item[2].is_string()) {
-      continue;
-    }
-    known_[name] = {item[0].get<std::uint64_t>(), item[1].get<std::int64_t>(), item[2].get<std::string>(), true};
+}
+
+void Sources::know(SceneFiles&& files) {
+  for (auto& [name, file] : files) {
+    const auto [known, is_new] = known_.try_emplace(name);
+    if (!is_new && known->second.changed_ns >= file.changed_ns) continue;
+    known->second = std::move(file);
+    is_saved_ = false;
   }
 }
 
@@ -131,8 +148,8 @@ Sources::Seen Sources::status(const fs::path& real, Number* number) {
   ::clock_gettime(CLOCK_REALTIME, &now);
   const auto ns = [](const std::timespec& t) { return std::int64_t{t.tv_sec} * 1'000'000'000 + t.tv_nsec; };
   // Not the time of modification, which any program may set back.
-  return {
-      static_cast<std::uint64_t>(status.st_size), ns(status.st_ctim), {}, ns(now) - ns(status.st_ctim) > clock_steps};
+  return {{static_cast<std::uint64_t>(status.st_size), ns(status.st_ctim), {}},
+          ns(now) - ns(status.st_ctim) > clock_steps};
 }
 
 const reader::SceneScope& Sources::scope(const fs::path& path) {
@@ -268,16 +285,26 @@ void Sources::check_unchanged(const SourcePart& part, const LookUps& look_ups) c
   }
 }
 
+SceneFiles Sources::files(const SourcePart& part) const {
+  const std::lock_guard lock(mutex_);
+  SceneFiles settled;
+  const auto add = [&](const std::string& name) {
+    if (const Seen& seen = seen_.at(name); seen.is_settled()) settled.insert({name, seen});
+  };
+  for (const fs::path& file : part.files) add(fs::absolute(file).lexically_normal().string());
+  for (const auto& [name, file] : part.references) add(file.string());
+  return settled;
+}
+
 void Sources::save() const {
-  std::map<std::string, Seen> settled;
+  SceneFiles settled;
   for (const auto& [name, seen] : seen_) {
-    if (seen.time_is_conclusive && !seen.is_absent) settled.insert({name, seen});
+    if (seen.is_settled()) settled.insert({name, seen});
   }
-  if (settled == known_) return;
-  Json json = Json::object();
-  for (const auto& [name, seen] : settled) json[name] = {seen.size, seen.changed_ns, seen.hash};
+  if (is_saved_ && settled == known_) return;
   // The name of a path that is not UTF-8 is not found again; that file is read again.
-  write_coded(store_, sources_file, json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n", key_);
+  const std::string text = json_of(settled).dump(1, ' ', false, Json::error_handler_t::replace);
+  write_coded(store_, sources_file, text + "\n", key_);
 }
 
 }  // namespace roam::store

@@ -133,6 +133,36 @@ TEST(StoreBuildResume, AnUpdateThatIsKilledLeavesTheOldStoreOrTheNew) {
   EXPECT_LT(old_ones, samples);
 }
 
+TEST(StoreBuildResume, SharesOfTheSceneThatAreKilledAtAnyStepOnTheDisk) {
+  const TestFolder folder;
+  auto o = options({write_ply(folder.file("a.ply"), field(60, 0.5, {0.0, 0.0, 0.0})),
+                    write_ply(folder.file("b.ply"), field(40, 0.5, {100.0, 0.0, 0.0}))},
+                   folder.file("killed"));
+  o.tasks = 2;
+  o.key.emplace();
+  roam::StoreBuildReport report;
+  const auto build = [&] { roam::build_store(o); };
+  const auto share = [&](std::uint64_t i) { return [&, i] { roam::read_share(o, i, report); }; };
+  ASSERT_EQ(in_child(build), 0);
+  fs::rename(o.output, folder.file("whole"));
+  const int count = calls_of(folder.file("count"), share(0));
+  ASSERT_GT(count, 8);
+  const int samples = std::min(count, kills(8));
+  for (int i = 0; i < samples; ++i) {
+    fs::remove_all(o.output);
+    const int at = 1 + (count - 1) * i / (samples - 1);
+    ASSERT_TRUE(was_killed(killed_at(at, i % 2 == 1, share(0)))) << at;
+    if (i % 3 > 0) {
+      ASSERT_EQ(in_child(share(1)), 0);
+    }
+    if (i % 3 > 1) {
+      ASSERT_EQ(in_child(share(0)), 0);
+    }
+    ASSERT_EQ(in_child(build), 0);
+    expect_same(folder.file("whole"), o.output.string());
+  }
+}
+
 TEST(StoreBuildResume, SaysThatTheDiskIsFullAndGoesOnWhenItIsNot) {
   const TestFolder folder;
   const std::string scene = write_ply(folder.file("a.ply"), field(60, 0.5, {0.0, 0.0, 0.0}));
