@@ -104,8 +104,8 @@ ExitStatus slurm(ClusterVerb verb) {
 
 constexpr const char* slurm_help =
     R"(Prints a script of the shell. It submits an array of N tasks that read the scene, a job that plans, an array of N
-tasks that build the shards, and a job that merges them and says what is missing. All machines must see the scene, the store and your home by the same paths.
-docs/cluster.md has scripts for other engines.
+tasks that build the shards, and a job that merges them and says what is missing. All machines must see the scene, the
+store and your home by the same paths. docs/cluster.md has scripts for other engines.
 
 Examples:
   roam cluster slurm Data/ -o dam.roam --shards 64 > dam.sh

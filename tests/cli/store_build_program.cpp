@@ -94,8 +94,7 @@ TEST(StoreBuildProgram, ReadsSharesOfTheSceneBeforeThePlan) {
     const EnvironmentVariable beyond("PBS_ARRAY_INDEX", "2");
     const auto none = build({"--plan", "2", "--shard", "auto"});
     EXPECT_EQ(none.status, 0) << none.err;
-    EXPECT_NE(none.out.find("there is no share 2 of the scene: they go from 0 to 1 (PBS"), std::string::npos)
-        << none.out;
+    EXPECT_NE(none.out.find("there is no share 2 of 2: they are counted from 0 (PBS"), std::string::npos) << none.out;
   }
   const auto json = build({"--plan", "2", "--shard", "0", "--json"});
   ASSERT_EQ(json.status, 0) << json.err;

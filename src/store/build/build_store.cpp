@@ -246,8 +246,8 @@ void read_share(const StoreBuildOptions& options, std::uint64_t i, StoreBuildRep
   Work work(options);
   check_output(options);
   if (i >= options.tasks) {
-    throw NoSuchTask(options.output.string(), fmt::format("there is no share {} of the scene: they go from 0 to {}", i,
-                                                          options.tasks - std::min<std::uint64_t>(options.tasks, 1)));
+    throw NoSuchTask(options.output.string(),
+                     fmt::format("there is no share {} of {}: they are counted from 0", i, options.tasks));
   }
   const Timer timer(report.read_seconds);
   std::vector<ScenePart> parts = listed_parts(work);  // before anything is written
