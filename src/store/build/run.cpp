@@ -279,14 +279,15 @@ void RunReader::get(std::uint64_t offset, std::span<std::byte> out) const {
 void RunReader::fail_to_read() const {
   if (errno != ENOENT) fail("read", store_, name_, errno);
   const std::string file = (store_ / name_).string();
-  throw Error::at(file, fmt::format("{} is gone: plan again, and its part is read again", file));
+  throw Error::at(file, fmt::format("{} is gone: plan or build again, and its part is read again", file));
 }
 
 void RunReader::refuse(const char* why) const {
   remove_file(store_, name_);
   const std::string file = (store_ / name_).string();
   throw Error::at(
-      file, fmt::format("{} was damaged ({}), and is removed: plan again, and its part is read again", file, why));
+      file,
+      fmt::format("{} was damaged ({}), and is removed: plan or build again, and its part is read again", file, why));
 }
 
 }  // namespace roam::store
