@@ -33,7 +33,7 @@ struct BuildVerb {
   bool plan = false, merge = false, adopt = false, json = false, json_lines = false;
   std::vector<double> near;  ///< x, y, z; empty: no preference
   bool beside = false;       ///< the output has its default path
-  std::uint64_t tasks = 0;   ///< of the plan; 0: not given
+  std::uint64_t tasks = 0;   ///< of the plan, or shares of the scene; 0: not given
   std::optional<std::uint64_t> shard;
   std::optional<ArrayIndex> array;  ///< with --shard auto
   std::string reading;              ///< the first given option of reading_options; may be empty
@@ -125,8 +125,8 @@ void tell_tasks(const BuildVerb& verb, const StoreBuildReport& report) {
     print(fmt::format("{} tasks: --shard 0 to --shard {}, on any machines that see {}; then --merge\n", report.tasks,
                       report.tasks - 1, store));
   }
-  print(fmt::format("Shards to build: {}. The longest task is {:.2f} times the mean.\n", report.shards_to_build,
-                    balance(report)));
+  print(fmt::format("Parts read: {} of {}. Shards to build: {}. The longest task is {:.2f} times the mean.\n",
+                    report.parts_read, report.parts, report.shards_to_build, balance(report)));
   if (report.tasks < verb.tasks) tell(fmt::format("note: there are not enough shards for {} tasks", verb.tasks));
 }
 
@@ -153,18 +153,28 @@ void tell_store(const BuildVerb& verb, const StoreBuildReport& report, double se
   }
 }
 
+/// Of --shard, with or without --plan.
 void tell_task(const BuildVerb& verb, const StoreBuildReport& report, double seconds) {
   if (verb.json) {
     Json json = json_report(verb, report, seconds);
-    json["task"] = *verb.shard;
-    json["task_shards"] = report.task_shards;
+    json[verb.plan ? "share" : "task"] = *verb.shard;
+    if (verb.plan) {
+      json["share_parts"] = report.share_parts;
+    } else {
+      json["task_shards"] = report.task_shards;
+    }
     if (verb.array) json["array"] = {{"engine", verb.array->engine}, {"variable", verb.array->variable}};
     print_report(verb, json);
     return;
   }
-  print(fmt::format("task {} of {}{}: shards built: {}, there already: {}, in {}\n", *verb.shard, report.tasks,
-                    verb.array ? fmt::format(" ({}, {})", verb.array->engine, verb.array->variable) : "",
-                    report.shards_built, report.task_shards - report.shards_built, short_time(seconds)));
+  const std::string job = verb.array ? fmt::format(" ({}, {})", verb.array->engine, verb.array->variable) : "";
+  if (verb.plan) {
+    print(fmt::format("share {} of {}{}: parts read: {}, known already: {}, in {}\n", *verb.shard, verb.tasks, job,
+                      report.parts_read, report.share_parts - report.parts_read, short_time(seconds)));
+  } else {
+    print(fmt::format("task {} of {}{}: shards built: {}, there already: {}, in {}\n", *verb.shard, report.tasks, job,
+                      report.shards_built, report.task_shards - report.shards_built, short_time(seconds)));
+  }
 }
 
 /// For a job that finds its work done: an array may have more jobs than the plan has tasks, and an engine may repeat a
@@ -186,6 +196,11 @@ ExitStatus run_steps(const BuildVerb& verb) {
     Steps steps(verb.output.string(), verb.json_lines);
     StoreBuildOptions options = build_options(verb, steps);
     options.key = build_key(verb);
+    if (verb.plan && verb.shard) {
+      read_share(options, *verb.shard, report);
+      tell_task(verb, report, seconds());
+      return done;
+    }
     if (verb.plan) {
       plan_store(options, report);
       if (!report.unchanged) {
@@ -216,12 +231,17 @@ ExitStatus run_steps(const BuildVerb& verb) {
 
 /// Rejects contradictory options before anything is written.
 void check_usage(const BuildVerb& verb) {
-  if (verb.scene.scenes.empty() && !verb.shard && !verb.merge) throw UsageError("build", "SCENE is required");
+  if (verb.scene.scenes.empty() && (verb.plan || (!verb.shard && !verb.merge))) {
+    throw UsageError("build", "SCENE is required");
+  }
+  if (verb.plan && verb.shard && verb.tasks == 0) {
+    throw UsageError("--plan with --shard", "the number of shares is missing: --plan N");
+  }
   if (const auto memory = verb.scene.memory; memory && *memory < StoreBuildOptions::least_memory) {
     throw UsageError(fmt::format("--memory {:.5g} MiB", std::ldexp(static_cast<double>(*memory), -20)),
                      fmt::format("a build needs at least {} MiB", StoreBuildOptions::least_memory >> 20));
   }
-  if (verb.shard || verb.merge) {
+  if (!verb.plan && (verb.shard || verb.merge)) {
     if (verb.reading.empty()) return;  // --shard and --merge read the plan, not the scene
     throw UsageError(fmt::format("{} with {}", verb.reading, verb.shard ? "--shard" : "--merge"),
                      "how the scene is read was fixed by --plan; leave it out, or plan again with it");
@@ -301,12 +321,14 @@ An existing store is updated if you built it; a key in $XDG_DATA_HOME/roam or ~/
 other store may lack a wall, and is refused unless --adopt says that you trust it.
 
 Many machines that share a folder can build one store: first --plan, which divides the work into N tasks, then each task
-by --shard, in any order, then --merge. In an array of jobs of Slurm, Grid Engine, PBS, LSF, AWS Batch, Kubernetes or
+by --shard, in any order, then --merge. Before that, --plan N with --shard I reads one of N shares of the scene, so that
+the plan has little left to read. In an array of jobs of Slurm, Grid Engine, PBS, LSF, AWS Batch, Kubernetes or
 GNU parallel, `--shard auto` takes the number of the job. `roam cluster` writes such jobs.
 
 Examples:
   roam build mine.dae
   roam build Data/ -o dam.roam --memory 2G
+  roam build Data/ -o dam.roam --plan 64 --shard 17
   roam build Data/ -o dam.roam --plan 64
   roam build -o dam.roam --shard 17
   roam build -o dam.roam --merge
@@ -343,12 +365,12 @@ void add_build(CLI::App& program, Run& run) {
           ->type_name("N");
   CLI::Option* shard =
       verb->add_option("--shard", given->shard,
-                       "Only build the shards of this task of the plan, counted from 0; `auto`: the number of this job "
-                       "in an array of a batch engine")
+                       "Only build the shards of this task of the plan, counted from 0; with --plan: only read this "
+                       "share of the scene; `auto`: the number of this job in an array of a batch engine")
           ->check(task_number())
           ->type_name("I");
   CLI::Option* merge = verb->add_flag("--merge", options->merge, "Only check all shards and publish the store");
-  plan->excludes(shard)->excludes(merge);
+  plan->excludes(merge);
   shard->excludes(merge);
   verb->callback([options, given, verb, &run] {
     options->plan = verb->get_option("--plan")->count() > 0;

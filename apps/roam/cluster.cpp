@@ -46,7 +46,7 @@ std::string quoted(const std::vector<std::string>& words) {
   return text;
 }
 
-/// A script of the shell that submits three jobs.
+/// A script of the shell that submits the jobs of a build.
 std::string slurm_script(const ClusterVerb& verb) {
   const std::string roam = quoted(process::own_program().string()), out = quoted(verb.output.string());
   const std::string limits = fmt::format(" --threads={} --memory={}", verb.scene.threads, *verb.scene.memory);
@@ -58,21 +58,26 @@ std::string slurm_script(const ClusterVerb& verb) {
         "#!/bin/sh\n"
         "exec {4} build --output={5}{6}\n"
         "END\n"
-        ")\n",
+        ")\n"
+        "{0}=${{{0}%%;*}}\n"
+        "jobs=\"$jobs ${0}\"\n",
         name, verb.scene.threads, mebibytes, options, roam, out, arguments);
   };
-  const std::string after = " --kill-on-invalid-dep=yes --dependency=afterok:${plan%%;*}";
+  const std::string array = fmt::format(" --array=0-{}", verb.shards - 1);
+  const std::string plan = fmt::format(" --plan={}{}", verb.shards, quoted(verb.scene.arguments()));
+  const std::string after = " --kill-on-invalid-dep=yes --dependency=afterok:$plan";
   return "#!/bin/sh\n"
-         "# Submits three jobs to Slurm: a plan, an array of tasks, and a merge, which says what is missing.\n"
-         "# After a failure, the same again goes on. sbatch reads SBATCH_PARTITION, SBATCH_ACCOUNT, SBATCH_TIMELIMIT.\n"
-         "set -eu\n" +
-         job("plan", "", fmt::format(" --plan={}{}", verb.shards, quoted(verb.scene.arguments()))) +
-         "trap 'scancel \"${plan%%;*}\"' EXIT  # if the others cannot be submitted\n" +
-         job("tasks", fmt::format("{} --array=0-{}", after, verb.shards - 1), limits + " --shard=auto") +
-         job("merge", after + ",afterany:${tasks%%;*}", limits + " --merge") +
+         "# Submits four jobs to Slurm: an array that reads the scene, a plan, which reads what is missing then, an\n"
+         "# array of tasks, and a merge, which says what is missing. After a failure, the same again goes on.\n"
+         "# sbatch reads SBATCH_PARTITION, SBATCH_ACCOUNT, SBATCH_TIMELIMIT.\n"
+         "set -eu\n"
+         "jobs=\n"
+         "trap 'test -z \"$jobs\" || scancel $jobs' EXIT  # if one cannot be submitted\n" +
+         job("read", array, " --shard=auto" + plan) + job("plan", " --dependency=afterany:$read", plan) +
+         job("tasks", after + array, limits + " --shard=auto") +
+         job("merge", after + ",afterany:$tasks", limits + " --merge") +
          "trap - EXIT\n"
-         "echo \"The jobs are ${plan%%;*}, ${tasks%%;*} and ${merge%%;*}; the last one writes "
-         "slurm-${merge%%;*}.out.\"\n";
+         "echo \"The jobs are$jobs; the last one writes slurm-$merge.out.\"\n";
 }
 
 ExitStatus slurm(ClusterVerb verb) {
@@ -98,9 +103,9 @@ ExitStatus slurm(ClusterVerb verb) {
 }
 
 constexpr const char* slurm_help =
-    R"(Prints a script of the shell. It submits a job that plans, an array of N tasks that build the shards, and a job
-that merges them and says what is missing. All machines must see the scene, the store and your home by the same paths.
-docs/cluster.md has scripts for other engines.
+    R"(Prints a script of the shell. It submits an array of N tasks that read the scene, a job that plans, an array of N
+tasks that build the shards, and a job that merges them and says what is missing. All machines must see the scene, the
+store and your home by the same paths. docs/cluster.md has scripts for other engines.
 
 Examples:
   roam cluster slurm Data/ -o dam.roam --shards 64 > dam.sh
@@ -123,7 +128,7 @@ void add_cluster(CLI::App& program, Run& run) {
   slurm_kind->option_defaults()->group("Jobs");
   slurm_kind->add_option("-o,--output", options->output, "Folder of the store (default: SCENE.roam beside the scene)")
       ->type_name("FOLDER");
-  slurm_kind->add_option("--shards", options->shards, "Tasks of the array, as N of `roam build --plan N`")
+  slurm_kind->add_option("--shards", options->shards, "Tasks of each array, as N of `roam build --plan N`")
       ->required()
       ->check(from_to<std::uint64_t>(1, 1'000'000))
       ->type_name("N");

@@ -4,10 +4,11 @@
 ///
 ///     roam::build_store({.scene = {"Data/"}, .output = "dam.roam", .memory = 1ull << 30});
 ///
-/// A build has three steps; build_store runs all of them:
+/// A build has three steps; build_store runs all of them. On many machines another one may come before them:
 ///
-///   plan_store    reads the scene part by part into sorted runs in the store's scratch folder, and divides it into
-///                 shards: ranges of the Morton curve of about a million triangles each
+///   read_share    reads some parts of the scene into sorted runs in the store's scratch folder, for plan_store
+///   plan_store    reads the other parts, one by one, and divides the scene into shards: ranges of the Morton curve of
+///                 about a million triangles each
 ///   build_task    builds some of the shards, a task of the plan; independent of all others, on any machine that sees
 ///                 the folder
 ///   merge_store   checks that all shards are there, writes the manifest, publishes it by rename, removes the scratch
@@ -45,7 +46,8 @@ struct StoreBuildOptions {
   ImportOptions import = {};                      ///< `progress` and `memory_limit` are not used
   std::uint64_t memory = 1ull << 30;              ///< bytes, >= least_memory: of this process and its readers together
   int threads = 0;                                ///< 0: one per core
-  std::uint64_t tasks = 0;                        ///< of the plan; 0: as many as are equally long, at most 1000
+  std::uint64_t tasks = 0;                        ///< of the plan; 0: as many as are equally long, at most 1000. Also
+                                                  ///< the shares of read_share
   bool lossless = false;                          ///< as BuildOptions::lossless
   /// With a key, the store gets an authentication code (Store::is_authentic). An older store in `output` without a code
   /// of the same key is refused, and unfinished work without one is done again. All steps need the same
@@ -74,6 +76,7 @@ struct StoreBuildReport {
   std::uint64_t tasks = 0;
   std::uint64_t longest_task = 0;  ///< triangles
   std::uint64_t task_shards = 0;   ///< of the task of build_task
+  std::uint64_t share_parts = 0;   ///< of the share of read_share
   std::uint64_t parts = 0;         ///< of the scene
   std::uint64_t parts_read = 0;    ///< by this call
   double read_seconds = 0.0, plan_seconds = 0.0, shard_seconds = 0.0, merge_seconds = 0.0;
@@ -81,7 +84,7 @@ struct StoreBuildReport {
   StoreInfo store;                 ///< as published, or `unchanged`
 };
 
-/// The plan has no task of this number.
+/// The plan has no task, or the scene no share, of this number.
 class NoSuchTask : public Error {
  public:
   using Error::Error;
@@ -95,6 +98,12 @@ class NothingPlanned : public Error {
 
 /// Runs plan_store, build_task for each task, and merge_store. Throws as they do.
 StoreBuildReport build_store(const StoreBuildOptions& options);
+
+/// Reads share `i` of the changed parts of the scene, 0 <= i < `options.tasks`. The shares take about equally long.
+/// Like build_task it may run several times, also at once, on any machines. Nothing depends on it: plan_store reads
+/// each part of which the files here are missing, damaged, or older than the scene. A part is never divided. Throws as
+/// plan_store, except for other builds; NoSuchTask.
+void read_share(const StoreBuildOptions& options, std::uint64_t i, StoreBuildReport& report);
 
 /// Reads changed parts, divides the scene into shards, and shares those that must be built out among tasks, about
 /// equally long. Returns the number of tasks; 0 if `unchanged`. Planning again gives the same plan, and keeps shards

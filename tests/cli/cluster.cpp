@@ -33,13 +33,14 @@ echo "4$(wc -l < ')" + folder.file("jobs") + "');cluster\"\n";
   const EnvironmentVariable with_slurm("PATH", folder.file("bin") + ":" + path);
   const auto run = run_program("/bin/sh", {"-c", printed.out});
   EXPECT_EQ(run.status, 0) << run.err;
-  EXPECT_EQ(run.out, "The jobs are 41, 42 and 43; the last one writes slurm-43.out.\n");
+  EXPECT_EQ(run.out, "The jobs are 41 42 43 44; the last one writes slurm-44.out.\n");
   std::ifstream jobs(folder.file("jobs"));
   const std::string said{std::istreambuf_iterator<char>(jobs), {}};
   const std::string common = "--parsable --requeue --job-name=roam-", limits = " --cpus-per-task=2 --mem=375M",
-                    after = " --kill-on-invalid-dep=yes --dependency=afterok:41";
-  EXPECT_EQ(said, common + "plan" + limits + "\n" + common + "tasks" + limits + after + " --array=0-2\n" + common +
-                      "merge" + limits + after + ",afterany:42\n");
+                    after = " --kill-on-invalid-dep=yes --dependency=afterok:42";
+  EXPECT_EQ(said, common + "read" + limits + " --array=0-2\n" + common + "plan" + limits +
+                      " --dependency=afterany:41\n" + common + "tasks" + limits + after + " --array=0-2\n" + common +
+                      "merge" + limits + after + ",afterany:43\n");
   EXPECT_NEAR(roam::Store::open(store)->info().bounds.upper.x, 10.0 * 0.3048, 0.001) << "in feet";
   auto submitted = verb;
   submitted.push_back("--submit");

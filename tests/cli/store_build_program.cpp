@@ -73,6 +73,42 @@ TEST(StoreBuildProgram, BuildsInSteps) {
   expect_whole(folder.file("s"));
 }
 
+TEST(StoreBuildProgram, ReadsSharesOfTheSceneBeforeThePlan) {
+  const TestFolder folder;
+  std::vector<std::string> scene;
+  for (const char* name : {"a.ply", "b.ply", "c.ply"}) {
+    scene.push_back(write_ply(folder.file(name), field(20, 0.5, {20.0 * double(scene.size()), 0.0, 0.0})));
+  }
+  const auto build = [&](std::vector<std::string> more) {
+    std::vector<std::string> arguments{"build"};
+    arguments.insert(arguments.end(), scene.begin(), scene.end());
+    more.insert(more.end(), {"-o", folder.file("s"), "--unit", "ft"});
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return roam(arguments);
+  };
+  {
+    const EnvironmentVariable job("PBS_ARRAY_INDEX", "1");
+    const auto read = build({"--plan", "2", "--shard", "auto"});
+    EXPECT_EQ(read.out.rfind("share 1 of 2 (PBS, PBS_ARRAY_INDEX=1): parts read: 1, known already: 0, in ", 0), 0U)
+        << read.out << read.err;
+    const EnvironmentVariable beyond("PBS_ARRAY_INDEX", "2");
+    const auto none = build({"--plan", "2", "--shard", "auto"});
+    EXPECT_EQ(none.status, 0) << none.err;
+    EXPECT_NE(none.out.find("there is no share 2 of 2: they are counted from 0 (PBS"), std::string::npos) << none.out;
+  }
+  const auto json = build({"--plan", "2", "--shard", "0", "--json"});
+  ASSERT_EQ(json.status, 0) << json.err;
+  EXPECT_EQ(Json::parse(json.out)["share"], 0);
+  EXPECT_EQ(Json::parse(json.out)["share_parts"], 2);
+  EXPECT_EQ(Json::parse(json.out)["parts_read"], 2);
+  const auto plan = build({"--plan", "2", "--json"});
+  ASSERT_EQ(plan.status, 0) << plan.err;
+  EXPECT_EQ(Json::parse(plan.out)["parts_read"], 0);
+  EXPECT_EQ(build({"--plan", "2", "--shard", "2"}).status, 1) << "named, and not there";
+  EXPECT_EQ(build({"--plan", "--shard", "0"}).status, 2) << "of how many?";
+  EXPECT_EQ(roam({"build", "-o", folder.file("s"), "--plan", "2", "--shard", "0"}).status, 2) << "of which scene?";
+}
+
 TEST(StoreBuildProgram, SaysWhichShardsThereAre) {
   const TestFolder folder;
   const std::string scene = write_ply(folder.file("a.ply"), field(60, 0.5, {0.0, 0.0, 0.0}));

@@ -1,12 +1,13 @@
 #!/usr/bin/env bash
 # tests/long/cluster.sh [TASKS [TRIANGLES [TROUBLES]]]
-# Builds a store of four terrains of TRIANGLES (11M) each as an array of TASKS (64) on two nodes of a real Slurm on this
-# machine. Meanwhile, TROUBLES (40) times: kills a task's program, cancels or requeues a task, drains a node, or takes its
-# power away. Then compares with a build that nobody disturbed, and prints seconds of the steps and tasks.
+# Builds a store of terrains with TRIANGLES (44000000) together by arrays of TASKS (64), which read and build, on two nodes
+# of a real Slurm on this machine. Meanwhile, TROUBLES (40) times: kills a task's program, cancels or requeues a task,
+# drains a node, or takes its power away. Then compares with a build that nobody disturbed, and prints seconds of the steps
+# and tasks.
 set -uo pipefail
 source "$(dirname "$0")/complaints.sh"
 source "$(dirname "$0")/../support/slurm.sh"
-tasks=${1:-64} triangles=${2:-11M} troubles=${3:-40}
+tasks=${1:-64} triangles=${2:-44000000} troubles=${3:-40}
 export XDG_DATA_HOME=$work/home
 cd "$work" || exit 2
 if ! start_slurm "$work/slurm"; then
@@ -16,16 +17,17 @@ fi
 trap 'stop_slurm; rm -rf "$work"' EXIT
 RANDOM=1
 scene=()
-for i in 0 1 2 3; do
+# Four files for each task, of three sizes.
+for ((i = 0; i < 4 * tasks; ++i)); do
   scene+=("$work/$i.ply")
-  "$roam" make terrain -o "${scene[i]}" --triangles "$triangles" --size 1500 --seed "$i" \
-    --origin "$((i % 2 * 1500)),$((i / 2 * 1500)),0" > /dev/null || exit 2
+  "$roam" make terrain -o "${scene[i]}" --triangles $((triangles * (1 + i % 3) / (8 * tasks))) --size 200 --seed "$i" \
+    --origin "$((i % 16 * 200)),$((i / 16 * 200)),0" > /dev/null || exit 2
 done
 build "$work/whole" --threads 2 > said 2>&1 || { cat said; exit 2; }
 grep . said
 
 "$roam" cluster slurm "${scene[@]}" -o "$work/array" --shards "$tasks" --threads 1 --submit || exit 2
-running() { squeue --noheader --array --states=running --name=roam-tasks --format=%i; }
+running() { squeue --noheader --array --states=running --name=roam-read,roam-tasks --format=%i; }
 declare -A met=()
 for ((i = 0; i < troubles;)); do
   [[ -n $(squeue --noheader) ]] || break
@@ -72,20 +74,28 @@ expect_whole_or_none "$work/array" "an array"
 
 # Seconds of each step, alone on this machine.
 number() { grep -o "\"$1\": [0-9.]*" "$2" | head -1 | cut -d' ' -f2; }
+# timed OPTIONS: wall and processor seconds of each task with them.
+timed() {
+  local i TIMEFORMAT='%R %U %S'
+  for ((i = 0; i < tasks; ++i)); do
+    { time "$roam" build -o "$work/timed" --shard $i --threads 1 "$@" > /dev/null 2>&1; } 2>&1
+  done
+}
+timed --plan "$tasks" "${scene[@]}" > shares
 build "$work/timed" --plan "$tasks" --threads 2 --json > plan.json 2> /dev/null
-for ((i = 0; i < tasks; ++i)); do
-  TIMEFORMAT='%R %U %S'
-  { time "$roam" build -o "$work/timed" --shard $i --threads 1 > /dev/null 2>&1; } 2>&1
-done > times
+(($(number parts_read plan.json) == 0)) || complain "the plan had to read"
+timed > times
 "$roam" build -o "$work/timed" --merge --threads 2 --json > merge.json 2> /dev/null
 expect_same "$work/timed" "tasks one after the other"
-awk -v read="$(number read_s plan.json)" -v plan="$(number plan_s plan.json)" -v balance="$(number balance plan.json)" \
-  -v merge="$(number merge_s merge.json)" '
-  { cpu = $2 + $3; sum += cpu; wall += $1; if (cpu > most) most = cpu }
+awk -v plan="$(number seconds plan.json)" -v balance="$(number balance plan.json)" -v merge="$(number seconds merge.json)" '
+  { kind = FILENAME; wall[kind] += $1; cpu[kind] += $2 + $3; ++n[kind]; if ($2 + $3 > most[kind]) most[kind] = $2 + $3 }
   END {
-    printf "tasks: %d, processor %.1f s together, %.2f s a task, longest %.2f times the mean (triangles: %s)\n", NR, sum,
-      sum / NR, most * NR / sum, balance
-    printf "read %.1f s, plan %.1f s, tasks %.1f s one after the other, merge %.1f s; plan and merge: %.1f %%\n", read, plan,
-      wall, merge, 100 * (plan + merge) / (read + plan + wall + merge)
-  }' times
+    for (kind in n) {
+      printf "%s: %d, %.1f s one after the other, processor %.1f s, %.2f s each, longest %.2f times the mean\n", kind,
+        n[kind], wall[kind], cpu[kind], cpu[kind] / n[kind], most[kind] * n[kind] / cpu[kind]
+      all += wall[kind]
+    }
+    printf "plan %.2f s (longest task %s times the mean, by triangles), merge %.2f s; together %.1f %% of all\n", plan,
+      balance, merge, 100 * (plan + merge) / (all + plan + merge)
+  }' shares times
 finish "$tasks tasks"

@@ -234,8 +234,11 @@ TEST(StoreRun, GivesBackEveryTriangleOfARange) {
     }
     const std::vector<RunItem> items = sort_run(content);
     const std::string file = floats ? "floats.run" : "doubles.run";
-    write_run(folder.file(""), file, content, items);
-    const RunReader run(folder.file(""), file);
+    const std::uint64_t hash = write_run(folder.file(""), file, content, items);
+    EXPECT_TRUE(is_run(folder.file(""), file, hash));
+    EXPECT_FALSE(is_run(folder.file(""), file, hash + 1));
+    EXPECT_THROW(RunReader(folder.file(""), file, hash + 1), roam::Error);
+    const RunReader run(folder.file(""), file, hash);
     const CurveKey first = items[7000].key, last = items[21'000].key;
     std::map<std::uint64_t, Triangle> found;
     RunBlock block;

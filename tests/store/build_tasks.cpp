@@ -71,6 +71,19 @@ TEST(StoreTasks, AreBalanced) {
   }
 }
 
+TEST(StoreTasks, ShareOutLoadsOfAnySize) {
+  clutter::Random random(5);
+  std::vector<std::uint64_t> loads(3000);
+  for (std::uint64_t& load : loads) load = static_cast<std::uint64_t>(random.between(1.0, 1e9));
+  const std::vector<std::uint64_t> task_of = share_out(loads, 64);
+  std::vector<std::uint64_t> sums(64);
+  for (std::size_t i = 0; i < loads.size(); ++i) sums.at(task_of[i]) += loads[i];
+  const auto [least, most] = std::minmax_element(sums.begin(), sums.end());
+  EXPECT_LT(double(*most), 1.01 * double(*least));
+  EXPECT_EQ(share_out(std::vector<std::uint64_t>{7, 9}, 1000), (std::vector<std::uint64_t>{1, 0}));
+  EXPECT_TRUE(share_out({}, 3).empty());
+}
+
 TEST(StoreTasks, OfNothingAreNone) {
   Plan plan;
   assign_tasks(plan, 64);

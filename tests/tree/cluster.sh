@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Whether batch engines build the store that one process builds.
-#   cluster.sh SOURCE WORK ROAM slurm      an array of 4 tasks and its merge, on two nodes of a real Slurm
-#   cluster.sh SOURCE WORK ROAM parallel   tasks by GNU parallel, each twice at once
+#   cluster.sh SOURCE WORK ROAM slurm      arrays that read and build, a plan and a merge, on two nodes of a real Slurm
+#   cluster.sh SOURCE WORK ROAM parallel   shares and tasks by GNU parallel, each twice at once
 # Status 77 if the engine cannot run here.
 set -euo pipefail
 source=$1 work=$2/$4 roam=$3 engine=$4
@@ -17,17 +17,29 @@ case $engine in
   parallel) [[ $(parallel --version 2> /dev/null) == GNU* ]] || skip "there is no GNU parallel" ;;
 esac
 
-"$roam" make terrain -o scene.ply --triangles 2600k > /dev/null
-"$roam" build scene.ply -o whole.roam --threads 2 2> /dev/null
+scene=(one.ply two.ply three.ply)
+for i in 0 1 2; do
+  "$roam" make terrain -o "${scene[i]}" --triangles 850k --seed $i --origin "$((1000 * i)),0,0" > /dev/null
+done
+"$roam" build "${scene[@]}" -o whole.roam --threads 2 2> /dev/null
 case $engine in
   slurm)
-    "$roam" cluster slurm scene.ply -o tasks.roam --shards 4 --threads 1 --memory 256M --submit
+    "$roam" cluster slurm "${scene[@]}" -o tasks.roam --shards 4 --threads 1 --memory 256M --submit
     slurm_waits 200 '[[ -z $(squeue --noheader) ]]' || { squeue; exit 1; }
     cat slurm-*.out
+    (($(grep -hoE '^share [0-3] of 4 \(Slurm, SLURM_ARRAY_TASK_ID=[0-3]\): parts read: [01],' slurm-*.out |
+      sort | uniq | awk '{ sum += $NF; ++shares } END { print shares == 4 && sum == 3 }')))
+    grep -q '^Parts read: 0 of 3\.' slurm-*.out
     (($(grep -lE '^task [0-3] of 4 \(Slurm, SLURM_ARRAY_TASK_ID=[0-3]\): shards built: 1,' slurm-*.out | wc -l) == 4))
     ;;
   parallel)
-    "$roam" build scene.ply -o tasks.roam --plan 3 2> /dev/null
+    # The third share is missing, and the first two are read twice at once.
+    for run in 1 2; do
+      seq 2 | parallel -N0 --jobs 2 "$roam" build "${scene[@]}" -o tasks.roam --plan 3 --shard auto 2> /dev/null &
+    done
+    wait
+    "$roam" build "${scene[@]}" -o tasks.roam --plan 3 2> /dev/null | tee plan
+    grep -q '^Parts read: 1 of 3\.' plan
     # Two runs of all tasks, and a fourth job, for which there is no task.
     for run in 1 2; do
       seq 4 | parallel --jobs 2 "$roam" build -o tasks.roam --shard auto --threads 1 > "said$run" 2> /dev/null &

@@ -16,6 +16,7 @@
 #include "store/build/output_folder.h"
 #include "store/build/plan.h"
 #include "store/build/root.h"
+#include "store/build/scene_reader.h"
 #include "store/build/shard.h"
 #include "store/build/tasks.h"
 #include "store/files.h"
@@ -103,18 +104,22 @@ std::string mend_or_remove_root(Work& work) {
 }
 
 /// An existing store may have come with the scene. With a key, a build continues only a store that has a code of that
-/// key.
-void demand_authentic(const Work& work) {
-  if (!work.options.key || !is_file(work.store, current_file)) return;
+/// key. Returns the hash of a store that has none, and is to be adopted.
+std::optional<std::string> demand_authentic(const Work& work) {
+  if (!work.options.key || !is_file(work.store, current_file)) return {};
   const auto there = open_store(files_of(work.store), work.store.string());
-  if (there->is_authentic(*work.options.key)) return;
+  if (there->is_authentic(*work.options.key)) return {};
   if (!work.options.adopt) {
     throw Error(
         work.store.string(),
         "it was not built with your key: it may have come with the scene, and lack a wall, or be a colleague's; if you "
         "trust whoever built it, --adopt makes it yours; else remove it, or choose another output");
   }
-  add_code(work.store, there->info().hash, *work.options.key);
+  return there->info().hash;
+}
+
+void adopt_or_demand_authentic(const Work& work) {
+  if (const auto hash = demand_authentic(work)) add_code(work.store, *hash, *work.options.key);
 }
 
 /// Returns no plan if the store is up to date.
@@ -124,7 +129,7 @@ std::optional<Plan> plan_locked(Work& work, const std::set<std::string>& damaged
   std::optional<Plan> plan;
   {
     const Timer timer(report.plan_seconds);
-    demand_authentic(work);
+    adopt_or_demand_authentic(work);
     make_folders(work.store);
     plan = make_plan(work, damaged, report);
     if (plan) assign_tasks(*plan, work.options.tasks);
@@ -236,6 +241,32 @@ std::uint64_t plan_store(const StoreBuildOptions& options, StoreBuildReport& rep
   return plan ? plan->tasks : 0;
 }
 
+void read_share(const StoreBuildOptions& options, std::uint64_t i, StoreBuildReport& report) {
+  const DefaultFloatingPoint guard;
+  Work work(options);
+  check_output(options);
+  if (i >= options.tasks) {
+    throw NoSuchTask(options.output.string(),
+                     fmt::format("there is no share {} of {}: they are counted from 0", i, options.tasks));
+  }
+  const Timer timer(report.read_seconds);
+  std::vector<ScenePart> parts = listed_parts(work);  // before anything is written
+  work.store = shared_output(options.output, options.through_link);
+  demand_authentic(work);
+  const std::optional<Manifest> in_force = manifest_in_force(work.store);
+  const bool all_anew = in_force && (in_force->lossless != options.lossless || in_force->format != format_version);
+  const std::set<std::string> none_damaged;
+  std::vector<PartRecord> records;
+  SceneReader reader(work, std::move(parts), none_damaged, report, records);
+  const std::vector<std::size_t> share = reader.share(i, options.tasks);
+  report.share_parts = share.size();
+  reader.take_records(in_force, share);
+  const std::vector<std::size_t> numbers = all_anew ? reader.without_runs(share) : reader.unknown();
+  if (numbers.empty()) return;
+  make_folders(work.store);
+  reader.read(numbers);
+}
+
 void build_task(const StoreBuildOptions& options, std::uint64_t i, StoreBuildReport& report) {
   const DefaultFloatingPoint guard;
   Work work(options);
@@ -258,7 +289,7 @@ void merge_store(const StoreBuildOptions& options, StoreBuildReport& report) {
   Work work(options);
   work.store = Folder::held(options.output, options.through_link);
   const auto lock = locked(work.store, options.progress);
-  demand_authentic(work);
+  adopt_or_demand_authentic(work);
   const Plan plan = read_plan(work);
   describe(plan, report);
   merge_locked(work, plan, report);

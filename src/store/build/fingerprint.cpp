@@ -2,25 +2,18 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/stat.h>
 #include <tbb/parallel_for.h>
-#include <unistd.h>
 
-#include <algorithm>
 #include <cerrno>
-#include <cstring>
 #include <ctime>
-#include <limits>
 
-#include "files/holes.h"
 #include "import/scene_scope.h"
 #include "roam/error.h"
 #include "store/authentic.h"
 #include "store/build/layout.h"
+#include "store/build/scene_file.h"
 #include "store/files.h"
-#include "store/json_reader.h"
 #include "store/manifest.h"
-#include "store/sha256.h"
 #include "text/printable.h"
 
 namespace roam::store {
@@ -32,109 +25,6 @@ namespace fs = std::filesystem;
 constexpr std::int64_t clock_steps = 3'000'000'000;
 /// Bytes for the remembered data of files, some 100,000 of them. A larger record is ignored.
 constexpr std::uint64_t sources_memory = 128u << 20;
-
-/// Opens the file at the end of a path without links; `flags` as of open(2). Fails if a link has appeared in the path.
-Descriptor open_without_links(const fs::path& real, int flags) {
-  Descriptor at(again([&] { return ::open("/", not_to_read | O_DIRECTORY | O_CLOEXEC); }));
-  for (const fs::path& name : real.parent_path().relative_path()) {
-    if (!at.is_open()) break;
-    constexpr int folder = not_to_read | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC;
-    at = Descriptor(again([&] { return ::openat(at.number(), name.c_str(), folder); }));
-  }
-  if (!at.is_open()) return at;
-  return Descriptor(again([&] {
-    return ::openat(at.number(), real.filename().c_str(), flags | O_NOFOLLOW | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
-  }));
-}
-
-/// The state of an open file of a scene. Throws if it is not a regular file.
-struct stat state_of(const Descriptor& file, const fs::path& name) {
-  struct stat status {};
-  if (!file.is_open() || ::fstat(file.number(), &status) != 0) {
-    throw Error::at(name.string(), fmt::format("cannot read {}: {}", name.string(), std::strerror(errno)));
-  }
-  if (!S_ISREG(status.st_mode))
-    throw Error::at(name.string(), fmt::format("cannot read {}: it is no ordinary file", name.string()));
-  return status;
-}
-
-[[noreturn]] void fail_changed(const std::string& name) {
-  throw Error::at(name, fmt::format("{} was changed while the scene was read; build again when it is finished", name));
-}
-
-/// Hashes a file's bytes. Holes are hashed without reading them.
-class FileHash {
- public:
-  /// `real`: without links.
-  FileHash(const fs::path& real, const std::function<void()>& tick)
-      : file_(real),
-        tick_(tick),
-        descriptor_(open_without_links(real, O_RDONLY)),
-        status_(state_of(descriptor_, real)) {
-    if (!files::is_mostly_holes(descriptor_.number())) return;
-    throw Error::at(
-        file_.string(),
-        fmt::format("{} has {} bytes, but only {} of them are on the disk: the rest is a hole, which no scene has. "
-                    "Remove it; if it is meant, copy it without holes (cp --sparse=never)",
-                    file_.string(), status_.st_size, 512 * static_cast<std::uint64_t>(status_.st_blocks)));
-  }
-
-  /// Device and inode.
-  [[nodiscard]] std::pair<std::uint64_t, std::uint64_t> number() const { return {status_.st_dev, status_.st_ino}; }
-
-  /// Of the file, or of an entry of it.
-  std::string digits(const ArchiveEntry& entry) {
-    if (entry != ArchiveEntry()) {
-      add_data(static_cast<off_t>(entry.begin), static_cast<off_t>(entry.begin + entry.packed));
-      return hash_.digits();
-    }
-    off_t at = 0;
-    // Also reads beyond the former size: a file that has grown is being changed.
-    for (const off_t size = status_.st_size; at < size;) {
-      const files::DataRange data = files::next_data(descriptor_.number(), at, size);
-      add_hole(static_cast<std::uint64_t>(data.begin - at));
-      add_data(data.begin, data.end);
-      at = data.end;
-    }
-    add_data(at, std::numeric_limits<off_t>::max());
-    return hash_.digits();
-  }
-
- private:
-  [[noreturn]] void fail() const {
-    throw Error::at(file_.string(), fmt::format("cannot read {}: {}", file_.string(), std::strerror(errno)));
-  }
-
-  void add_hole(std::uint64_t bytes) {
-    if (bytes == 0) return;
-    std::fill_n(piece_.begin(), std::min<std::uint64_t>(piece_.size(), bytes), std::byte{0});
-    for (std::uint64_t done = 0; done < bytes;) {
-      const std::uint64_t some = std::min<std::uint64_t>(piece_.size(), bytes - done);
-      hash_.add(std::span(piece_).first(static_cast<std::size_t>(some)));
-      done += some;
-      tick_();
-    }
-  }
-
-  void add_data(off_t from, off_t end) {
-    while (from < end) {
-      const auto most = static_cast<std::size_t>(std::min<off_t>(static_cast<off_t>(piece_.size()), end - from));
-      const ssize_t got = again([&] { return ::pread(descriptor_.number(), piece_.data(), most, from); });
-      if (got < 0) fail();
-      if (got == 0) return;
-      hash_.add(std::span(piece_).first(static_cast<std::size_t>(got)));
-      from += got;
-      tick_();
-    }
-  }
-
-  fs::path file_;
-  const std::function<void()>& tick_;
-  Descriptor descriptor_;
-  struct stat status_;
-  std::vector<std::byte> piece_ = std::vector<std::byte>(1 << 20);
-  Sha256 hash_;
-};
 
 /// The name of a file of a part, the same wherever the scene lies.
 std::string name_in(const ScenePart& part, const fs::path& file) {
@@ -211,25 +101,43 @@ void read_as(const std::string& text, ImportOptions& options) {
   options = std::move(read);
 }
 
+Json json_of(const SceneFiles& files) {
+  Json json = Json::object();
+  for (const auto& [name, file] : files) json[name] = {file.size, file.changed_ns, file.hash};
+  return json;
+}
+
+SceneFiles scene_files_of(const Json& json) {
+  SceneFiles files;
+  if (!json.is_object()) return files;
+  for (const auto& [name, item] : json.items()) {
+    if (!item.is_array() || item.size() != 3 || !item[0].is_number_unsigned() || !item[1].is_number_integer() ||
+        !item[2].is_string()) {
+      continue;
+    }
+    files[name] = {item[0].get<std::uint64_t>(), item[1].get<std::int64_t>(), item[2].get<std::string>()};
+  }
+  return files;
+}
+
 Sources::Sources(Folder store, const std::optional<StoreKey>& key, const ImportOptions& import)
     : store_(std::move(store)), key_(key), import_(import) {
   if (!size_of(store_, sources_file)) return;
   if (*size_of(store_, sources_file) > sources_memory / 4) return;
   const std::optional<std::string> text = read_coded(store_, sources_file, sources_memory / 4, key_);
   if (!text) return;
-  Json json;
   try {
-    json = parse_json(*text, sources_file, sources_memory);
-  } catch (const Error&) {
-    return;
+    known_ = scene_files_of(parse_json(*text, sources_file, sources_memory));
+  } catch (const Error&) {  // the files are read again
   }
-  if (!json.is_object()) return;
-  for (const auto& [name, item] : json.items()) {
-    if (!item.is_array() || item.size() != 3 || !item[0].is_number_unsigned() || !item[1].is_number_integer() ||
-        !item[2].is_string()) {
-      continue;
-    }
-    known_[name] = {item[0].get<std::uint64_t>(), item[1].get<std::int64_t>(), item[2].get<std::string>(), true};
+}
+
+void Sources::know(SceneFiles&& files) {
+  for (auto& [name, file] : files) {
+    const auto [known, is_new] = known_.try_emplace(name);
+    if (!is_new && known->second.changed_ns >= file.changed_ns) continue;
+    known->second = std::move(file);
+    is_saved_ = false;
   }
 }
 
@@ -240,8 +148,8 @@ Sources::Seen Sources::status(const fs::path& real, Number* number) {
   ::clock_gettime(CLOCK_REALTIME, &now);
   const auto ns = [](const std::timespec& t) { return std::int64_t{t.tv_sec} * 1'000'000'000 + t.tv_nsec; };
   // Not the time of modification, which any program may set back.
-  return {
-      static_cast<std::uint64_t>(status.st_size), ns(status.st_ctim), {}, ns(now) - ns(status.st_ctim) > clock_steps};
+  return {{static_cast<std::uint64_t>(status.st_size), ns(status.st_ctim), {}},
+          ns(now) - ns(status.st_ctim) > clock_steps};
 }
 
 const reader::SceneScope& Sources::scope(const fs::path& path) {
@@ -377,16 +285,26 @@ void Sources::check_unchanged(const SourcePart& part, const LookUps& look_ups) c
   }
 }
 
+SceneFiles Sources::files(const SourcePart& part) const {
+  const std::lock_guard lock(mutex_);
+  SceneFiles settled;
+  const auto add = [&](const std::string& name) {
+    if (const Seen& seen = seen_.at(name); seen.is_settled()) settled.insert({name, seen});
+  };
+  for (const fs::path& file : part.files) add(fs::absolute(file).lexically_normal().string());
+  for (const auto& [name, file] : part.references) add(file.string());
+  return settled;
+}
+
 void Sources::save() const {
-  std::map<std::string, Seen> settled;
+  SceneFiles settled;
   for (const auto& [name, seen] : seen_) {
-    if (seen.time_is_conclusive && !seen.is_absent) settled.insert({name, seen});
+    if (seen.is_settled()) settled.insert({name, seen});
   }
-  if (settled == known_) return;
-  Json json = Json::object();
-  for (const auto& [name, seen] : settled) json[name] = {seen.size, seen.changed_ns, seen.hash};
+  if (is_saved_ && settled == known_) return;
   // The name of a path that is not UTF-8 is not found again; that file is read again.
-  write_coded(store_, sources_file, json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n", key_);
+  const std::string text = json_of(settled).dump(1, ' ', false, Json::error_handler_t::replace);
+  write_coded(store_, sources_file, text + "\n", key_);
 }
 
 }  // namespace roam::store

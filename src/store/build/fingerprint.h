@@ -18,6 +18,7 @@
 #include "roam/store.h"
 #include "store/build/references.h"
 #include "store/folder.h"
+#include "store/json_reader.h"
 
 namespace roam::store {
 
@@ -28,6 +29,18 @@ namespace roam::store {
 /// The reverse: sets `options` from the text. Throws roam::Error for a text that text_of did not write.
 void read_as(const std::string& text, ImportOptions& options);
 
+/// What a builder remembers of a file of the scene.
+struct SceneFile {
+  std::uint64_t size = 0;
+  std::int64_t changed_ns = 0;  ///< ctime: no program can set it back
+  std::string hash;             ///< SHA-256
+  bool operator==(const SceneFile&) const = default;
+};
+using SceneFiles = std::map<std::string, SceneFile>;  ///< by absolute path
+[[nodiscard]] Json json_of(const SceneFiles& files);
+/// The reverse. Leaves out what is no such file.
+[[nodiscard]] SceneFiles scene_files_of(const Json& json);
+
 /// The content of the scene's files, by their SHA-256. A file is not read again if its size and time of change (ctime)
 /// are those of the last time. It is read again if that change was too recent for the file system's clock.
 ///
@@ -35,12 +48,15 @@ void read_as(const std::string& text, ImportOptions& options);
 /// one. It covers the files that scene_parts() lists and the references, with those that are absent. An entry of an
 /// archive is a file: its hash is that of its bytes in the archive, and the time is that of the archive.
 ///
-/// Thread-safe, except save().
+/// Thread-safe, except save() and know().
 class Sources {
  public:
   /// The results are saved in the folder of the store. Damaged results, or those without a code of the key, are
   /// ignored.
   Sources(Folder store, const std::optional<StoreKey>& key, const ImportOptions& import);
+
+  /// Adds files that other processes have examined, perhaps on other machines.
+  void know(SceneFiles&& files);
 
   /// The part with these references. None if a name leads out of the scene.
   [[nodiscard]] std::optional<SourcePart> with_references(const ScenePart& part, const std::vector<std::string>& names);
@@ -58,16 +74,15 @@ class Sources {
   /// Throws roam::Error if a file of the part has changed since look(), or was not the same when its reader looked it
   /// up.
   void check_unchanged(const SourcePart& part, const LookUps& look_ups) const;
+  /// The files of a part that look() has examined, except those that must be read again: they changed too recently.
+  [[nodiscard]] SceneFiles files(const SourcePart& part) const;
   void save() const;
 
  private:
-  struct Seen {
-    std::uint64_t size = 0;
-    std::int64_t changed_ns = 0;      ///< ctime: no program can set it back
-    std::string hash;                 ///< SHA-256
+  struct Seen : SceneFile {
     bool time_is_conclusive = false;  ///< it had changed long before it was examined
     bool is_absent = false;
-    bool operator==(const Seen&) const = default;
+    [[nodiscard]] bool is_settled() const { return time_is_conclusive && !is_absent; }
   };
   using Number = std::pair<std::uint64_t, std::uint64_t>;  ///< of a file, independent of its names: device and inode
   /// `real`: without links.
@@ -80,7 +95,9 @@ class Sources {
   ImportOptions import_;
   mutable std::mutex mutex_;  ///< of all below
   std::map<std::filesystem::path, reader::SceneScope> scopes_;
-  std::map<std::string, Seen> known_, seen_;
+  SceneFiles known_;
+  bool is_saved_ = true;  ///< all of `known_` is in the file
+  std::map<std::string, Seen> seen_;
   std::map<std::string, std::filesystem::path> linked_;  ///< targets of names that contain links
 };
 

@@ -95,8 +95,8 @@ class Intake {
   void sort() {
     work_.arena.execute([&] {
       const std::vector<RunItem> items = sort_run(full_);
-      write_run(work_.store, run_file(id_, runs_.size()), full_, items);
-      runs_.push_back({items.front().key, items.back().key});
+      const std::uint64_t hash = write_run(work_.store, run_file(id_, runs_.size()), full_, items);
+      runs_.push_back({items.front().key, items.back().key, hash});
       histogram_.add(items);
     });
   }
@@ -150,7 +150,7 @@ CurveKey parse_key(const std::string& text) {
 
 Json json_of(const PartRecord& record) {
   Json runs = Json::array();
-  for (const auto& run : record.runs) runs.push_back({key_text(run.first), key_text(run.last)});
+  for (const auto& run : record.runs) runs.push_back({key_text(run.first), key_text(run.last), run.hash});
   return {{"id", record.id},
           {"name", record.info.name},
           {"fingerprint", record.info.fingerprint},
@@ -176,7 +176,8 @@ PartRecord record_of(const Json& json) {
   record.info.objects = json.at("objects").get<std::uint64_t>();
   record.info.references = json.at("references").get<std::vector<std::string>>();
   for (const Json& run : json.at("runs")) {
-    record.runs.push_back({parse_key(run.at(0).get<std::string>()), parse_key(run.at(1).get<std::string>())});
+    record.runs.push_back({parse_key(run.at(0).get<std::string>()), parse_key(run.at(1).get<std::string>()),
+                           run.at(2).get<std::uint64_t>()});
   }
   record.notes = json.at("notes").get<std::vector<std::string>>();
   return record;
@@ -187,31 +188,37 @@ std::string record_id(const std::string& name, const std::string& fingerprint) {
   return sha256(std::as_bytes(std::span(text))).substr(0, record_digits);
 }
 
-void publish_record(const Work& work, const PartRecord& record) {
+void publish_record(const Work& work, const PartRecord& record, const SceneFiles& files) {
   Json json = json_of(record);
   json["scratch_version"] = scratch_version;
-  write_coded(work.store, record_file(record_id(record.info.name, "")), json.dump(1) + "\n", work.options.key);
+  json["files"] = json_of(files);
+  write_coded(work.store, record_file(record_id(record.info.name, "")),
+              json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n", work.options.key);
 }
 
-std::optional<PartRecord> find_record(const Work& work, const std::string& name) {
+std::optional<RecordOfFiles> find_record(const Work& work, const std::string& name) {
   const Folder& store = work.store;
   const std::string file = record_file(record_id(name, ""));
   const std::optional<std::string> text = read_coded(store, file, record_memory, work.options.key);
   if (!text) return {};
-  PartRecord record;
+  RecordOfFiles found;
   try {
     const Json json = parse_json(*text, file, record_memory);
     if (json.at("scratch_version").get<int>() != scratch_version) return {};
-    record = record_of(json);
+    found.record = record_of(json);
+    found.files = scene_files_of(json.at("files"));
   } catch (const std::exception&) {
     return {};  // the part is read again
   }
+  PartRecord& record = found.record;
+  if (record.info.name != name) return {};
   for (std::size_t i = 0; i < record.runs.size(); ++i) {
-    if (!size_of(store, run_file(record.id, i))) return {};
+    if (!is_run(store, run_file(record.id, i), record.runs[i].hash)) return {};
   }
-  if (size_of(store, part_file(record.info.file)) != record.info.bytes) return {};
+  const std::string part = part_file(record.info.file);
+  if (size_of(store, part) != record.info.bytes || sha256_of_file(store, part) != record.info.file) return {};
   record.has_runs = true;
-  return record;
+  return found;
 }
 
 PartRecord read_part(Work& work, const ScenePart& part, const std::string& id, int readers, LookUps& look_ups,

@@ -7,6 +7,7 @@
 
 #include "import/parts.h"
 #include "import/processor_budget.h"
+#include "store/build/fingerprint.h"
 #include "store/build/references.h"
 #include "store/build/work.h"
 #include "store/json_reader.h"
@@ -21,6 +22,7 @@ struct PartRecord {
   std::string id;  ///< names its runs in the scratch folder
   struct Run {
     CurveKey first = 0, last = 0;  ///< keys
+    std::uint64_t hash = 0;        ///< of write_run
   };
   std::vector<Run> runs;
   bool has_runs = false;           ///< the runs are in the scratch folder
@@ -28,7 +30,7 @@ struct PartRecord {
   std::uint64_t content = 0;       ///< XXH3 of what was read; only of a part that was read just now
 };
 
-/// All but PartRecord::has_runs and content, for the files of the scratch folder.
+/// All but has_runs and content, for the files of the scratch folder.
 [[nodiscard]] Json json_of(const PartRecord& record);
 /// The reverse. Throws an exception if the JSON does not hold a record.
 [[nodiscard]] PartRecord record_of(const Json& json);
@@ -36,9 +38,15 @@ struct PartRecord {
 /// Computes PartRecord::id. `fingerprint`: of what is known of the part before it is read.
 [[nodiscard]] std::string record_id(const std::string& name, const std::string& fingerprint);
 
-/// The record that publish_record left in the scratch folder with the same key, if all its files are there.
-[[nodiscard]] std::optional<PartRecord> find_record(const Work& work, const std::string& name);
-void publish_record(const Work& work, const PartRecord& record);
+/// A record in the scratch folder, and the files that its part was read from.
+struct RecordOfFiles {
+  PartRecord record;
+  SceneFiles files;
+};
+/// What publish_record left in the scratch folder with the same key, perhaps on another machine. None if the part file
+/// is not there to the last byte, or a run is missing or has another end.
+[[nodiscard]] std::optional<RecordOfFiles> find_record(const Work& work, const std::string& name);
+void publish_record(const Work& work, const PartRecord& record, const SceneFiles& files);
 
 /// Reads the part, as one of `readers` that run at once. Publishes its runs and its part file. The record lacks
 /// fingerprint and references. `budget`: of all parts.

@@ -12,7 +12,7 @@
 namespace roam::store {
 
 /// Another version of the scratch folder is ignored.
-inline constexpr int scratch_version = 3;
+inline constexpr int scratch_version = 4;
 
 // All in the folder of the store.
 /// Digits of the id of a record.

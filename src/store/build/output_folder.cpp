@@ -105,6 +105,13 @@ std::unique_ptr<BuildLock> locked(const Folder& store, const BuildProgress& prog
   }
 }
 
+Folder shared_output(const fs::path& path, bool through_link) {
+  std::vector<MadeFolder> made;
+  Folder store = Folder::held_or_made(path, through_link, made);
+  demand_no_other_things(store);
+  return store;
+}
+
 OutputFolder::OutputFolder(Folder& store, bool through_link, const BuildProgress& progress) : store_(store) {
   try {
     store = store_ = Folder::held_or_made(store.path(), through_link, made_);

@@ -2,6 +2,7 @@
 /// \file
 /// The folder that a build writes into.
 
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <set>
@@ -26,6 +27,10 @@ void check_output(const StoreBuildOptions& options);
 
 /// Whether the folder holds finished results of read_part, build_task or merge.
 [[nodiscard]] bool holds_results(const Folder& store);
+
+/// The folder of a store, open from then on; made if it does not exist. Takes no lock, and stays. Throws as
+/// OutputFolder, except for locks.
+[[nodiscard]] Folder shared_output(const std::filesystem::path& path, bool through_link);
 
 /// The folder of a store, locked; made if it does not exist. The destructor removes what builds put there, except after
 /// keep(), if it was there before, or if a later build can continue from it.

@@ -4,17 +4,14 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <atomic>
-#include <exception>
 #include <map>
-#include <thread>
 
 #include "roam/error.h"
-#include "store/build/fingerprint.h"
 #include "store/build/layout.h"
 #include "store/build/merge.h"
 #include "store/build/plan.h"
 #include "store/build/run.h"
+#include "store/build/scene_reader.h"
 #include "store/files.h"
 
 namespace roam::store {
@@ -23,111 +20,36 @@ namespace {
 class Planner {
  public:
   Planner(Work& work, const std::set<std::string>& damaged, StoreBuildReport& report)
-      : work_(work), damaged_(damaged), report_(report), sources_(work.store, work.options.key, work.options.import) {}
+      : work_(work), damaged_(damaged), reader_(work, listed_parts(work), damaged, report, plan_.parts) {}
 
   std::optional<Plan> run() {
-    work_.begin(Work::Step::read, 0, 0);
     in_force_ = manifest_in_force(work_.store);
-    plan_.options = text_of(work_.options.import);
-    if (plan_.options.size() > longest_options) {
-      throw Error(
-          fmt::format("the patterns to ignore and the allowed folders are longer than {} kB together; name fewer",
-                      longest_options >> 10));
-    }
-    ImportOptions listing = work_.options.import;
-    listing.memory_limit = work_.options.memory;
-    parts_ = scene_parts(work_.options.scene, listing);
+    reader_.take_records(in_force_, reader_.all());
+    plan_.options = reader_.options();
     plan_.lossless = work_.options.lossless;
-    take_records();
-    report_.parts = parts_.size();
     if (unchanged()) {
-      sources_.save();
+      reader_.save();
       return {};
     }
-    read(unknown_);
+    reader_.read(reader_.unknown());
     do {
       work_.begin(Work::Step::plan, 0, 0);
-      limit_references();
+      reader_.limit_references();
       lay_out();
-    } while (read(needed()));
-    sources_.save();
+    } while (reader_.read(needed()));
+    reader_.save();
     return std::move(plan_);
   }
 
  private:
-  /// A part as it was read, and the files that decide whether it has changed since.
-  struct Earlier {
-    std::size_t part;
-    PartRecord record;
-    SourcePart sources;
-  };
-
-  /// The earlier states of all parts, by part: from the scratch folder, then from the store in force.
-  std::vector<Earlier> earlier_parts() {
-    std::map<std::string, std::size_t> before;
-    std::vector<std::vector<std::string>> notes;
-    std::uint64_t references = 0;
-    if (in_force_) {
-      for (std::size_t i = 0; i < in_force_->parts.size(); ++i) before[in_force_->parts[i].name] = i;
-      for (const PartInfo& part : in_force_->parts) references += references_cost(part.references);
-      notes = notes_by_part(*in_force_);
-    }
-    std::vector<Earlier> earlier;
-    const auto add = [&](std::size_t i, PartRecord&& record) {
-      if (std::optional<SourcePart> sources = sources_.with_references(parts_[i], record.info.references)) {
-        earlier.push_back({i, std::move(record), std::move(*sources)});
-      }
-    };
-    for (std::size_t i = 0; i < parts_.size(); ++i) {
-      if (std::optional<PartRecord> record = find_record(work_, parts_[i].name)) add(i, std::move(*record));
-      const auto old = before.find(parts_[i].name);
-      if (old == before.end() || references > most_reference_bytes) continue;
-      add(i, {in_force_->parts[old->second], "", {}, false, notes[old->second]});
-    }
-    return earlier;
-  }
-
-  /// Collects the known facts of each part without reading it.
-  void take_records() {
-    std::vector<Earlier> earlier = earlier_parts();
-    std::vector<SourcePart> sources(parts_.begin(), parts_.end());
-    for (const Earlier& part : earlier) sources.push_back(part.sources);
-    look(sources);
-    auto next = earlier.begin();
-    for (std::size_t i = 0; i < parts_.size(); ++i) {
-      // An interrupted reading and its repetition have the same id, so that the latter replaces the runs.
-      const SourcePart known = next != earlier.end() && next->part == i ? next->sources : SourcePart(parts_[i]);
-      PartRecord record;
-      record.info.name = parts_[i].name;
-      record.id = record_id(parts_[i].name, sources_.fingerprint(known, plan_.options));
-      bool found = false;
-      for (; next != earlier.end() && next->part == i; ++next) {
-        const PartInfo& info = next->record.info;
-        if (found || info.fingerprint != sources_.fingerprint(next->sources, plan_.options) || !is_there(info))
-          continue;
-        found = true;
-        if (next->record.id.empty()) next->record.id = record_id(info.name, info.fingerprint);
-        record = std::move(next->record);
-      }
-      if (!found) unknown_.push_back(i);
-      plan_.parts.push_back(std::move(record));
-    }
-  }
-
-  void look(const std::vector<SourcePart>& parts) {
-    work_.arena.execute([&] { sources_.look(parts, [&] { work_.tick(); }); });
-  }
-
-  [[nodiscard]] bool is_there(const PartInfo& info) const {
-    return !damaged_.contains(info.file) && size_of(work_.store, part_file(info.file)) == info.bytes;
-  }
   [[nodiscard]] bool is_there(const ShardInfo& shard) const {
     return !damaged_.contains(shard.pack) && size_of(work_.store, pack_file(shard.pack)) == shard.bytes;
   }
 
   [[nodiscard]] bool unchanged() const {
     if (!in_force_ || in_force_->lossless != plan_.lossless || in_force_->options != plan_.options ||
-        in_force_->format != format_version || !unknown_.empty() || in_force_->parts.size() != plan_.parts.size()) {
+        in_force_->format != format_version || !reader_.unknown().empty() ||
+        in_force_->parts.size() != plan_.parts.size()) {
       return false;
     }
     for (std::size_t i = 0; i < plan_.parts.size(); ++i) {
@@ -136,93 +58,6 @@ class Planner {
     }
     return std::all_of(in_force_->shards.begin(), in_force_->shards.end(),
                        [&](const ShardInfo& shard) { return is_there(shard); });
-  }
-
-  /// Reads these parts, several at once if memory allows. Returns false if there are none.
-  bool read(const std::vector<std::size_t>& numbers) {
-    if (numbers.empty()) return false;
-    std::uint64_t bytes = 0;
-    for (const std::size_t i : numbers) bytes += parts_[i].bytes;
-    work_.begin(Work::Step::read, bytes, 0);
-    const Timer timer(report_.read_seconds);
-    const int readers = work_.readers(numbers.size());
-    std::vector<std::exception_ptr> failures(numbers.size());
-    std::atomic<std::size_t> next{0};
-    std::atomic<bool> ends{false};
-    const auto read_some = [&] {
-      for (std::size_t n; !ends && (n = next++) < numbers.size();) {
-        try {
-          read_one(numbers[n], readers);
-        } catch (...) {
-          failures[n] = std::current_exception();
-          ends = readers == 1 || is_cancelled(failures[n]);
-        }
-      }
-    };
-    {
-      std::vector<std::jthread> threads;
-      for (int t = 1; t < readers; ++t) threads.emplace_back(read_some);
-      read_some();
-    }
-    for (const std::exception_ptr& failure : failures) {
-      if (failure && (readers == 1 || is_cancelled(failure))) std::rethrow_exception(failure);
-    }
-    for (std::size_t n = 0; n < numbers.size(); ++n) {
-      if (failures[n]) read_one(numbers[n], 1);  // again, with all of the memory
-    }
-    report_.parts_read += numbers.size();
-    return true;
-  }
-
-  void read_one(std::size_t i, int readers) {
-    // A sixteenth of the memory for the names of files.
-    LookUps look_ups(parts_[i], sources_.scope(parts_[i].path),
-                     work_.options.memory / (16 * static_cast<std::uint64_t>(readers)));
-    PartRecord record = read_part(work_, parts_[i], plan_.parts[i].id, readers, look_ups, budget_);
-    SourcePart sources(parts_[i]);
-    for (const auto& [name, file] : look_ups.files()) {
-      record.info.references.push_back(name);
-      sources.references.emplace(name, file.file);
-    }
-    look({sources});
-    sources_.check_unchanged(sources, look_ups);
-    record.info.fingerprint = sources_.fingerprint(sources, plan_.options);
-    if (!look_ups.are_all()) {
-      record.info.fingerprint += fmt::format(" {:016x}", record.content);
-      forget_references(record);
-    }
-    publish_record(work_, record);
-    plan_.parts[i] = std::move(record);
-  }
-
-  /// Gives a part whose references cannot be recorded a fingerprint that no list of files has: it is always read again.
-  static void forget_references(PartRecord& record) {
-    const std::string text = "roam part of unknown files\n" + record.info.fingerprint;
-    record.info.fingerprint = sha256(std::as_bytes(std::span(text)));
-    record.info.references.clear();
-  }
-
-  /// Keeps the references within the limit of a manifest.
-  void limit_references() {
-    std::uint64_t bytes = 0;
-    for (PartRecord& part : plan_.parts) {
-      const std::uint64_t cost = references_cost(part.info.references);
-      if (cost > most_reference_bytes - bytes) {
-        forget_references(part);
-      } else {
-        bytes += cost;
-      }
-    }
-  }
-
-  static bool is_cancelled(const std::exception_ptr& failure) {
-    try {
-      std::rethrow_exception(failure);
-    } catch (const Cancelled&) {
-      return true;
-    } catch (...) {
-      return false;
-    }
   }
 
   /// Decides the shards as far as the parts' runs allow. `missing_` gets the parts that must be read first.
@@ -319,7 +154,7 @@ class Planner {
     RunBlock block;
     for (std::size_t r = 0; r < record.runs.size(); ++r) {
       if (record.runs[r].last < cell.key || cell.last() < record.runs[r].first) continue;
-      const RunReader run(work_.store, run_file(record.id, r));
+      const RunReader run(work_.store, run_file(record.id, r), record.runs[r].hash);
       const RunReader::Range range = run.blocks(cell.key, cell.last());
       for (std::size_t b = range.begin; b < range.end; ++b) {
         run.read(b, block);
@@ -351,14 +186,10 @@ class Planner {
 
   Work& work_;
   const std::set<std::string>& damaged_;
-  StoreBuildReport& report_;
-  Sources sources_;
-  reader::SceneBudget budget_;
-  std::optional<Manifest> in_force_;
-  std::vector<ScenePart> parts_;
-  std::vector<std::size_t> unknown_;  ///< parts that must be read in any case
-  std::set<std::size_t> missing_;
   Plan plan_;
+  SceneReader reader_;
+  std::optional<Manifest> in_force_;
+  std::set<std::size_t> missing_;
 };
 
 }  // namespace

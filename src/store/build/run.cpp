@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <cstddef>
 #include <cstring>
 
 #include "roam/error.h"
@@ -120,6 +121,15 @@ struct RunReader::Footer {
   std::uint64_t blocks;
   std::uint64_t zero;
   std::uint64_t hash;  ///< of all members before it
+
+  /// Of a file of so many bytes.
+  [[nodiscard]] bool is_right(std::uint64_t bytes) const {
+    return std::memcmp(magic, run_magic, sizeof run_magic) == 0 && hash == hash_of_members() && index_offset <= bytes &&
+           blocks <= bytes / sizeof(Entry) && index_offset + blocks * sizeof(Entry) + sizeof(Footer) == bytes;
+  }
+  [[nodiscard]] std::uint64_t hash_of_members() const {
+    return xxh3(std::as_bytes(std::span(this, 1)).first(offsetof(Footer, hash)));
+  }
 };
 
 std::vector<RunItem> sort_run(const RunContent& run) {
@@ -133,7 +143,8 @@ std::vector<RunItem> sort_run(const RunContent& run) {
   return items;
 }
 
-void write_run(const Folder& store, const std::string& name, const RunContent& run, std::span<const RunItem> items) {
+std::uint64_t write_run(const Folder& store, const std::string& name, const RunContent& run,
+                        std::span<const RunItem> items) {
   NewFile out(store, name);
   const std::size_t blocks = (items.size() + block_triangles - 1) / block_triangles;
   std::vector<RunReader::Entry> index(blocks);
@@ -159,28 +170,39 @@ void write_run(const Folder& store, const std::string& name, const RunContent& r
   footer.index_offset = out.size();
   footer.index_hash = xxh3(index_bytes);
   footer.blocks = blocks;
-  footer.hash = xxh3(std::as_bytes(std::span(&footer, 1)).first(offsetof(RunReader::Footer, hash)));
+  footer.hash = footer.hash_of_members();
   out.write(index_bytes);
   out.write(std::as_bytes(std::span(&footer, 1)));
   out.commit();
+  return footer.hash;
 }
 
-RunReader::RunReader(const Folder& store, const std::string& name)
-    : file_(store / name), descriptor_(open_file(store, name, O_RDONLY)) {
-  if (!descriptor_.is_open()) {
-    if (is_foreign(errno)) fail("read", store, name, errno);
-    refuse(std::strerror(errno));
-  }
+bool is_run(const Folder& store, const std::string& name, std::uint64_t hash) {
+  const Descriptor file = open_file(store, name, O_RDONLY);
+  if (!file.is_open() && is_foreign(errno)) fail("read", store, name, errno);
+  struct stat status {};
+  RunReader::Footer footer{};
+  if (!file.is_open() || ::fstat(file.number(), &status) != 0) return false;
+  const auto size = static_cast<std::uint64_t>(status.st_size);
+  const auto end = std::as_writable_bytes(std::span(&footer, 1));
+  return size >= end.size() && files::read_fully(file.number(), size - end.size(), end) == end.size() &&
+         footer.is_right(size) && footer.hash == hash;
+}
+
+RunReader::RunReader(const Folder& store, const std::string& name, std::uint64_t hash)
+    : store_(store), name_(name), descriptor_(open_file(store, name, O_RDONLY)) {
+  if (!descriptor_.is_open()) fail_to_read();
   struct stat status {};
   Footer footer{};
-  if (::fstat(descriptor_.number(), &status) != 0) refuse(std::strerror(errno));
+  if (::fstat(descriptor_.number(), &status) != 0) fail_to_read();
   const auto size = static_cast<std::uint64_t>(status.st_size);
   if (size < sizeof footer) refuse("it is too short");
   get(size - sizeof footer, std::as_writable_bytes(std::span(&footer, 1)));
-  if (std::memcmp(footer.magic, run_magic, sizeof run_magic) != 0 ||
-      footer.hash != xxh3(std::as_bytes(std::span(&footer, 1)).first(offsetof(Footer, hash))) ||
-      footer.blocks > size / sizeof(Entry)) {
-    refuse("its end is damaged");
+  if (!footer.is_right(size)) refuse("its end is damaged");
+  if (footer.hash != hash) {
+    const std::string file = (store / name).string();
+    throw Error::at(file,
+                    fmt::format("{} is not the one of the plan: its part was read again since; plan again", file));
   }
   first_number_ = footer.first_number;
   index_.resize(static_cast<std::size_t>(footer.blocks));
@@ -250,14 +272,22 @@ void RunReader::read(std::size_t block, RunBlock& out) const {
 
 void RunReader::get(std::uint64_t offset, std::span<std::byte> out) const {
   if (files::read_fully(descriptor_.number(), offset, out) == out.size()) return;
-  refuse(errno == 0 ? "it is too short" : std::strerror(errno));
+  if (errno != 0) fail_to_read();
+  refuse("it is too short");
+}
+
+void RunReader::fail_to_read() const {
+  if (errno != ENOENT) fail("read", store_, name_, errno);
+  const std::string file = (store_ / name_).string();
+  throw Error::at(file, fmt::format("{} is gone: plan or build again, and its part is read again", file));
 }
 
 void RunReader::refuse(const char* why) const {
+  remove_file(store_, name_);
+  const std::string file = (store_ / name_).string();
   throw Error::at(
-      file_.string(),
-      fmt::format("cannot read {}: {}; remove the folder {}, and build again: what was published before stays",
-                  file_.string(), why, file_.parent_path().parent_path().string()));
+      file,
+      fmt::format("{} was damaged ({}), and is removed: plan or build again, and its part is read again", file, why));
 }
 
 }  // namespace roam::store

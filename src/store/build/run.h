@@ -35,8 +35,12 @@ struct RunItem {
 /// Items by key, then in their original order. Uses all threads of the calling arena.
 [[nodiscard]] std::vector<RunItem> sort_run(const RunContent& run);
 
-/// Publishes the file of a store. `items`: of sort_run.
-void write_run(const Folder& store, const std::string& name, const RunContent& run, std::span<const RunItem> items);
+/// Publishes the file of a store. `items`: of sort_run. Returns the hash of all its bytes.
+std::uint64_t write_run(const Folder& store, const std::string& name, const RunContent& run,
+                        std::span<const RunItem> items);
+/// Whether the file is there, has the right size, and ends as a run with this hash does. Reads only its end. Throws
+/// FileError where something else is in its place.
+[[nodiscard]] bool is_run(const Folder& store, const std::string& name, std::uint64_t hash);
 
 /// Triangles of a block, and their numbers in the part.
 struct RunBlock {
@@ -46,11 +50,12 @@ struct RunBlock {
   std::vector<std::byte> bytes;  ///< the same
 };
 
-/// A run, open for reading by any number of threads. Throws roam::Error for files that have changed since they were
-/// written, with advice.
+/// A run, open for reading by any number of threads. Throws roam::Error for a file that has changed since it was
+/// written, and removes it, so that the next plan reads its part again.
 class RunReader {
  public:
-  RunReader(const Folder& store, const std::string& name);
+  /// `hash`: of write_run.
+  RunReader(const Folder& store, const std::string& name, std::uint64_t hash);
 
   struct Range {
     std::size_t begin = 0, end = 0;
@@ -69,12 +74,16 @@ class RunReader {
   };
   static_assert(sizeof(Entry) == 48);
   struct Footer;
-  friend void write_run(const Folder&, const std::string&, const RunContent&, std::span<const RunItem>);
+  friend std::uint64_t write_run(const Folder&, const std::string&, const RunContent&, std::span<const RunItem>);
+  friend bool is_run(const Folder&, const std::string&, std::uint64_t);
 
   void get(std::uint64_t offset, std::span<std::byte> out) const;
   [[noreturn]] void refuse(const char* why) const;
 
-  std::filesystem::path file_;
+  [[noreturn]] void fail_to_read() const;
+
+  Folder store_;
+  std::string name_;
   Descriptor descriptor_;
   std::uint64_t first_number_ = 0;
   std::vector<Entry> index_;

@@ -41,7 +41,9 @@ class Blocks {
   template <class F>
   void for_each_run(F&& f) const {
     tbb::parallel_for(std::size_t{0}, runs_.size(), [&](std::size_t i) {
-      const RunReader run(work_.store, run_file(plan_.parts[runs_[i].part].id, runs_[i].run));
+      const PartRecord& record = plan_.parts[runs_[i].part];
+      const std::size_t number = runs_[i].run;
+      const RunReader run(work_.store, run_file(record.id, number), record.runs[number].hash);
       f(i, run, run.blocks(first_, last_));
     });
   }

@@ -4,44 +4,42 @@
 
 #include <algorithm>
 #include <functional>
+#include <numeric>
 #include <queue>
 #include <utility>
 
 namespace roam::store {
-namespace {
 
-/// The loads of tasks, after each shard has gone to the least loaded one. The longest shard comes first: then the
-/// longest task is at most 4/3 of the best possible one (Graham 1969).
-std::vector<std::uint64_t> share_out(Plan& plan, std::span<const std::size_t> longest_first, std::uint64_t tasks) {
-  using Load = std::pair<std::uint64_t, std::uint64_t>;  // triangles, task
+std::vector<std::uint64_t> share_out(std::span<const std::uint64_t> loads, std::uint64_t tasks) {
+  std::vector<std::size_t> order(loads.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return loads[a] > loads[b]; });
+  // Each load goes to the least loaded task, the largest one first: then the longest task is at most 4/3 of the best
+  // possible one (Graham 1969).
+  using Load = std::pair<std::uint64_t, std::uint64_t>;  // with the task
   std::priority_queue<Load, std::vector<Load>, std::greater<>> least;
-  std::vector<std::uint64_t> loads(tasks);
   for (std::uint64_t t = 0; t < tasks; ++t) least.push({0, t});
-  for (const std::size_t i : longest_first) {
-    PlannedShard& shard = plan.shards[i];
-    shard.task = least.top().second;
+  std::vector<std::uint64_t> task_of(loads.size());
+  for (const std::size_t i : order) {
+    const auto [load, task] = least.top();
     least.pop();
-    loads[shard.task] += shard.stretch.triangles;
-    least.push({loads[shard.task], shard.task});
+    task_of[i] = task;
+    least.push({load + loads[i], task});
   }
-  return loads;
+  return task_of;
 }
 
-}  // namespace
-
 void assign_tasks(Plan& plan, std::uint64_t wished) {
-  std::vector<std::size_t> shards = plan.to_build();
-  std::stable_sort(shards.begin(), shards.end(), [&](std::size_t a, std::size_t b) {
-    return plan.shards[a].stretch.triangles > plan.shards[b].stretch.triangles;
-  });
+  const std::vector<std::size_t> shards = plan.to_build();
+  std::vector<std::uint64_t> loads;
+  for (const std::size_t i : shards) loads.push_back(plan.shards[i].stretch.triangles);
+  const auto triangles = std::accumulate(loads.begin(), loads.end(), std::uint64_t{0});
   plan.tasks = std::min<std::uint64_t>(wished > 0 ? wished : most_good_tasks, shards.size());
-  if (plan.tasks == 0) return;
-  for (std::uint64_t triangles = 0;; triangles = 0) {
-    const std::vector<std::uint64_t> loads = share_out(plan, shards, plan.tasks);
-    for (const std::uint64_t load : loads) triangles += load;
-    const auto longest = static_cast<double>(*std::max_element(loads.begin(), loads.end()));
+  while (plan.tasks > 0) {
+    const std::vector<std::uint64_t> task_of = share_out(loads, plan.tasks);
+    for (std::size_t n = 0; n < shards.size(); ++n) plan.shards[shards[n]].task = task_of[n];
     const double mean = static_cast<double>(triangles) / static_cast<double>(plan.tasks);
-    if (wished > 0 || plan.tasks == 1 || longest <= good_balance * mean) return;
+    if (wished > 0 || plan.tasks == 1 || static_cast<double>(longest_task(plan)) <= good_balance * mean) return;
     // In steps of a sixteenth: the search takes a moment even for the largest scene.
     plan.tasks -= std::max<std::uint64_t>(1, plan.tasks / 16);
   }

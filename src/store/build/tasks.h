@@ -17,6 +17,9 @@ inline constexpr double good_balance = 1.3;
 /// Tasks, at most, if their number is left to roam: batch engines refuse longer arrays by default.
 inline constexpr std::uint64_t most_good_tasks = 1000;
 
+/// Shares loads out among tasks, about equally: the task of each load. The same loads give the same tasks.
+[[nodiscard]] std::vector<std::uint64_t> share_out(std::span<const std::uint64_t> loads, std::uint64_t tasks);
+
 /// Gives each shard that is to be built to one of `wished` tasks, about equally long, or fewer: no task is empty.
 /// 0: as many as are balanced, at most most_good_tasks; at least 1. Sets Plan::tasks and PlannedShard::task. The same
 /// plan and wish give the same tasks.

@@ -26,7 +26,7 @@ constexpr std::uint64_t most_ignored = 64 << 10;
 
 constexpr const char* no_ranges =
     "the web server ignores ranges and sends the whole file; use one that serves ranges, as nginx does";
-constexpr const char* wrong_range = "the web server sends another range than the one it was asked for";
+constexpr const char* wrong_range = "the web server sends another range than requested";
 constexpr const char* too_much = "the web server sends more bytes than it says";
 constexpr const char* larger = "it is larger than any file of its kind";
 constexpr const char* no_memory = "there is no memory left to read it";

@@ -5,18 +5,18 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 #include <sys/syscall.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <csignal>
 #include <cstdlib>
+#include <fstream>
 #include <functional>
 #include <mutex>
 #include <optional>
 #include <random>
 #include <utility>
 
-#include "store_builds.h"
+#include "killed_builds.h"
 
 namespace {
 
@@ -129,72 +129,45 @@ using namespace store_builds;
 
 /// Runs in a process of its own, whose power goes at a call that changes the disk; returns its wait status, and writes
 /// the number of calls into the file `count`, if any.
-int in_child(const std::function<void()>& work, int fatal_call = 0, int seed = 0, const std::string& count = {}) {
-  const pid_t child = ::fork();
-  if (child == 0) {
+int on_a_disk(const std::function<void()>& work, int fatal_call = 0, int seed = 0, const std::string& count = {}) {
+  return in_child([&] {
     disk = new Disk;
     disk->fatal_call = fatal_call;
     disk->random.seed(static_cast<unsigned>(seed + 1));
-    int status = 0;
-    try {
-      work();
-    } catch (const std::exception& e) {
-      fprintf(stderr, "%s\n", e.what());
-      status = 1;
-    }
+    work();
     const int calls = std::exchange(disk, nullptr)->calls;
     if (!count.empty()) std::ofstream(count) << calls;
-    ::_exit(status);
-  }
-  int status = 0;
-  ::waitpid(child, &status, 0);
-  return status;
-}
-
-/// How many cuts a test makes: ROAM_TEST_CUTS where that is set.
-int cuts() {
-  const char* text = std::getenv("ROAM_TEST_CUTS");
-  return text != nullptr ? std::atoi(text) : 30;
+  });
 }
 
 TEST(StoreBuildPower, ACutAtAnyStepLeavesTheOldStoreTheNewOrNone) {
-  const TestFolder folder;
-  const std::vector<std::string> scene{write_ply(folder.file("a.ply"), field(60, 0.5, {0.0, 0.0, 0.0})),
-                                       write_ply(folder.file("b.ply"), field(40, 0.5, {100.0, 0.0, 0.0}))};
-  const auto build = [&](const std::string& output) { roam::build_store(options(scene, output)); };
-  const auto triangles = [](const std::string& store) { return roam::Store::open(store)->info().triangles; };
-  const std::string old = folder.file("old"), updated = folder.file("updated"), output = folder.file("cut");
-  ASSERT_EQ(in_child([&] { build(old); }), 0);
-  write_ply(scene[1], field(50, 0.5, {100.0, 0.0, 0.0}));
-  ASSERT_EQ(in_child([&] { build(updated); }), 0);
+  const ChangedScene changed;
+  const auto build = [&] { changed.build(changed.output); };
+  const int cuts = how_often("ROAM_TEST_CUTS", 30);
   int old_ones = 0, new_ones = 0;
   for (const bool updating : {false, true}) {
-    const auto begin_again = [&] {
-      fs::remove_all(output);
-      if (updating) fs::copy(old, output, fs::copy_options::recursive);
-    };
-    begin_again();
-    ASSERT_EQ(in_child([&] { build(output); }, 0, 0, folder.file("count")), 0);
-    const int count = std::atoi(folder.read("count").c_str());
+    changed.begin_again(updating);
+    const std::string counted = changed.folder.file("count");
+    ASSERT_EQ(on_a_disk(build, 0, 0, counted), 0);
+    const int count = std::atoi(changed.folder.read("count").c_str());
     ASSERT_GT(count, 20);
-    for (int i = 0; i < cuts(); ++i) {
-      begin_again();
-      const int at = 1 + (count - 1) * i / (cuts() - 1);
+    for (int i = 0; i < cuts; ++i) {
+      changed.begin_again(updating);
+      const int at = 1 + (count - 1) * i / (cuts - 1);
       SCOPED_TRACE((updating ? "update, call " : "call ") + std::to_string(at) + " of " + std::to_string(count));
       // The order of calls may differ from run to run, and so may their number.
-      in_child([&] { build(output); }, at, i);
-      if (updating || fs::exists(output + "/CURRENT")) {
-        expect_whole(output);
-        const bool is_old = updating && triangles(output) == triangles(old);
-        EXPECT_TRUE(is_old || triangles(output) == triangles(updated));
+      on_a_disk(build, at, i);
+      if (updating || fs::exists(changed.output + "/CURRENT")) {
+        const bool is_old = changed.is_old();
+        EXPECT_TRUE(updating || !is_old);
         ++(is_old ? old_ones : new_ones);
       }
-      ASSERT_EQ(in_child([&] { build(output); }), 0);
-      expect_same(updated, output);
+      ASSERT_EQ(on_a_disk(build), 0);
+      expect_same(changed.updated, changed.output);
       if (HasFailure()) return;
     }
   }
-  EXPECT_GT(old_ones, cuts() / 4);
+  EXPECT_GT(old_ones, cuts / 4);
   EXPECT_GT(new_ones, 0);
 }
 

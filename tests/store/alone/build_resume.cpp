@@ -15,8 +15,8 @@
 #include <thread>
 
 #include "clutter.h"
+#include "killed_builds.h"
 #include "store/files.h"
-#include "store_builds.h"
 
 namespace {
 
@@ -63,24 +63,13 @@ namespace {
 using namespace store_builds;
 
 /// Runs in a process of its own, which dies at a call that changes the disk; returns its wait status.
-int in_child(const std::function<void()>& work, int dies_at = 0, bool after = false) {
-  const pid_t child = ::fork();
-  if (child == 0) {
+int killed_at(int call, bool after, const std::function<void()>& work) {
+  return in_child([&] {
     calls = 0;
-    fatal_call = dies_at;
+    fatal_call = call;
     dies_after = after;
-    int status = 0;
-    try {
-      work();
-    } catch (const std::exception& e) {
-      fprintf(stderr, "%s\n", e.what());
-      status = 1;
-    }
-    ::_exit(status);
-  }
-  int status = 0;
-  ::waitpid(child, &status, 0);
-  return status;
+    work();
+  });
 }
 
 bool was_killed(int status) { return WIFSIGNALED(status) && WTERMSIG(status) == SIGKILL; }
@@ -88,6 +77,7 @@ bool was_killed(int status) { return WIFSIGNALED(status) && WTERMSIG(status) == 
 /// How many calls that change the disk the work makes.
 int calls_of(const std::string& file, const std::function<void()>& work) {
   EXPECT_EQ(in_child([&] {
+              calls = 0;
               work();
               std::ofstream(file) << calls.load();
             }),
@@ -97,11 +87,7 @@ int calls_of(const std::string& file, const std::function<void()>& work) {
   return count;
 }
 
-/// How often a test kills: ROAM_TEST_KILLS where that is set.
-int kills(int usually) {
-  const char* text = std::getenv("ROAM_TEST_KILLS");
-  return text != nullptr ? std::atoi(text) : usually;
-}
+int kills(int usually) { return how_often("ROAM_TEST_KILLS", usually); }
 
 TEST(StoreBuildResume, AfterBeingKilledAtAnyStepOnTheDisk) {
   const TestFolder folder;
@@ -120,7 +106,7 @@ TEST(StoreBuildResume, AfterBeingKilledAtAnyStepOnTheDisk) {
   for (int i = 0; i < samples; ++i) {
     fs::remove_all(output);
     const int at = 1 + (count - 1) * i / (samples - 1);
-    ASSERT_TRUE(was_killed(in_child([&] { build(output); }, at, i % 2 == 1))) << at;
+    ASSERT_TRUE(was_killed(killed_at(at, i % 2 == 1, [&] { build(output); }))) << at;
     if (fs::exists(output + "/CURRENT")) expect_whole(output);
     ASSERT_EQ(in_child([&] { build(output); }), 0);
     expect_same(folder.file("whole"), output);
@@ -128,38 +114,53 @@ TEST(StoreBuildResume, AfterBeingKilledAtAnyStepOnTheDisk) {
 }
 
 TEST(StoreBuildResume, AnUpdateThatIsKilledLeavesTheOldStoreOrTheNew) {
-  const TestFolder folder;
-  const std::vector<std::string> scene{write_ply(folder.file("a.ply"), field(60, 0.5, {0.0, 0.0, 0.0})),
-                                       write_ply(folder.file("b.ply"), field(40, 0.5, {100.0, 0.0, 0.0}))};
-  const auto build = [&](const std::string& output) { roam::build_store(options(scene, output)); };
-  const auto triangles = [](const std::string& store) { return roam::Store::open(store)->info().triangles; };
-  const std::string old = folder.file("old"), updated = folder.file("updated"), output = folder.file("killed");
-  ASSERT_EQ(in_child([&] { build(old); }), 0);
-  write_ply(scene[1], field(50, 0.5, {100.0, 0.0, 0.0}));
-  const auto begin_again = [&] {
-    fs::remove_all(output);
-    fs::copy(old, output, fs::copy_options::recursive);
-  };
-  begin_again();
-  const int count = calls_of(folder.file("count"), [&] { build(output); });
+  const ChangedScene changed;
+  const auto build = [&] { changed.build(changed.output); };
+  changed.begin_again(true);
+  const int count = calls_of(changed.folder.file("count"), build);
   ASSERT_GT(count, 10);
-  ASSERT_EQ(in_child([&] { build(updated); }), 0);
-  expect_same(updated, output);
   int old_ones = 0;
   const int samples = std::min(count, kills(24));
   for (int i = 0; i < samples; ++i) {
-    begin_again();
+    changed.begin_again(true);
     const int at = 1 + (count - 1) * i / (samples - 1);
-    ASSERT_TRUE(was_killed(in_child([&] { build(output); }, at, i % 2 == 1))) << at;
-    expect_whole(output);
-    const bool is_old = triangles(output) == triangles(old);
-    EXPECT_TRUE(is_old || triangles(output) == triangles(updated)) << at;
-    old_ones += is_old ? 1 : 0;
-    ASSERT_EQ(in_child([&] { build(output); }), 0);
-    expect_same(updated, output);
+    ASSERT_TRUE(was_killed(killed_at(at, i % 2 == 1, build))) << at;
+    old_ones += changed.is_old() ? 1 : 0;
+    ASSERT_EQ(in_child(build), 0);
+    expect_same(changed.updated, changed.output);
   }
   EXPECT_GT(old_ones, samples / 4);
   EXPECT_LT(old_ones, samples);
+}
+
+TEST(StoreBuildResume, SharesOfTheSceneThatAreKilledAtAnyStepOnTheDisk) {
+  const TestFolder folder;
+  auto o = options({write_ply(folder.file("a.ply"), field(60, 0.5, {0.0, 0.0, 0.0})),
+                    write_ply(folder.file("b.ply"), field(40, 0.5, {100.0, 0.0, 0.0}))},
+                   folder.file("killed"));
+  o.tasks = 2;
+  o.key.emplace();
+  roam::StoreBuildReport report;
+  const auto build = [&] { roam::build_store(o); };
+  const auto share = [&](std::uint64_t i) { return [&, i] { roam::read_share(o, i, report); }; };
+  ASSERT_EQ(in_child(build), 0);
+  fs::rename(o.output, folder.file("whole"));
+  const int count = calls_of(folder.file("count"), share(0));
+  ASSERT_GT(count, 8);
+  const int samples = std::min(count, kills(8));
+  for (int i = 0; i < samples; ++i) {
+    fs::remove_all(o.output);
+    const int at = 1 + (count - 1) * i / (samples - 1);
+    ASSERT_TRUE(was_killed(killed_at(at, i % 2 == 1, share(0)))) << at;
+    if (i % 3 > 0) {
+      ASSERT_EQ(in_child(share(1)), 0);
+    }
+    if (i % 3 > 1) {
+      ASSERT_EQ(in_child(share(0)), 0);
+    }
+    ASSERT_EQ(in_child(build), 0);
+    expect_same(folder.file("whole"), o.output.string());
+  }
 }
 
 TEST(StoreBuildResume, SaysThatTheDiskIsFullAndGoesOnWhenItIsNot) {

@@ -1,0 +1,226 @@
+// Shares of a scene that are read before the plan: it reads what they left, and the store is the same.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <functional>
+#include <thread>
+#include <utility>
+
+#include "store/build/layout.h"
+#include "store_builds.h"
+
+namespace {
+
+using namespace store_builds;
+using roam::StoreBuildReport;
+
+/// A scene of a few files, its store, and another one that is built in steps.
+class StoreShares : public testing::Test {
+ protected:
+  StoreShares() {
+    for (std::uint32_t i = 0; i < parts; ++i) {
+      const std::string file = folder_.file("f" + std::to_string(i) + ".ply");
+      scene_.push_back(write_ply(file, field(20 + 5 * i, 0.5, {30.0 * i, 0.0, 0.0})));
+    }
+    roam::build_store(in("whole", 0));
+  }
+
+  /// With a key, as the program does.
+  roam::StoreBuildOptions in(const std::string& output, std::uint64_t tasks) const {
+    auto o = options(scene_, folder_.file(output));
+    o.tasks = tasks;
+    o.key.emplace();
+    return o;
+  }
+  StoreBuildReport read(std::uint64_t share, std::uint64_t shares) const {
+    StoreBuildReport report;
+    roam::read_share(in("steps", shares), share, report);
+    return report;
+  }
+  /// The rest of the build. Returns how many parts the plan read.
+  std::uint64_t plan_and_build(const std::string& output = "steps", std::uint64_t tasks = 2) const {
+    StoreBuildReport report;
+    const auto o = in(output, tasks);
+    roam::plan_store(o, report);
+    const std::uint64_t parts_read = report.parts_read;
+    for (std::uint64_t i = 0; i < report.tasks; ++i) roam::build_task(o, i, report);
+    roam::merge_store(o, report);
+    return parts_read;
+  }
+  void expect_the_same() const { expect_same(folder_.file("whole"), folder_.file("steps")); }
+  /// The files of a folder of the scratch.
+  std::vector<fs::path> scratch(const std::string& of) const {
+    std::vector<fs::path> files;
+    for (const auto& entry : fs::directory_iterator(folder_.file("steps/" + of))) files.push_back(entry.path());
+    std::sort(files.begin(), files.end());
+    return files;
+  }
+
+  static constexpr std::uint32_t parts = 3;
+  TestFolder folder_;
+  std::vector<std::string> scene_;
+};
+
+TEST_F(StoreShares, LeaveThePlanNothingToReadInAnyNumberAndOrder) {
+  for (const std::uint64_t shares : {2, 4}) {
+    fs::remove_all(folder_.file("steps"));
+    std::uint64_t all = 0;
+    for (std::uint64_t i = shares; i-- > 0;) {
+      const StoreBuildReport first = read(i, shares), again = read(i, shares);
+      EXPECT_EQ(first.parts, parts);
+      EXPECT_EQ(first.parts_read, first.share_parts);
+      EXPECT_EQ(again.parts_read, 0U) << "it is there";
+      EXPECT_EQ(again.share_parts, first.share_parts);
+      all += first.parts_read;
+    }
+    EXPECT_EQ(all, parts) << "each part once";
+    EXPECT_EQ(plan_and_build(), 0U);
+    expect_the_same();
+    EXPECT_EQ(read(0, shares).parts_read, 0U) << "too late, and harmless";
+    EXPECT_FALSE(fs::exists(folder_.file("steps/scratch")));
+  }
+}
+
+TEST_F(StoreShares, ThatAreMissingAreReadByThePlan) {
+  const std::uint64_t done = read(1, 2).parts_read;
+  ASSERT_GT(done, 0U);
+  ASSERT_LT(done, parts);
+  EXPECT_EQ(plan_and_build(), parts - done);
+  expect_the_same();
+}
+
+TEST_F(StoreShares, MayRunTwiceAtOnceAndBesideOtherNumbers) {
+  {
+    std::vector<std::jthread> threads;
+    for (const auto& [share, shares] : {std::pair(0, 2), {0, 2}, {1, 2}, {0, 1}}) {
+      threads.emplace_back(
+          [this, i = share, n = shares] { read(static_cast<std::uint64_t>(i), static_cast<std::uint64_t>(n)); });
+    }
+  }
+  EXPECT_EQ(plan_and_build(), 0U);
+  expect_the_same();
+}
+
+TEST_F(StoreShares, MayRunWhileThePlanReads) {
+  {
+    const std::jthread share([this] { read(0, 1); });
+    StoreBuildReport report;
+    roam::plan_store(in("steps", 2), report);
+  }
+  EXPECT_EQ(plan_and_build(), 0U);
+  expect_the_same();
+}
+
+TEST_F(StoreShares, OfWhichFilesAreDamagedOrForeignAreReadAgain) {
+  const auto flip = [](const fs::path& path, std::uintmax_t at) {
+    std::fstream file(path, std::ios::in | std::ios::out | std::ios::binary);
+    file.seekg(static_cast<std::streamoff>(at));
+    const auto byte = static_cast<char>(file.get() ^ 1);
+    file.seekp(static_cast<std::streamoff>(at));
+    file.put(byte);
+  };
+  const auto other = [this](const std::string& of, const fs::path& than) {
+    const std::vector<fs::path> files = scratch(of);
+    return files.front() == than ? files.back() : files.front();
+  };
+  const std::vector<std::pair<const char*, std::function<void(const fs::path&)>>> harms = {
+      {"scratch/runs", [](const fs::path& path) { fs::resize_file(path, fs::file_size(path) - 48); }},
+      {"scratch/runs", [&](const fs::path& path) { flip(path, fs::file_size(path) - 1); }},
+      {"scratch/runs",
+       [&](const fs::path& path) {
+         fs::copy_file(other("scratch/runs", path), path, fs::copy_options::overwrite_existing);
+       }},
+      {"scratch/runs", [](const fs::path& path) { fs::remove(path); }},
+      {"parts", [&](const fs::path& path) { flip(path, fs::file_size(path) / 2); }},
+      {"parts", [](const fs::path& path) { fs::resize_file(path, 8); }},
+      {"scratch/parts", [&](const fs::path& path) { flip(path, 100); }},
+      {"scratch/parts", [](const fs::path& path) { fs::resize_file(path, 0); }},
+      {"scratch/parts",
+       [&](const fs::path& path) {
+         fs::copy_file(other("scratch/parts", path), path, fs::copy_options::overwrite_existing);
+       }},
+  };
+  read(0, 1);
+  fs::rename(folder_.file("steps"), folder_.file("unharmed"));
+  for (std::size_t i = 0; i < harms.size(); ++i) {
+    SCOPED_TRACE(i);
+    fs::remove_all(folder_.file("steps"));
+    fs::copy(folder_.file("unharmed"), folder_.file("steps"), fs::copy_options::recursive);
+    harms[i].second(scratch(harms[i].first)[1]);
+    EXPECT_EQ(plan_and_build(), 1U);
+    expect_the_same();
+  }
+  fs::remove_all(folder_.file("steps"));
+  auto stranger = in("steps", 1);
+  stranger.key->bytes[0] = std::byte{1};
+  StoreBuildReport report;
+  roam::read_share(stranger, 0, report);
+  EXPECT_EQ(plan_and_build(), parts) << "of another key";
+  expect_the_same();
+}
+
+TEST_F(StoreShares, WithADamagedBlockAreRefusedByATaskAndReadAgainByTheNextPlan) {
+  read(0, 1);
+  const auto o = in("steps", 1);
+  StoreBuildReport report;
+  roam::plan_store(o, report);
+  const fs::path run = scratch("scratch/runs")[1];
+  std::fstream(run, std::ios::in | std::ios::out | std::ios::binary).seekp(100).put('?');
+  const std::string said = refusal([&] { roam::build_task(o, 0, report); });
+  EXPECT_NE(said.find(run.string() + " was damaged (a block of it is damaged)"), std::string::npos) << said;
+  EXPECT_NE(refusal([&] { roam::build_task(o, 0, report); }).find("is gone: plan or build again"), std::string::npos);
+  EXPECT_EQ(plan_and_build(), 1U);
+  expect_the_same();
+}
+
+TEST_F(StoreShares, OfAnOlderSceneAreReadAgain) {
+  read(0, 1);
+  write_ply(scene_[2], field(21, 0.5, {60.0, 0.0, 1.0}));
+  EXPECT_EQ(plan_and_build(), 1U);
+  roam::build_store(in("whole", 0));
+  expect_the_same();
+  // Of an update, only what has changed.
+  write_ply(scene_[1], field(22, 0.5, {30.0, 0.0, 1.0}));
+  EXPECT_EQ(read(0, 2).parts_read + read(1, 2).parts_read, 1U);
+  plan_and_build();
+  roam::build_store(in("whole", 0));
+  expect_the_same();
+}
+
+TEST_F(StoreShares, ReadAllForAStoreOfWhichEachShardIsBuiltAnew) {
+  ASSERT_EQ(plan_and_build(), parts);
+  const auto lossless = [this](const std::string& output) {
+    auto o = in(output, 1);
+    o.lossless = true;
+    return o;
+  };
+  StoreBuildReport report;
+  roam::read_share(lossless("steps"), 0, report);
+  EXPECT_EQ(report.parts_read, parts);
+  report = roam::build_store(lossless("steps"));
+  EXPECT_EQ(report.parts_read, 0U);
+  roam::build_store(lossless("whole"));
+  expect_the_same();
+}
+
+TEST_F(StoreShares, AreNotReadIntoWhatIsNoStoreOfTheUser) {
+  EXPECT_THROW(read(3, 3), roam::NoSuchTask);
+  folder_.write("other.txt", "x");
+  StoreBuildReport report;
+  auto o = in("", 1);
+  EXPECT_NE(refusal([&] { roam::read_share(o, 0, report); }), "") << "in the folder of the scene";
+  o = in("whole", 1);
+  o.key->bytes[0] = std::byte{1};
+  EXPECT_NE(refusal([&] { roam::read_share(o, 0, report); }).find("it was not built with your key"), std::string::npos);
+  EXPECT_FALSE(fs::exists(folder_.file("whole/scratch")));
+  fs::create_directory(folder_.file("steps"));
+  folder_.write("steps/letter.txt", "x");
+  EXPECT_NE(refusal([&] { read(0, 1); }).find("letter.txt"), std::string::npos);
+  fs::remove_all(folder_.file("steps"));
+  scene_.push_back(folder_.file("absent.ply"));
+  EXPECT_NE(refusal([&] { read(0, 1); }).find("absent.ply"), std::string::npos);
+  EXPECT_FALSE(fs::exists(folder_.file("steps"))) << "nothing is made for a scene that is not there";
+}
+
+}  // namespace
