@@ -43,7 +43,9 @@ std::vector<Triangle> triangles_near(osg::Node& graph, const Body& body, const V
 }  // namespace
 
 Display::Display(Stage& stage, SceneGraph& scene, osgRoam::Manipulator& roamer, News& news, double fov)
-    : stage_(stage), scene_(scene), roamer_(roamer), news_(news), fov_(fov), sun_(stage.frame(), scene.group()) {}
+    : stage_(stage), scene_(scene), roamer_(roamer), news_(news), fov_(fov), sun_(stage.frame(), scene.group()) {
+  sun_.watch([&scene] { return scene.version(); });
+}
 
 void Display::watch(const StepReport& report, const Vec3& wish) {
   if (report.elapsed > 0.0) {
@@ -163,8 +165,8 @@ osg::Matrixd Display::view() const {
 }
 
 void Display::light(bool has_body) {
-  // A coarse page would throw its shadow on the fine one that is seen.
-  sun_.set_shadows(!scene_.is_paged());
+  // Pages of other formats are photogrammetry, which takes no shadows.
+  sun_.set_shadows(!scene_.is_paged() || scene_.pages().by_error());
   if (has_body) {
     const Vec3 eye = osgRoam::to_roam(osg::Matrixd::inverse(view()).getTrans()) + scene_.origin();
     sun_.set_outdoors(daylight_.follow(open_sky(roamer_.walker()->space(), eye), stage_.now() - lit_at_));
