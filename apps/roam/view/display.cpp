@@ -148,6 +148,8 @@ void Display::update(bool has_body, double room, graphics::Marks marks) {
     const Walker& walker = *roamer_.walker();
     const Vec3 place = walker.position() - scene_.origin();
     marks.body = graphics::BodyMark{place, walker.settings().radius, walker.report().height, walker.held()};
+    const Vec3 eye = osgRoam::to_roam(osg::Matrixd::inverse(view()).getTrans()) - place;
+    marks.body->inside = std::hypot(eye.x, eye.y) < marks.body->radius && std::abs(eye.z) < 0.5 * marks.body->height;
     for (const Contact& contact : walker.report().contacts) {
       if (!contact.unknown) marks.contacts.push_back({contact.point - scene_.origin(), contact.normal});
     }
