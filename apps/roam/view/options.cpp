@@ -243,7 +243,7 @@ void ViewOptions::add_to(CLI::App& verb) {
       ->take_all();
   verb.add_flag("--pass-hidden", pass_hidden,
                 "The body passes through what --hide and --section hide: objects, and triangles that lie as a whole "
-                "beyond a plane or one side of the box. Not with a store")
+                "beyond a plane or one side of the box. With a store only such triangles")
       ->excludes(replay);
   verb.add_flag("--headless", headless, "Draw without a screen");
   verb.add_option("--time", time_limit, "End after S seconds of roaming")

@@ -70,7 +70,7 @@ Session::Session(const ViewOptions& options, const ViewPlan& plan, const ViewSet
   layers_->add_to(commands_);
   hidden_.add_to(commands_);
   if (options.pass_hidden) hidden_.pass_through(true);
-  commands_.add("store", [this] { building_.toggle(arrival_.pager(), place(), arrival_.triangles()); });
+  commands_.add("store", [this] { building_.toggle(arrival_.pager().get(), place(), arrival_.triangles()); });
   commands_.add("name_bookmark", [this] { records_.ask_name(*prompt_); });
   rereading_.add_to(commands_);
   commands_.add("quit", [this] { quits_ = true; });

@@ -135,7 +135,8 @@ Box Tools::box_ahead() const {
 void Tools::update(bool has_body, const std::vector<graphics::PlanPlace>& places) {
   section_.show(scene_.group(), scene_.origin());
   // The list takes the plan's place.
-  if (has_body) plan_.update(stage_.hud().detail() != graphics::Detail::off && !layers_.is_shown(), places);
+  if (has_body) plan_.update(stage_.hud().detail() != graphics::Detail::off && !layers_.is_shown(), hidden_.met(),
+                               places);
   stage_.hud().set_covered(plan_.covered());
 }
 
