@@ -127,6 +127,10 @@ TEST(Status, SaysWhereTheFeetAreOnTheEarth) {
   const auto site = std::find_if(lines.begin(), lines.end(), [](const StatusText& l) { return l.label == "site"; });
   ASSERT_NE(site, lines.end());
   EXPECT_EQ(site->value, "512001.25, 5403002.00, 403.46 EPSG:32632");
+  // The option --origin names no reference system.
+  status.georeference->srs.clear();
+  EXPECT_TRUE(contains(status_lines(status)[2].value, "512001.25, 5403002.00, 403.46"));
+  EXPECT_FALSE(status_lines(status)[2].value.ends_with(' '));
 }
 
 TEST(Status, LeavesFiguresForProgrammersToTheFullDisplay) {

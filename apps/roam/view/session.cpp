@@ -253,8 +253,9 @@ void Session::show(bool at_once) {
     status.around = surroundings(*roamer_, *visible);
   }
   if (roaming() && !roamer_leads()) status.camera = cameras_->present();
-  // It is said of the file's own frame.
-  if (scene_.report() && frame_of(what_.scene) == SceneFrame{}) {
+  if (!options_.origin.empty()) {
+    status.georeference = Georeference{{}, {options_.origin[0], options_.origin[1], options_.origin[2]}};
+  } else if (scene_.report() && frame_of(what_.scene) == SceneFrame{}) {  // it is said of the file's own frame
     status.georeference = scene_.report()->import.georeference;
   }
   arrival_.fill(status);
