@@ -260,7 +260,7 @@ TEST(OpenSection, OfAStoreLetsTheBodyThroughToo) {
 double pace(Tooled& d) { return glm::length(d.session->roamer().walker()->pace()); }
 
 TEST(OpenSection, KeepsTheBodysMotionWhileItsBoxIsDragged) {
-  Tooled d(with_section({"box -1 -3 -1, 15 3 5"}, true));
+  Tooled d(with_section({"box 12 -3 -1, 18 3 5"}, true));
   d.session->run("section_box");
   const auto middle = grip_place(d, middle_grip);
   d.press('w');

@@ -35,7 +35,7 @@ constexpr Line lines[] = {
     {"fullscreen", "F", "fills the screen, or leaves it"},
     {"bookmark", "B", "keeps this place as a bookmark"},
     {"name_bookmark", "Ctrl+B", "names the last bookmark"},
-    {"bookmarks", "J", "lists the bookmarks; click: goes there"},
+    {"bookmarks", "Ctrl+Tab", "lists the bookmarks; click: goes there"},
     {"next_bookmark", "Tab", "goes to the next bookmark; with Shift: back"},
     {"picture", "P, F12", "writes a picture, roam-1.png, into this folder"},
     {"picture_with_display", "Ctrl+P", "writes a picture with the display in it"},
