@@ -13,6 +13,7 @@
 #include "cli/report.h"
 #include "cli/standard_streams.h"
 #include "cli/tell.h"
+#include "graphics/display_hold.h"
 #include "roam/error.h"
 #include "scenes/beside_scene.h"
 #include "scenes/frame.h"
@@ -125,6 +126,8 @@ ExitStatus view(ViewOptions options) {
   ViewReport report;
   bool cancelled = false;
   const std::vector<std::string> given = options.scene.ignore;
+  std::optional<graphics::DisplayHold> hold;
+  if (!options.headless) hold.emplace();
   while (const std::optional<NextSession> next = run_session(options, plan, settings, report, cancelled)) {
     const std::string note = go_on(options, *next, given);
     plan = make_plan(options, settings, std::nullopt, profile_for(options, std::nullopt));

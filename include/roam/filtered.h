@@ -8,7 +8,7 @@
 ///     roam::Walker walker(open, settings, roam::Mode::walk, start);
 ///
 /// The promises of space.h hold for the rest. Unknown space is never ignored. A Pager has no numbers of objects, and
-/// ignores no half space; nor do instances.
+/// instances ignore no half space.
 
 #include <cstdint>
 #include <span>

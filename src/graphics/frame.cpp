@@ -127,6 +127,8 @@ double Frame::near() const { return settings_.near; }
 double Frame::vertical_fov() const { return settings_.vertical_fov; }
 void Frame::set_quality(Quality quality) { pipeline_->set_quality(quality); }
 void Frame::set_edges(bool shown) { pipeline_->set_edges(shown); }
+void Frame::set_timed(bool timed) { pipeline_->set_timed(timed); }
+const FrameTimes& Frame::times() const { return pipeline_->times(); }
 Quality Frame::quality() const { return pipeline_->quality(); }
 Quality Frame::next_quality() const { return pipeline_->next_quality(); }
 bool Frame::edges() const { return pipeline_->edges(); }

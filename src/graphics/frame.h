@@ -15,6 +15,7 @@
 /// of detail and manipulators work as usual. Only fixed-function drawing below space() does not work, because its depth
 /// is not reversed. Give such a node a program that uses depth_glsl().
 
+#include <chrono>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -43,6 +44,13 @@ struct FrameSettings {
   int samples = 4;
   Quality quality = Quality::full;
   bool reversed_depth = true;  ///< false: an ordinary depth buffer even if the driver supports a reversed one
+};
+
+/// When a frame was drawn, without waits for the screen.
+struct FrameTimes {
+  using Clock = std::chrono::steady_clock;
+  Clock::duration waited{};   ///< at its begin, for the end of the frame before
+  Clock::time_point drawn{};  ///< before the window takes the picture
 };
 
 /// A part of a picture that is larger than what is drawn at once. Pixels.
@@ -83,6 +91,10 @@ class Frame {
   /// Take effect with the next frame.
   void set_quality(Quality quality);
   void set_edges(bool shown);
+  /// The frames from the next one on are timed: they wait until all is drawn, so they take a little longer.
+  void set_timed(bool timed);
+  /// Of the last timed frame. Only if the thread that calls viewer.frame() draws.
+  [[nodiscard]] const FrameTimes& times() const;
   [[nodiscard]] Quality quality() const;
   /// The quality of the next frame, which is full if a full picture of it is requested.
   [[nodiscard]] Quality next_quality() const;

@@ -90,6 +90,10 @@ void draw_body(const BodyMark& body, Strokes& lines) {
   const double half = std::max(0.0, 0.5 * body.height - r);
   const Vec3 x(r, 0, 0), y(0, r, 0), z(0, 0, r);
   const Vec3 top = body.centre + Vec3(0, 0, half), bottom = body.centre - Vec3(0, 0, half);
+  if (body.inside) {
+    constexpr double above_floor = 0.02;  // metres
+    return lines.arc(bottom - (1.0 - above_floor / r) * z, x, y, 0, 2 * pi, color);
+  }
   lines.arc(top, x, y, 0, 2 * pi, color);
   if (half > 0) lines.arc(bottom, x, y, 0, 2 * pi, color);
   for (const double height : {0.5, 0.866}) {  // 30 and 60 degrees of latitude

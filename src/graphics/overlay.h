@@ -22,6 +22,7 @@ struct BodyMark {
   double radius = 0.0;  ///< metres, > 0
   double height = 0.0;  ///< metres; a value below 2 * radius counts as 2 * radius
   bool held = false;    ///< drawn in the colour of warnings
+  bool inside = false;  ///< the eye is in it: only a ring at its feet is drawn
 };
 
 /// A present or past contact of the body.

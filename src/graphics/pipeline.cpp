@@ -62,6 +62,11 @@ void Frame::Pipeline::request(bool with_hud, Finish finish, Done done, Failed fa
 }
 
 void Frame::Pipeline::begin(osg::RenderInfo& info) {
+  if (timed_) {
+    const auto before = FrameTimes::Clock::now();
+    glFinish();
+    times_.waited = FrameTimes::Clock::now() - before;
+  }
   osg::GLExtensions& gl = functions(info);
   const osg::Viewport& viewport = *info.getCurrentCamera()->getViewport();
   const int width = std::max(1, static_cast<int>(viewport.width()));
@@ -104,6 +109,11 @@ void Frame::Pipeline::finish(osg::RenderInfo& info) {
   const osg::GraphicsContext& window = *state.getGraphicsContext();
   state.applyMode(GL_SCISSOR_TEST, false);
   serve(true);
+  if (timed_) {
+    // The window's own buffer may not be free before the screen has shown the last picture.
+    glFinish();
+    times_.drawn = FrameTimes::Clock::now();
+  }
   if (problem_.empty() && whole_height_ == 0) {
     gl.glBindFramebuffer(GL_READ_FRAMEBUFFER_EXT, picture_.frame);
     gl.glBindFramebuffer(GL_DRAW_FRAMEBUFFER_EXT, window.getDefaultFboId());

@@ -46,6 +46,9 @@ class Frame::Pipeline : public osg::Referenced {
   void set_whole_height(int pixels) { whole_height_ = pixels; }
   [[nodiscard]] Quality quality() const { return quality_; }
   [[nodiscard]] bool edges() const { return edges_; }
+  void set_timed(bool timed) { timed_ = timed; }
+  /// Of the last timed frame. For the thread that draws.
+  [[nodiscard]] const FrameTimes& times() const { return times_; }
   /// The quality of the next frame: full if a full picture is requested. Any thread.
   [[nodiscard]] Quality next_quality();
 
@@ -98,6 +101,8 @@ class Frame::Pipeline : public osg::Referenced {
   std::atomic<Quality> quality_;
   std::atomic<bool> edges_ = true;
   std::atomic<int> whole_height_ = 0;
+  std::atomic<bool> timed_ = false;
+  FrameTimes times_;
   bool fully_ = false;   // whether this frame has all effects, whatever the quality
   Plan wished_, plan_;   // as wished; as the driver has room for
   std::string problem_;  // why nothing can be drawn; empty if it can

@@ -12,6 +12,7 @@
 #include <osg/Uniform>
 #include <osgUtil/CullVisitor>
 #include <string>
+#include <utility>
 
 #include "graphics/shading.h"
 
@@ -150,6 +151,7 @@ class Sun::Maps : public osg::Node {
   }
 
   void set_shown(bool shown) { shown_ = shown; }
+  void watch(std::function<std::uint64_t()> version) { watched_ = std::move(version); }
   void set_outdoors(float share) { outdoors_->set(share); }
   void end() {
     show(false);
@@ -239,11 +241,13 @@ class Sun::Maps : public osg::Node {
   void aim(const osg::Vec3d& eye) {
     const osg::BoundingSphered all(scene_->getBound().center(), scene_->getBound().radius());
     const osg::Uniform* const section = scene_->getStateSet()->getUniform("roam_section");
+    const std::uint64_t version = watched_ ? watched_() : 0;
     const bool changed = all.center() != seen_.center() || all.radius() != seen_.radius() ||
-                         children_ != scene_->getNumChildren() || section != section_;
+                         children_ != scene_->getNumChildren() || section != section_ || version != version_;
     seen_ = all;
     children_ = scene_->getNumChildren();
     section_ = section;
+    version_ = version;
     const osg::Matrixd to = to_sun(axes_);
     const osg::Vec3d middle = all.center() * to, at = eye * to;
     const double near = middle.z() + all.radius(), far = middle.z() - all.radius();
@@ -280,6 +284,8 @@ class Sun::Maps : public osg::Node {
   bool shown_ = true;
   osg::BoundingSphered seen_;  // the scene of which the maps are
   unsigned children_ = 0;
+  std::uint64_t version_ = 0;
+  std::function<std::uint64_t()> watched_;
   osg::ref_ptr<const osg::Uniform> section_;
 };
 
@@ -293,6 +299,7 @@ Sun::~Sun() {
 }
 
 void Sun::set_outdoors(double share) { maps_->set_outdoors(static_cast<float>(std::clamp(share, 0.0, 1.0))); }
+void Sun::watch(std::function<std::uint64_t()> version) { maps_->watch(std::move(version)); }
 void Sun::set_shadows(bool shown) { maps_->set_shown(shown); }
 
 }  // namespace roam::graphics

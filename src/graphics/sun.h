@@ -4,12 +4,15 @@
 ///
 /// Shadow maps lie in one texture, from fine about the eye to coarse for the whole scene, up to 512 m from the eye. A
 /// map moves by whole texels and is drawn only when it moves or the scene changes, so shadows do not tremble and a
-/// frame usually draws none. Surfaces without normals that are textured (photogrammetry) cast shadows and get none;
+/// frame usually draws none. Its projection is parallel; nodes whose detail depends on the eye must draw there as they
+/// were drawn last. Surfaces without normals that are textured (photogrammetry) cast shadows and get none;
 /// blended surfaces cast none.
 ///
 ///     roam::graphics::Sun sun(frame, *scene);
 ///     sun.set_outdoors(0.0);   // under a roof: between two frames
 
+#include <cstdint>
+#include <functional>
 #include <osg/Group>
 #include <osg/ref_ptr>
 
@@ -29,10 +32,12 @@ class Sun {
   /// The share of the sky that the eye sees, in [0, 1]; 1 at first. Frames with shadows have a brighter lamp at the eye
   /// and a weaker sun the smaller it is.
   void set_outdoors(double share);
-  /// Whether frames of Quality::full have shadows; true at first. They suit scenes whose detail does not depend on the
-  /// eye: else a coarse shadow may lie on a fine surface. With and without, surfaces are brighter where they face the
-  /// sun, and smooth ones mirror it.
+  /// Whether frames of Quality::full have shadows; true at first. With and without, surfaces are brighter where they
+  /// face the sun, and smooth ones mirror it.
   void set_shadows(bool shown);
+  /// `version` is called in each frame with shadows. When it returns another number, the scene has changed. Without it,
+  /// only changes of the scene's bounds, direct children and section are seen.
+  void watch(std::function<std::uint64_t()> version);
 
  private:
   class Maps;

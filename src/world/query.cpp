@@ -5,6 +5,7 @@
 
 #include "index/rest.h"
 #include "roam/world.h"
+#include "world/remaining.h"
 #include "world/scene_queries.h"
 #include "world/vicinity.h"
 
@@ -34,34 +35,6 @@ constexpr double near_slack = 1.0;
 std::span<const index::Root> all_of(const index::Roots& roots) {
   return {roots.root.data(), static_cast<std::size_t>(roots.count)};
 }
-
-/// A world's index without the triangles that a filter ignores.
-class Remaining {
- public:
-  Remaining(const WorldData& world, const ObjectFilter& ignored)
-      : world_(world), ignored_(ignored), has_beyond_(ignored.has_beyond()), index_(world.index) {
-    index_.skip = &skip_;
-  }
-  Remaining(const Remaining&) = delete;
-  Remaining& operator=(const Remaining&) = delete;
-
-  [[nodiscard]] const index::Index& index() const { return index_; }
-
- private:
-  static bool skips(const void* self, const index::Place& place) {
-    const Remaining& r = *static_cast<const Remaining*>(self);
-    if (r.ignored_.ignores(r.world_.object(number_at(r.world_.index, place)))) return true;
-    if (!r.has_beyond_) return false;
-    const auto& [a, b, c] = index::local_triangle(r.world_.index, place, Vec3(0.0)).corner;
-    return r.ignored_.ignores(Triangle{a, b, c});
-  }
-
-  const WorldData& world_;
-  const ObjectFilter& ignored_;
-  bool has_beyond_;
-  index::Skip skip_{&Remaining::skips, this};
-  index::Index index_;
-};
 
 /// One world as a Scene for first_of and collect_of. `rest`: the index skips triangles.
 template <bool rest>
@@ -205,7 +178,7 @@ void collect(const WorldData& world, const Query& query, const Part& part, Trian
   if (query.ignored == nullptr) {
     return collect_of(WorldScene<false>(world, world.index, base, roots), query, part, collector);
   }
-  const Remaining remaining(world, *query.ignored);
+  const Remaining remaining(world.index, *query.ignored, &world);
   collect_of(WorldScene<true>(world, remaining.index(), base, roots), query, part, collector);
 }
 
@@ -234,7 +207,7 @@ template <bool rest>
 
 [[gnu::noinline]] FirstImpact first_impact_of_rest(const WorldData& world, const Query& query, const Part& part,
                                                    const index::Roots* roots) {
-  const Remaining remaining(world, *query.ignored);
+  const Remaining remaining(world.index, *query.ignored, &world);
   return first_impact_in<true>(world, remaining.index(), query, part, roots);
 }
 

@@ -208,6 +208,31 @@ TEST(GraphicsFrame, DrawsInAThreadOfItsOwn) {
   stage.viewer.stopThreading();
 }
 
+TEST(GraphicsFrame, IsTimedWithoutWaitsForTheScreen) {
+  using Clock = graphics::FrameTimes::Clock;
+  constexpr auto wait = std::chrono::milliseconds(400);
+  struct SlowScreen : osg::GraphicsContext::SwapCallback {
+    void swapBuffersImplementation(osg::GraphicsContext* window) override {
+      std::this_thread::sleep_for(wait);
+      window->swapBuffersImplementation();
+    }
+  };
+  Stage stage(64, 64, plain, graphics::Headless::xvfb);
+  stage.viewer.frame();
+  stage.context.window->setSwapCallback(new SlowScreen);
+  stage.frame.set_timed(true);
+  const auto begin = Clock::now();
+  stage.viewer.frame();
+  const auto end = Clock::now();
+  EXPECT_GE(end - begin, wait);
+  EXPECT_GT(stage.frame.times().drawn, begin);
+  EXPECT_GE(end - stage.frame.times().drawn, wait);
+  const auto drawn = stage.frame.times().drawn;
+  stage.frame.set_timed(false);
+  stage.viewer.frame();
+  EXPECT_EQ(stage.frame.times().drawn, drawn);
+}
+
 TEST(GraphicsFrame, RefusesSettingsThatDrawNothing) {
   const graphics::Context context = graphics::open_headless(64, 64);
   const auto make = [&](const FrameSettings& settings) {

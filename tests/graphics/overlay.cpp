@@ -160,5 +160,22 @@ TEST(GraphicsOverlay, AMeasuredLineIsSeen) {
   EXPECT_NEAR(extent(*without, *stage.picture()).width, 6 * scale, 3);
 }
 
+TEST(GraphicsOverlay, ABodyThatTheEyeIsInIsARingAtItsFeet) {
+  Stage stage;
+  stage.add(grey_wall(20));
+  const auto without = stage.picture();
+  Overlay overlay(stage.frame);
+  graphics::BodyMark body{{0, 0, -0.7}, 0.3, 1.8};
+  overlay.set_marks({.body = body});
+  EXPECT_GT(difference(*without, *stage.picture()).pixels, 100) << "its lines cross the view";
+  body.inside = true;
+  overlay.set_marks({.body = body});
+  EXPECT_EQ(difference(*without, *stage.picture()).pixels, 0);
+  stage.look({0, 0, 0}, {0, 0.001, -1});
+  const auto with_ring = stage.picture();
+  overlay.set_marks({});
+  EXPECT_GT(difference(*stage.picture(), *with_ring).pixels, 100);
+}
+
 }  // namespace
 }  // namespace roam::test

@@ -123,6 +123,13 @@ TEST(GraphicsSun, DrawsTheMapsOnlyWhenTheyMoveOrTheSceneChanges) {
   EXPECT_EQ(drawn(), 1);
   yard.stage.add(quad({3, 3, 1}, x_axis, y_axis));
   EXPECT_GT(drawn(), 1);
+  EXPECT_EQ(drawn(), 1);
+  std::uint64_t version = 0;
+  yard.sun->watch([&] { return version; });
+  EXPECT_EQ(drawn(), 1);
+  ++version;
+  EXPECT_GT(drawn(), 1);
+  EXPECT_EQ(drawn(), 1);
 }
 
 TEST(GraphicsSun, AShadowStaysWhereItIsWhenTheEyeMoves) {

@@ -14,12 +14,12 @@ class Tooled : public Driven {
  public:
   explicit Tooled(bool has_store = false) { start(has_store); }
   /// With options of its own, before begin().
-  explicit Tooled(const app::ViewOptions& with) {
+  explicit Tooled(const app::ViewOptions& with, bool has_store = false) {
     options.section = with.section;
     options.hide = with.hide;
     options.pass_hidden = with.pass_hidden;
     options.verify = with.verify;
-    start(false);
+    start(has_store);
   }
   /// At a point of the picture, from -1 to 1.
   void click(double x, double y, int times = 1) {
@@ -33,16 +33,25 @@ class Tooled : public Driven {
   }
   /// Drags with the left button from one point of the picture to another.
   void drag(const std::array<double, 2>& from, const std::array<double, 2>& to) {
-    session->stage().draw();
-    const auto [across, up] = window_place(from[0], from[1]);
-    events().mouseButtonPress(across, up, 1);
+    hold_at(from);
     run(0.1);
-    const auto [across_then, up_then] = window_place(to[0], to[1]);
-    events().mouseMotion(across_then, up_then);
+    drag_to(to);
     run(0.1);
-    events().mouseButtonRelease(across_then, up_then, 1);
+    let_go();
     run(1.0 / 60.0);
   }
+  /// The same in pieces; drag_to() runs a frame.
+  void hold_at(const std::array<double, 2>& at) {
+    session->stage().draw();
+    held_ = window_place(at[0], at[1]);
+    events().mouseButtonPress(held_[0], held_[1], 1);
+  }
+  void drag_to(const std::array<double, 2>& at) {
+    held_ = window_place(at[0], at[1]);
+    events().mouseMotion(held_[0], held_[1]);
+    run(1.0 / 60.0);
+  }
+  void let_go() { events().mouseButtonRelease(held_[0], held_[1], 1); }
   void point_at(double x, double y) {
     const auto [across, up] = window_place(x, y);
     events().mouseMotion(across, up);
@@ -51,6 +60,8 @@ class Tooled : public Driven {
   [[nodiscard]] std::vector<app::Measurement> measured() { return session->finish().measurements; }
 
  private:
+  std::array<float, 2> held_{};
+
   [[nodiscard]] std::array<float, 2> window_place(double x, double y) {
     const osgGA::GUIEventAdapter& now = *events().getCurrentEventState();
     const bool upwards = now.getMouseYOrientation() == osgGA::GUIEventAdapter::Y_INCREASING_UPWARDS;

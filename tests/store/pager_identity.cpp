@@ -2,6 +2,7 @@
 // for bit, sweeps and rays but for the last bit of a time, clearances within what they may be less than the gap.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstring>
@@ -13,6 +14,7 @@
 #include "index/grid.h"
 #include "judged_queries.h"
 #include "pager_made.h"
+#include "roam/filtered.h"
 #include "roam/generate.h"
 #include "store/tile_reader.h"
 #include "world/data.h"
@@ -137,7 +139,8 @@ struct Tally {
        other_clearance = 0;
 };
 
-void compare(const Pager& pager, const StoredWorld& world, std::span<const Mesh> meshes, int queries, Tally& tally) {
+void compare(const roam::Space& pager, const roam::Space& world, bool lossless, std::span<const Mesh> meshes,
+             int queries, Tally& tally) {
   clutter::Random random(11);
   for (int i = 0; i < queries; ++i) {
     const Mesh& mesh = meshes[random.engine() % meshes.size()];
@@ -184,8 +187,7 @@ void compare(const Pager& pager, const StoredWorld& world, std::span<const Mesh>
       const Clearance a = pager.clearance(body, from, way, reach), b = world.clearance(body, from, way, reach);
       ++tally.clearances;
       tally.other_clearance += same(a.distance, b.distance) ? 0 : 1;
-      ASSERT_NEAR(a.distance, b.distance,
-                  pager.store().info().lossless ? query::lossless_tolerance : query::clearance_tolerance);
+      ASSERT_NEAR(a.distance, b.distance, lossless ? query::lossless_tolerance : query::clearance_tolerance);
     }
     roam::Floor floor;
     if (i % 8 == 0) floor = {30.0, 0.4, from, Vec3(0.0, 0.0, 1.0)};
@@ -200,7 +202,9 @@ void compare(const Pager& pager, const StoredWorld& world, std::span<const Mesh>
   }
 }
 
-void compare(const char* name, const std::vector<Mesh>& meshes, const made::StoreOptions& options) {
+/// `beyond`: what both leave out.
+void compare(const char* name, const std::vector<Mesh>& meshes, const made::StoreOptions& options,
+             std::span<const roam::HalfSpace> beyond = {}) {
   const made::Folder folder(std::string("pager_identity_") + name);
   const auto store = made::store(folder.path(), meshes, options);
   const StoredWorld world(*store);
@@ -208,7 +212,10 @@ void compare(const char* name, const std::vector<Mesh>& meshes, const made::Stor
   ASSERT_NO_FATAL_FAILURE(made::load_all(pager));
   constexpr int queries = 20'000;
   Tally tally;
-  ASSERT_NO_FATAL_FAILURE(compare(pager, world, meshes, queries, tally));
+  roam::Filtered some(pager), of_world(world);
+  some.ignore_beyond(beyond);
+  of_world.ignore_beyond(beyond);
+  ASSERT_NO_FATAL_FAILURE(compare(some, of_world, options.lossless, meshes, queries, tally));
   EXPECT_GT(tally.sweeps, queries);
   EXPECT_GT(tally.floors, queries / 10);
   EXPECT_GT(tally.hits, queries / 10);
@@ -233,6 +240,20 @@ TEST(PagerIdentity, OfALosslessHeap) {
   clutter::Random random(3);
   const std::vector<Mesh> meshes{clutter::make(random, {60'000, 60.0, 0.05, 8.0, Vec3(5e4, -3e4, 100.0)})};
   compare("lossless", meshes, {.lossless = true, .page_tiles = 3, .tile_triangles = 3000});
+}
+TEST(PagerIdentity, OfAHeapWithoutTheTrianglesBeyondHalfSpaces) {
+  clutter::Random random(4);
+  const std::vector<Mesh> meshes{clutter::make(random, {60'000, 60.0, 0.05, 8.0, Vec3(0.0)})};
+  const std::vector<roam::HalfSpace> beyond{{{0, 0, 1}, 20.0}, {{-1, 0, 0}, 0.0}};
+  long gone = 0, cut = 0;
+  for (std::size_t t = 0; t < meshes[0].triangles.size(); ++t) {
+    const roam::Triangle corners = meshes[0].triangle(t);
+    gone += roam::ObjectFilter{{}, nullptr, beyond}.ignores(corners);
+    cut += std::any_of(corners.begin(), corners.end(), [&](const Vec3& p) { return beyond[0].holds(p); });
+  }
+  ASSERT_GT(gone, 20'000);
+  ASSERT_GT(cut, 10'000);
+  compare("beyond", meshes, {.page_tiles = 3, .tile_triangles = 3000}, beyond);
 }
 
 }  // namespace

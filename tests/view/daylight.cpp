@@ -1,9 +1,17 @@
-// How much sky the eye sees, which chooses the light.
+// How much sky the eye sees, which chooses the light; and the sun's shadows of tiles.
 #include "view/daylight.h"
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <numbers>
+
+#include "graphics/shading.h"
 #include "roam/world.h"
+#include "tileset_made.h"
+#include "view_program.h"
 #include "walker_scenes.h"
 
 namespace {
@@ -40,6 +48,39 @@ TEST(Daylight, ChangesAtOnceTheFirstTimeAndThenSmoothly) {
     last = now;
   }
   EXPECT_GT(last, 0.99);
+}
+
+TEST(Daylight, ThrowsTheShadowOfATileOnAnother) {
+  View view("");
+  const std::filesystem::path folder = view.folder.file("tiles");
+  std::filesystem::create_directories(folder);
+  const auto tile = [&](const char* file, float height, float side, double corner) {
+    std::ofstream(folder / file, std::ios::binary)
+        << test::made_tile("b3dm", test::MadeGrid(1, height, side).gltf().glb());
+    return test::Json{{"boundingVolume", {{"box", {0.5 * side, -0.5 * side, height, 32, 0, 0, 0, 32, 0, 0, 0, 1}}}},
+                      {"geometricError", 0.0},
+                      {"content", {{"uri", file}}},
+                      {"transform", {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, corner, -corner, 0, 1}}};
+  };
+  const test::Json root{{"boundingVolume", {{"box", {32, -32, 6, 32, 0, 0, 0, 32, 0, 0, 0, 8}}}},
+                        {"geometricError", 1e4},
+                        {"refine", "ADD"},
+                        {"children", {tile("floor.b3dm", 0.0f, 64.0f, 0.0), tile("board.b3dm", 12.0f, 4.0f, 30.0)}}};
+  view.scene = folder / "tileset.json";
+  std::ofstream(view.scene) << test::made_tileset(root);
+  view.shot({"--mode", "fly", "--at", "32,-32,30,90,-89.9"});
+  ASSERT_EQ(view.result.status, 0) << view.result.err;
+  const Shot picture = view.picture();
+  // The eye is 30 m above the floor, and +y is up in the picture.
+  const auto floor_at = [&](double x, double y) {
+    const double pixels = 100.0 / (30.0 * std::tan(32.5 / 180.0 * std::numbers::pi));
+    const osg::Vec4 c = picture.at(static_cast<int>(160.0 + x * pixels), static_cast<int>(100.0 + y * pixels));
+    return c.r() + c.g() + c.b();
+  };
+  const Vec3 sun = graphics::sun_direction();
+  const double x = -12.0 * sun.x / sun.z, y = -12.0 * sun.y / sun.z;
+  EXPECT_LT(floor_at(x, y), 0.85f * floor_at(-x, -y));
+  EXPECT_NEAR(floor_at(x, -y), floor_at(-x, -y), 0.1f);
 }
 
 }  // namespace

@@ -60,6 +60,8 @@ struct Drawn {
   Names seen;
   std::map<std::string, float> wanted;
   float scale = 1.0f;
+  osg::Matrixd projection = osg::Matrixd::perspective(90, 1.5, 0.1, 1e4);
+  unsigned frames = 0;
 
   osg::ref_ptr<osg::Group> group(const std::string& name) {
     osg::ref_ptr<osg::Group> made = new osg::Group;
@@ -84,11 +86,12 @@ struct Drawn {
     const osg::ref_ptr<osgUtil::CullVisitor> cull = new osgUtil::CullVisitor;
     const osg::ref_ptr<Requests> requests = new Requests;
     const osg::ref_ptr<osg::FrameStamp> frame = new osg::FrameStamp;
+    frame->setFrameNumber(++frames);
     cull->setDatabaseRequestHandler(requests);
     cull->setFrameStamp(frame);
     cull->setLODScale(scale);
     cull->pushViewport(new osg::Viewport(0, 0, 300, 200));
-    cull->pushProjectionMatrix(new osg::RefMatrix(osg::Matrixd::perspective(90, 1.5, 0.1, 1e4)));
+    cull->pushProjectionMatrix(new osg::RefMatrix(projection));
     const osg::Vec3d up(0, 0.1, 1);
     cull->pushModelViewMatrix(new osg::RefMatrix(osg::Matrixd::lookAt(eye, osg::Vec3d(0, 0, 0), up)),
                               osg::Transform::ABSOLUTE_RF);
@@ -148,6 +151,33 @@ TEST(ViewLevels, ShowTilesThatAreAddedWithThoseAbove) {
   node->addChild(d.group("added"));
   EXPECT_EQ(d.from(*node, {15, 0, 0}), (Names{"own", "added"}));
   EXPECT_EQ(d.from(*node, {36, 0, 0}), Names{"own"});
+}
+
+TEST(ViewLevels, OfAParallelViewAreThoseDrawnLast) {
+  Drawn d;
+  const osg::ref_ptr<PageLod> node = d.node(1.0f);
+  const auto by_the_sun = [&] {
+    const osg::Matrixd before = std::exchange(d.projection, osg::Matrixd::ortho(-100, 100, -100, 100, 0, 1000));
+    const std::uint64_t changes = d.rules->changes;
+    Names names = d.from(*node, {15, 0, 0});
+    EXPECT_TRUE(d.wanted.empty()) << "it requests no page";
+    EXPECT_EQ(d.rules->changes, changes);
+    d.projection = before;
+    return names;
+  };
+  const Names own{"own"}, finer{"finer"};
+  EXPECT_EQ(by_the_sun(), own) << "before anything is drawn";
+  EXPECT_EQ(d.from(*node, {15, 0, 0}), own);
+  node->addChild(d.group("finer"));
+  EXPECT_EQ(by_the_sun(), own);
+  std::uint64_t changes = d.rules->changes;
+  EXPECT_EQ(d.from(*node, {15, 0, 0}), finer);
+  EXPECT_NE(std::exchange(changes, d.rules->changes), d.rules->changes);
+  EXPECT_EQ(by_the_sun(), finer);
+  EXPECT_EQ(d.from(*node, {15, 0, 0}), finer);
+  EXPECT_EQ(changes, d.rules->changes);
+  node->removeChild(1);
+  EXPECT_EQ(by_the_sun(), own) << "the page has been dropped";
 }
 
 TEST(ViewLevels, AreDroppedOnlyIfTheyWereNotSeenForLong) {

@@ -26,7 +26,7 @@ TEST(ViewSettings, TakeEveryEntry) {
     // comments are allowed
     "keys": {"forward": ["Z", "Up"], "jump": "Space"}, "mouse": {"sensitivity": 2, "invert_y": true},
     "body": {"radius": 0.2, "height": 1.6, "eye": 1.4, "step": 0.2, "slope": 30},
-    "speed": 3, "easing": 0, "fov": 80, "hud": "minimal", "picture_scale": 4})"));
+    "speed": 3, "easing": 0, "fov": 80, "hud": "minimal", "picture_scale": 4, "tile_error": 2.5})"));
   EXPECT_EQ(s.keys.at("forward"), (std::vector<std::string>{"Z", "Up"}));
   EXPECT_EQ(s.keys.at("jump"), std::vector<std::string>{"Space"});
   EXPECT_EQ(s.sensitivity, 2.0);
@@ -41,6 +41,7 @@ TEST(ViewSettings, TakeEveryEntry) {
   EXPECT_EQ(s.fov, 80.0);
   EXPECT_EQ(s.hud, HudMode::minimal);
   EXPECT_EQ(s.picture_scale, 4.0);
+  EXPECT_EQ(s.tile_error, 2.5);
 }
 
 TEST(ViewSettings, NameFileAndEntryOfWhatIsWrong) {
@@ -53,6 +54,7 @@ TEST(ViewSettings, NameFileAndEntryOfWhatIsWrong) {
   };
   EXPECT_TRUE(contains(error(R"({"mouse": {"sensitivity": "fast"}})"), "\"mouse.sensitivity\" must be a number"));
   EXPECT_TRUE(contains(error(R"({"body": {"radius": -1}})"), "\"body.radius\""));
+  EXPECT_TRUE(contains(error(R"({"tile_error": -1})"), "\"tile_error\""));
   EXPECT_TRUE(contains(error(R"({"hud": "big"})"), "\"hud\" must be \"plain\", \"full\", \"minimal\" or \"off\""));
   EXPECT_TRUE(contains(error(R"({"speeed": 1})"), "\"speeed\" is not known; there are: keys, mouse"));
   EXPECT_TRUE(contains(error(R"({"keys": {"jump": 3}})"), "\"keys.jump\" must be the name of a key"));
@@ -164,6 +166,8 @@ TEST(ViewPlan, TakesFromTheSettingsWhatTheCommandLineLeavesOpen) {
   settings.height = 1.7;
   settings.speed = 2.0;
   settings.fov = 80.0;
+  EXPECT_EQ(make_plan({}, settings).pages.allowed_error, 16.0);
+  settings.tile_error = 2.5;
   ViewOptions options;
   options.speed = 5.0;
   const ViewPlan plan = make_plan(options, settings);
@@ -171,6 +175,9 @@ TEST(ViewPlan, TakesFromTheSettingsWhatTheCommandLineLeavesOpen) {
   EXPECT_EQ(plan.walker.height, 1.7);
   EXPECT_EQ(plan.walker.speed, 5.0);
   EXPECT_EQ(plan.fov, 80.0);
+  EXPECT_EQ(plan.pages.allowed_error, 2.5);
+  options.tile_error = 0.0;
+  EXPECT_EQ(make_plan(options, settings).pages.allowed_error, 0.0);
 }
 
 TEST(ViewPlan, RefusesWhatCannotBeMeant) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <glm/geometric.hpp>
+#include <numbers>
 
 #include "cli/exit_status.h"
 #include "view/section_grips.h"
@@ -243,13 +244,79 @@ TEST(OpenSection, IsSwitchedByAKeyAndFollowsTheBox) {
   EXPECT_TRUE(contains(d.hud(), "The body meets what is hidden")) << d.hud();
 }
 
-TEST(OpenSection, OfAStoreStaysSolidAndSaysSo) {
-  Tooled d(true);
-  const std::shared_ptr<const Space> space = d.session->roamer().space();
-  d.session->hidden().pass_through(true);
-  EXPECT_TRUE(contains(d.hud(), "With a store, the body meets what is hidden")) << d.hud();
-  EXPECT_EQ(d.session->roamer().space(), space);
-  EXPECT_TRUE(contains(d.notes(), "With a store"));
+TEST(OpenSection, OfAStoreLetsTheBodyThroughToo) {
+  Tooled d(with_section({"x<15", "z<1.5"}, true), true);
+  EXPECT_TRUE(contains(d.hud(), "section: 2 planes; the body passes through what is hidden whole")) << d.hud();
+  EXPECT_FALSE(contains(d.notes(), "With a store"));
+  EXPECT_GT(flies_to(d), 20.3);
+  // Of the wall behind a part is seen.
+  d.session->roamer().setPose({10, 0, 1.5}, std::numbers::pi, 0.0);
+  EXPECT_NEAR(flies_to(d), 0.3, 0.02);
+  d.session->hidden().pass_through(false);
+  d.session->roamer().setPose({10, 0, 1.5}, 0.0, 0.0);
+  EXPECT_NEAR(flies_to(d), 19.7, 0.02);
+}
+
+double pace(Tooled& d) { return glm::length(d.session->roamer().walker()->pace()); }
+
+TEST(OpenSection, KeepsTheBodysMotionWhileItsBoxIsDragged) {
+  Tooled d(with_section({"box 12 -3 -1, 18 3 5"}, true));
+  d.session->run("section_box");
+  const auto middle = grip_place(d, middle_grip);
+  d.press('w');
+  d.run(0.5);
+  ASSERT_NEAR(pace(d), 1.4, 0.01);
+  d.hold_at(middle);
+  for (int i = 0; i < 12; ++i) {
+    const double x = d.place().x, y = box_of(d)->center().y;
+    d.drag_to({middle[0] + 0.01 * (i + 1), middle[1]});
+    EXPECT_NE(box_of(d)->center().y, y) << "the box moves in each frame";
+    EXPECT_NEAR(pace(d), 1.4, 0.01);
+    EXPECT_GT(d.place().x, x + 0.02);
+  }
+  d.let_go();
+  d.release('w');
+  d.run(0.5);
+  // So does the way to a place that was clicked.
+  d.session->roamer().goTo({18.0, 0.0, 0.0}, {0.0, 0.0, 1.0});
+  d.run(0.1);
+  d.drag(grip_place(d, middle_grip), {0.3, 0.1});
+  EXPECT_TRUE(d.session->roamer().going());
+  d.run(6.0);
+  EXPECT_NEAR(d.place().x, 18.0, 0.05);
+}
+
+/// Shows all that the planes hide, while the body passes through it.
+void show_all_again(Tooled& d) {
+  d.tap('x');
+  d.tap('x');
+  ASSERT_TRUE(d.session->tools().section().empty());
+}
+
+TEST(OpenSection, StopsTheBodyAtAWallThatIsSeenAgain) {
+  Tooled d(with_section({"x<15"}, true));
+  d.session->roamer().setMode(Mode::fly);
+  d.press('w');
+  ASSERT_TRUE(d.until([&] { return d.place().x > 19.5; }));
+  const double x = d.place().x;
+  show_all_again(d);
+  EXPECT_GT(d.place().x, x) << "the body keeps its motion until it is there";
+  d.run(2.0);
+  EXPECT_NEAR(d.place().x, 19.7, 0.02);
+}
+
+TEST(OpenSection, FreesTheBodyOfAWallThatIsSeenAgain) {
+  Tooled d(with_section({"x<15"}, true));
+  d.session->roamer().setMode(Mode::fly);
+  d.press('w');
+  ASSERT_TRUE(d.until([&] { return d.place().x > 19.8; }));
+  d.release('w');
+  show_all_again(d);
+  d.run(0.5);
+  const Walker& walker = *d.session->roamer().walker();
+  EXPECT_FALSE(walker.held());
+  EXPECT_NEAR(d.place().x, 19.7, 0.02) << "on the side of the wall where its centre was";
+  EXPECT_TRUE(d.session->hidden().met().space->fits(walker.body(), walker.position()));
 }
 
 /// A picture of the room from above; with a section, its roof is not shown.

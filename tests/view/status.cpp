@@ -127,6 +127,10 @@ TEST(Status, SaysWhereTheFeetAreOnTheEarth) {
   const auto site = std::find_if(lines.begin(), lines.end(), [](const StatusText& l) { return l.label == "site"; });
   ASSERT_NE(site, lines.end());
   EXPECT_EQ(site->value, "512001.25, 5403002.00, 403.46 EPSG:32632");
+  // The option --origin names no reference system.
+  status.georeference->srs.clear();
+  EXPECT_TRUE(contains(status_lines(status)[2].value, "512001.25, 5403002.00, 403.46"));
+  EXPECT_FALSE(status_lines(status)[2].value.ends_with(' '));
 }
 
 TEST(Status, LeavesFiguresForProgrammersToTheFullDisplay) {
@@ -169,7 +173,8 @@ TEST(Thrift, GivesTheMedianOfSlowFramesOnly) {
     std::optional<double> last;
     for (std::size_t i = 0; i < Thrift::frames; ++i) {
       EXPECT_FALSE(last) << "not before the end of the block";
-      last = thrift.take(i % 4 == 0 ? odd : usual);
+      const double ms = i % 4 == 0 ? odd : usual;
+      last = thrift.take(ms, ms);
     }
     return last;
   };
@@ -181,6 +186,24 @@ TEST(Thrift, GivesTheMedianOfSlowFramesOnly) {
   EXPECT_FALSE(block(85.0, 1.0)) << "of the next quality";
   EXPECT_EQ(block(83.0, 1.0), 83.0);
   EXPECT_FALSE(block(0.9 * Thrift::slowest, 2.0));
+}
+
+TEST(Thrift, CountsNoFrameThatWaitsForTheScreen) {
+  Thrift thrift;
+  const auto frames = [&](int blocks, double ms, double drawn_ms) {
+    std::optional<double> found;
+    for (std::size_t i = 0; i < blocks * Thrift::frames; ++i) {
+      const auto now = thrift.take(ms, drawn_ms);
+      if (now) found = now;
+    }
+    return found;
+  };
+  EXPECT_FALSE(frames(9, 1000.0, 12.0)) << "covered";
+  EXPECT_FALSE(frames(9, 1000.0, 300.0)) << "and drawn at low power";
+  EXPECT_TRUE(thrift.doubts());
+  EXPECT_FALSE(frames(1, 16.0, 12.0));
+  EXPECT_FALSE(thrift.doubts());
+  EXPECT_EQ(frames(2, 100.0, 84.0), 84.0) << "slow indeed";
 }
 
 TEST(Stores, AreOfferedForLargeScenes) {

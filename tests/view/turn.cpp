@@ -28,6 +28,26 @@ TEST(NextFrame, IsTheLikelyOneOrAQuarterTurnOn) {
   EXPECT_EQ(frame, (SceneFrame{UpAxis::z, LengthUnit::cm}));
 }
 
+TEST(NextUnit, GoesRoundAllUnits) {
+  SceneFrame frame{UpAxis::y, LengthUnit::m};
+  for (const LengthUnit unit : {LengthUnit::cm, LengthUnit::mm, LengthUnit::ft, LengthUnit::in, LengthUnit::m}) {
+    frame = next_unit(frame);
+    EXPECT_EQ(frame, (SceneFrame{UpAxis::y, unit}));
+  }
+}
+
+TEST(Unit, IsAppliedByAKeyAndKept) {
+  DrivenSession d;
+  d.write_scene();
+  d.begin();
+  d.press(osgGA::GUIEventAdapter::KEY_Control_L);
+  d.press('u');
+  EXPECT_FALSE(d.session->frame());
+  ASSERT_TRUE(d.session->next());
+  EXPECT_EQ(d.session->next()->frame, (SceneFrame{UpAxis::z, LengthUnit::cm}));
+  EXPECT_EQ(find_frame(d.options.scene.scenes), d.session->next()->frame);
+}
+
 TEST(Turn, EndsTheSessionAndIsKept) {
   DrivenSession d;
   d.write_scene();

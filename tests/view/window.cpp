@@ -300,6 +300,14 @@ TEST(ViewWindow, DragsASideOfTheSectionsBox) {
   EXPECT_EQ(report["end"]["yaw"], 0.0);
 }
 
+TEST(ViewWindow, ComesBackWithTheSceneTurned) {
+  Window w({"--at", "2,0,0.95,0"});
+  xdo("key u");
+  wait(3.0);
+  w.focus();
+  EXPECT_EQ(w.end()["frame"]["up"], "y");
+}
+
 TEST(ViewWindow, GoesToWhatIsDoubleClicked) {
   Window w({"--at", "2,0,0.95,0", "--verify"});
   w.point(160, 100);

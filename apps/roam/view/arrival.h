@@ -56,7 +56,7 @@ class Arrival {
   /// The names of its objects, by their numbers. Only with a world().
   [[nodiscard]] const std::vector<std::string>& object_names() const { return loaded_->objects; }
   /// The pager of the store that the body collides with; null if it collides with a scene.
-  [[nodiscard]] const Pager* pager() const { return pager_.get(); }
+  [[nodiscard]] const std::shared_ptr<Pager>& pager() const { return pager_; }
 
   /// The number of the collision's triangles; 0: not known.
   [[nodiscard]] std::uint64_t triangles() const;

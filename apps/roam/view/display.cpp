@@ -43,7 +43,9 @@ std::vector<Triangle> triangles_near(osg::Node& graph, const Body& body, const V
 }  // namespace
 
 Display::Display(Stage& stage, SceneGraph& scene, osgRoam::Manipulator& roamer, News& news, double fov)
-    : stage_(stage), scene_(scene), roamer_(roamer), news_(news), fov_(fov), sun_(stage.frame(), scene.group()) {}
+    : stage_(stage), scene_(scene), roamer_(roamer), news_(news), fov_(fov), sun_(stage.frame(), scene.group()) {
+  sun_.watch([&scene] { return scene.version(); });
+}
 
 void Display::watch(const StepReport& report, const Vec3& wish) {
   if (report.elapsed > 0.0) {
@@ -146,6 +148,8 @@ void Display::update(bool has_body, double room, graphics::Marks marks) {
     const Walker& walker = *roamer_.walker();
     const Vec3 place = walker.position() - scene_.origin();
     marks.body = graphics::BodyMark{place, walker.settings().radius, walker.report().height, walker.held()};
+    const Vec3 eye = osgRoam::to_roam(osg::Matrixd::inverse(view()).getTrans()) - place;
+    marks.body->inside = std::hypot(eye.x, eye.y) < marks.body->radius && std::abs(eye.z) < 0.5 * marks.body->height;
     for (const Contact& contact : walker.report().contacts) {
       if (!contact.unknown) marks.contacts.push_back({contact.point - scene_.origin(), contact.normal});
     }
@@ -163,8 +167,8 @@ osg::Matrixd Display::view() const {
 }
 
 void Display::light(bool has_body) {
-  // A coarse page would throw its shadow on the fine one that is seen.
-  sun_.set_shadows(!scene_.is_paged());
+  // Pages of other formats are photogrammetry, which takes no shadows.
+  sun_.set_shadows(!scene_.is_paged() || scene_.pages().by_error());
   if (has_body) {
     const Vec3 eye = osgRoam::to_roam(osg::Matrixd::inverse(view()).getTrans()) + scene_.origin();
     sun_.set_outdoors(daylight_.follow(open_sky(roamer_.walker()->space(), eye), stage_.now() - lit_at_));

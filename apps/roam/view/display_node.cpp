@@ -101,7 +101,7 @@ osg::ref_ptr<osg::StateSet> state_of(const DisplayLook& look,
 }
 
 osg::ref_ptr<PageLod> pages_of(const DisplayPages& from, const std::vector<osg::ref_ptr<osg::Group>>& groups,
-                               const NamePage& name_page, const std::shared_ptr<const PageRules>& rules) {
+                               const NamePage& name_page, const std::shared_ptr<PageRules>& rules) {
   osg::ref_ptr<PageLod> lod = new PageLod(from, rules);
   for (unsigned i = 0; i < from.levels.size(); ++i) {
     const DisplayLevel& level = from.levels[i];
@@ -139,7 +139,7 @@ osg::ref_ptr<osg::Geometry> make_geometry(const DisplayGeometry& from) {
 }
 
 osg::ref_ptr<osg::Group> make_node(const DisplayPart& part, const TextureQuality& quality, const NamePage& name_page,
-                                   SceneObjects& objects, const std::shared_ptr<const PageRules>& rules) {
+                                   SceneObjects& objects, const std::shared_ptr<PageRules>& rules) {
   const std::vector<SceneObjects::Number> numbers = objects.add(part.objects);
   const std::shared_ptr<const SceneObjects::Flags> flags = objects.flags();
   std::vector<osg::ref_ptr<osg::Texture2D>> textures;

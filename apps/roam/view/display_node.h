@@ -27,7 +27,7 @@ using NamePage = std::function<std::string(const std::string& page)>;
 /// `rules`.
 [[nodiscard]] osg::ref_ptr<osg::Group> make_node(const DisplayPart& part, const TextureQuality& quality,
                                                  const NamePage& name_page, SceneObjects& objects,
-                                                 const std::shared_ptr<const PageRules>& rules);
+                                                 const std::shared_ptr<PageRules>& rules);
 
 /// The triangles alone, in the frame of their cell.
 [[nodiscard]] osg::ref_ptr<osg::Geometry> make_geometry(const DisplayGeometry& geometry);

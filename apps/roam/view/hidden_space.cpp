@@ -13,17 +13,17 @@ namespace {
 /// are up to 2 mm off.
 constexpr double margin = 5e-3;
 
-/// A world without some objects and half spaces, which keeps it.
-struct Reduced {
-  Reduced(std::shared_ptr<const World> whole, std::span<const ObjectId> without, std::vector<HalfSpace> beyond)
-      : world(std::move(whole)), space(*world) {
-    for (HalfSpace& half : beyond) half.distance += margin;
-    space.ignore_only(without);
-    space.ignore_beyond(beyond);
-  }
-  std::shared_ptr<const World> world;
-  Filtered space;
-};
+/// A filter that keeps its space.
+template <class Kept>
+std::shared_ptr<Filtered> filter_of(std::shared_ptr<Kept> space) {
+  struct Both {
+    explicit Both(std::shared_ptr<Kept> space) : kept(std::move(space)), filtered(*kept) {}
+    std::shared_ptr<Kept> kept;
+    Filtered filtered;
+  };
+  const auto both = std::make_shared<Both>(std::move(space));
+  return {both, &both->filtered};
+}
 
 /// "a box and 2 planes"
 std::string text_of(const SectionShape& section) {
@@ -46,31 +46,35 @@ void HiddenSpace::add_to(Commands& commands) {
 
 /// Makes the spaces match what is hidden.
 void HiddenSpace::update(const SectionShape& section) {
-  if (passes_ && arrival_.pager() != nullptr) {
-    passes_ = false;
-    tell_of_store();
-  }
   std::shared_ptr<const SceneObjects::Flags> flags = scene_.objects().flags();
   std::shared_ptr<const World> world = arrival_.world();
+  const std::shared_ptr<Pager>& pager = arrival_.pager();
   std::vector<HalfSpace> hidden = section.hidden();
-  if (flags == flags_ && world == world_ && hidden == section_) return;
+  if (flags == flags_ && world == world_ && pager == pager_ && hidden == section_) return;
   flags_ = std::move(flags);
   section_ = std::move(hidden);
   section_text_ = text_of(section);
-  if (world != world_) use_world(std::move(world));
-  const std::vector<ObjectId> without = hidden_objects();
+  beyond_ = section_;
+  for (HalfSpace& half : beyond_) half.distance += margin;
+  if (world != world_ || pager != pager_) use(std::move(world), pager);
+  without_ = hidden_objects();
   visible_.reset();
-  if (world_ != nullptr && !(without.empty() && section_.empty())) {
-    const auto reduced = std::make_shared<const Reduced>(world_, without, section_);
-    visible_ = std::shared_ptr<const Space>(reduced, &reduced->space);
+  if (world_ != nullptr && !(without_.empty() && beyond_.empty())) {
+    const std::shared_ptr<Filtered> visible = filter_of(world_);
+    visible->ignore_only(without_);
+    visible->ignore_beyond(beyond_);
+    visible_ = visible;
   }
   if (passes_) give_to_body();
+  tell_of_store();
 }
 
-void HiddenSpace::use_world(std::shared_ptr<const World> world) {
+void HiddenSpace::use(std::shared_ptr<const World> world, std::shared_ptr<Pager> pager) {
   world_ = std::move(world);
+  pager_ = std::move(pager);
+  open_.reset();
   ids_.clear();
-  passes_ = passes_ && world_ != nullptr;
+  passes_ = passes_ && (world_ != nullptr || pager_ != nullptr);
   if (world_ == nullptr) return;
   const std::vector<std::string>& names = arrival_.object_names();
   for (ObjectId id = 0; id < names.size(); ++id) ids_.emplace(names[id], id);
@@ -89,7 +93,6 @@ std::vector<ObjectId> HiddenSpace::hidden_objects() {
 }
 
 void HiddenSpace::pass_through(bool passes) {
-  if (passes && arrival_.pager() != nullptr) return tell_of_store();
   if (passes && !may_pass_) {
     news_.tell("what is hidden stays a wall while all moves are verified, or follow a path");
     return;
@@ -102,17 +105,35 @@ void HiddenSpace::pass_through(bool passes) {
     news_.tell("The body meets what is hidden.");
   }
   give_to_body();
+  tell_of_store();
 }
 
+/// Lets the body pass, or meet everything.
 void HiddenSpace::give_to_body() {
   // While the walls are being loaded, the wish waits for them.
-  if (world_ == nullptr) return;
-  const std::shared_ptr<const Space> space = passes_ && visible_ != nullptr ? visible_ : world_;
-  if (roamer_.space() != space) roamer_.setSpace(space);
+  if (world_ == nullptr && pager_ == nullptr) return;
+  if (!passes_) {
+    if (open_ == nullptr || roamer_.space() != open_) return;
+    if (pager_) return roamer_.setSpace(pager_);
+    return roamer_.setSpace(std::shared_ptr<const Space>(world_));
+  }
+  if (open_ == nullptr) open_ = pager_ ? filter_of(pager_) : filter_of(world_);
+  open_->ignore_only(without_);
+  open_->ignore_beyond(beyond_);
+  // A new space would put the body to rest.
+  if (roamer_.space() != open_) roamer_.setSpace(open_);
 }
 
+HiddenSpace::Met HiddenSpace::met() const {
+  if (open_ == nullptr || roamer_.space() != open_) return {roamer_.space(), {}};
+  if (pager_) return {pager_, beyond_};
+  return {visible_ != nullptr ? visible_ : world_, {}};
+}
+
+/// Once for each time that it begins to be so.
 void HiddenSpace::tell_of_store() {
-  news_.note("With a store, the body meets what is hidden. Build one with --ignore to leave objects out.");
+  if (std::exchange(told_of_store_, keeps_objects()) || !told_of_store_) return;
+  news_.note("With a store, the body meets hidden objects. Build one with --ignore to leave objects out.");
 }
 
 std::vector<std::string> HiddenSpace::passed() const {
@@ -132,7 +153,7 @@ void HiddenSpace::fill(Status& status) const {
   const SceneObjects::Count count = scene_.objects().count();
   if (count.hidden == 0) return;
   status.hidden = fmt::format("{} of {} objects; ", count.hidden, count.objects);
-  if (!passes_) {
+  if (!passes_ || keeps_objects()) {
     status.hidden += "the body meets them";
   } else if (names_.left_over == 0) {
     status.hidden += "the body passes through";
@@ -144,7 +165,7 @@ void HiddenSpace::fill(Status& status) const {
 
 void HiddenSpace::fill(ViewReport& report) const {
   report.hidden_objects = scene_.objects().count().hidden;
-  report.passes_hidden = passes_;
+  report.passes_hidden = passes_ && !keeps_objects();
 }
 
 }  // namespace roam::app

@@ -4,25 +4,20 @@
 
 #include <algorithm>
 #include <charconv>
-#include <cmath>
 #include <utility>
 
-#include "osgroam/pointer.h"
 #include "text/printable.h"
 #include "view/patterns.h"
 
 namespace roam::app {
 namespace {
 
-using Adapter = osgGA::GUIEventAdapter;
 using graphics::ListRow;
 
 // Names of the list's parts, besides those of nodes: a letter and a number.
 constexpr const char* pass_row = "pass";
 constexpr const char* all_row = "all";
 constexpr char box_part = 'b', arrow_part = 'a';
-
-constexpr double notch_rows = 3.0;
 
 ListRow::Box box_of(SceneObjects::Hidden hidden) {
   return hidden == SceneObjects::Hidden::none  ? ListRow::Box::on
@@ -44,10 +39,10 @@ ListRow row_of(const SceneObjects::Entry& entry) {
 
 Layers::Layers(Stage& stage, SceneGraph& scene, HiddenSpace& hidden, const osgRoam::Manipulator& roamer, Prompt& prompt,
                News& news)
-    : stage_(stage), scene_(scene), hidden_(hidden), roamer_(roamer), prompt_(prompt), news_(news) {}
+    : ListPanel(stage, roamer), scene_(scene), hidden_(hidden), prompt_(prompt), news_(news) {}
 
-void Layers::add_to(Commands& commands) {
-  commands.add("layers", [this] { shown_ = !shown_; });
+void Layers::add_to(Commands& commands, ListPanel& other) {
+  commands.add("layers", [this, &other] { toggle_instead_of(other); });
 }
 
 void Layers::update() {
@@ -56,7 +51,6 @@ void Layers::update() {
   rows_flags_ = std::move(flags);
   rows_pass_ = hidden_.passes();
   note_vain_patterns(false);
-  show_list();
 }
 
 void Layers::note_vain_patterns(bool at_end) {
@@ -70,13 +64,7 @@ void Layers::note_vain_patterns(bool at_end) {
   }
 }
 
-void Layers::show_list() {
-  graphics::Hud& hud = stage_.hud();
-  if (!shown_) {
-    hud.set_list(std::nullopt);
-    return;
-  }
-  const SceneObjects::Count count = scene_.objects().count();
+graphics::HudList Layers::head() {
   if (std::exchange(rows_changed_, false)) {
     rows_.clear();
     rows_.push_back({"the body passes through what is hidden",
@@ -89,49 +77,10 @@ void Layers::show_list() {
     rows_.push_back({"show all", all_row, {}, false, 0, ListRow::Box::none});
     for (const SceneObjects::Entry& entry : scene_.objects().entries(open_, search_)) rows_.push_back(row_of(entry));
   }
-  const std::size_t room = std::max<std::size_t>(1, hud.list_rows());
-  first_ = std::min(first_, rows_.size() - std::min(rows_.size(), room));
-  const std::size_t end = std::min(rows_.size(), first_ + room);
-  graphics::HudList list;
-  list.title = fmt::format("Objects: {}, hidden: {}", count.objects, count.hidden);
-  if (rows_.size() > room) list.title += fmt::format("   {} %", 100 * end / rows_.size());
-  list.search = search_.empty() ? "search" : "search: " + printable(search_) + "   (click: ends)";
-  list.rows.assign(rows_.begin() + static_cast<std::ptrdiff_t>(first_),
-                   rows_.begin() + static_cast<std::ptrdiff_t>(end));
-  hud.set_list(std::move(list));
-}
-
-bool Layers::handle(const Adapter& event, osgGA::GUIActionAdapter& /*action*/) {
-  graphics::Hud& hud = stage_.hud();
-  // A button that was pressed here belongs to the list until its release, even if the list was closed meanwhile.
-  if (event.getEventType() == Adapter::RELEASE) return std::exchange(is_down_, false);
-  if (event.getEventType() == Adapter::PUSH) is_down_ = false;
-  if (event.getHandled() || !shown_ || roamer_.mouseGrab() || hud.help_shown()) return false;
-  const double x = event.getXnormalized(), y = event.getYnormalized();
-  const bool here = hud.list_covers(x, y);
-  switch (event.getEventType()) {
-    case Adapter::PUSH:
-    case Adapter::DOUBLECLICK:
-      if (!here || event.getButton() == 0) return here;
-      is_down_ = true;
-      click(hud.list_at(x, y));
-      return true;
-    case Adapter::DRAG:
-      return is_down_;
-    case Adapter::MOVE:
-      hud.set_list_focus(hud.list_at(x, y));
-      return here;
-    case Adapter::SCROLL:
-      if (here) scroll(osgRoam::notches_of(event));
-      return here;
-    default:
-      return false;
-  }
-}
-
-void Layers::scroll(double notches) {
-  const double first = static_cast<double>(first_) - std::round(notch_rows * notches);
-  first_ = static_cast<std::size_t>(std::clamp(first, 0.0, static_cast<double>(rows_.size())));
+  const SceneObjects::Count count = scene_.objects().count();
+  return {fmt::format("Objects: {}, hidden: {}", count.objects, count.hidden),
+          search_.empty() ? "search" : "search: " + printable(search_) + "   (click: ends)",
+          {}};
 }
 
 void Layers::click(const std::string& part) {
@@ -158,7 +107,7 @@ void Layers::search() {
   }
   prompt_.ask("Objects with", {}, [this](const std::string& text) {
     search_ = text;
-    first_ = 0;
+    scroll_to_top();
     rows_changed_ = true;
   });
 }

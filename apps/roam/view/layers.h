@@ -3,7 +3,6 @@
 /// Objects and groups of the scene, on and off by name.
 
 #include <memory>
-#include <osgGA/GUIEventHandler>
 #include <set>
 #include <string>
 #include <vector>
@@ -11,9 +10,9 @@
 #include "osgRoam/Manipulator.h"
 #include "view/commands.h"
 #include "view/hidden_space.h"
+#include "view/list_panel.h"
 #include "view/prompt.h"
 #include "view/scene_graph.h"
-#include "view/stage.h"
 
 namespace roam::app {
 
@@ -21,48 +20,37 @@ namespace roam::app {
 /// find it; HiddenSpace decides whether the body meets it.
 ///
 /// Call all members from the thread that draws, between two frames.
-class Layers : public osgGA::GUIEventHandler {
+class Layers : public ListPanel {
  public:
   Layers(Stage& stage, SceneGraph& scene, HiddenSpace& hidden, const osgRoam::Manipulator& roamer, Prompt& prompt,
          News& news);
 
-  /// Adds "layers", which shows or hides the list.
-  void add_to(Commands& commands);
+  /// Adds "layers", which shows or hides the list in place of `other`.
+  void add_to(Commands& commands, ListPanel& other);
   /// Call it in each frame.
   void update();
   /// Notes for the report, before it is made, the patterns that have matched no name.
   void finish() { note_vain_patterns(true); }
-  [[nodiscard]] bool is_shown() const { return shown_; }
-  void close() { shown_ = false; }
-
-  using osgGA::GUIEventHandler::handle;
-  bool handle(const osgGA::GUIEventAdapter& event, osgGA::GUIActionAdapter& action) override;
 
  protected:
   ~Layers() override = default;
+  [[nodiscard]] graphics::HudList head() override;
+  void click(const std::string& part) override;
 
  private:
   void note_vain_patterns(bool at_end);
-  void show_list();
-  void click(const std::string& part);
   void search();
-  void scroll(double rows);
 
-  Stage& stage_;
   SceneGraph& scene_;
   HiddenSpace& hidden_;
-  const osgRoam::Manipulator& roamer_;
   Prompt& prompt_;
   News& news_;
-  bool shown_ = false, patterns_told_ = false;
-  bool is_down_ = false;  ///< a button of the mouse was pressed here
+  bool patterns_told_ = false;
 
   // The list.
   std::set<SceneObjects::Number> open_;
   std::string search_;
-  std::size_t first_ = 0;  ///< of the rows that are shown
   bool rows_changed_ = true;
-  std::vector<graphics::ListRow> rows_;
   bool rows_pass_ = false;                                 ///< HiddenSpace::passes() of the rows
   std::shared_ptr<const SceneObjects::Flags> rows_flags_;  ///< of the rows
 };

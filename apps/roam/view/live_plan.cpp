@@ -8,6 +8,7 @@
 #include <iterator>
 #include <span>
 #include <string>
+#include <utility>
 
 #include "math/boxes.h"
 #include "roam/error.h"
@@ -77,23 +78,25 @@ Box LivePlan::box_of(const Wish& wish) {
 
 LivePlan::Cut LivePlan::cut(const Wish& wish, const std::atomic<bool>& stops) {
   const auto goes_on = [&] { return !stops; };
-  const Space* space = wish.space.get();
+  const Space* space = wish.met.space.get();
   // A pager may only be queried between two frames. Its store may be read at any time.
   World part;
   if (const auto* const pager = dynamic_cast<const Pager*>(space)) {
     part = part_of(pager->store(), box_of(wish), goes_on);
     space = &part;
   }
+  Filtered met(*space);
+  met.ignore_beyond(wish.met.open);
   Cut made{wish, {.base = seen_from_above(wish.centre)}};
   PlanArea area{wish.centre, wish.half, std::max(least_spacing, 2.0 * wish.half / rays_across)};
-  made.lines.walls = scan_plan(*space, area, goes_on);
+  made.lines.walls = scan_plan(met, area, goes_on);
   area.centre.z = wish.low;
-  made.lines.below = scan_plan(*space, area, goes_on);
+  made.lines.below = scan_plan(met, area, goes_on);
   return made;
 }
 
 bool LivePlan::is_stale(const Wish& wish) const {
-  if (!shown_ || shown_->of.space != wish.space || shown_->of.half != wish.half) return true;
+  if (!shown_ || shown_->of.met != wish.met || shown_->of.half != wish.half) return true;
   const Vec3 way = wish.centre - shown_->of.centre;
   return std::abs(way.z) > storey || std::max(std::abs(way.x), std::abs(way.y)) > wish.half - half();
 }
@@ -122,7 +125,7 @@ void LivePlan::follow() {
   trail_.resize((trail_.size() + 1) / 2);
 }
 
-void LivePlan::update(bool visible, const std::vector<graphics::PlanPlace>& places) {
+void LivePlan::update(bool visible, HiddenSpace::Met met, const std::vector<graphics::PlanPlace>& places) {
   if (roamer_.walker() == nullptr) return;
   follow();
   graphics::PlanView view;
@@ -132,7 +135,7 @@ void LivePlan::update(bool visible, const std::vector<graphics::PlanPlace>& plac
   }
   receive();
   const Vec3 centre = roamer_.walker()->position();
-  const Wish wish{roamer_.space(), centre, roamer_.walker()->feet().z + knee, margin_factor * half()};
+  const Wish wish{std::move(met), centre, roamer_.walker()->feet().z + knee, margin_factor * half()};
   if (!cutting_.valid() && is_stale(wish)) {
     cutting_ = std::async(std::launch::async, [wish, this] { return cut(wish, stops_); });
   }

@@ -10,6 +10,7 @@
 
 #include "graphics/plan_panel.h"
 #include "osgRoam/Manipulator.h"
+#include "view/hidden_space.h"
 
 namespace roam::app {
 
@@ -28,8 +29,8 @@ class LivePlan {
   [[nodiscard]] graphics::PlanSize size() const { return size_; }
   /// The share of the picture that a large plan takes at the right; else 0.
   [[nodiscard]] double covered() const { return panel_.covered(); }
-  /// Call it in each frame. `visible` false: nothing is shown or cut.
-  void update(bool visible, const std::vector<graphics::PlanPlace>& places);
+  /// Call it in each frame. `visible` false: nothing is shown or cut. `met`: the walls.
+  void update(bool visible, HiddenSpace::Met met, const std::vector<graphics::PlanPlace>& places);
   /// The metres at a point of the picture, x and y in [-1, 1]; none outside of the plan.
   [[nodiscard]] std::optional<glm::dvec2> at(double x, double y) const { return panel_.at(x, y); }
   /// Sends the body to the floor at a point of the plan, as a double click in the picture does. False if there is none.
@@ -42,7 +43,7 @@ class LivePlan {
 
  private:
   struct Wish {
-    std::shared_ptr<const Space> space;
+    HiddenSpace::Met met;
     Vec3 centre{0.0};   ///< at the height of the cut
     double low = 0.0;   ///< height of the lower cut
     double half = 0.0;  ///< m

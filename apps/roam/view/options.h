@@ -33,7 +33,8 @@ struct ViewOptions {
   std::optional<double> speed, fov, picture_scale;
   std::string size = "1280x720";
   bool fullscreen = false;
-  std::vector<double> at;  ///< x, y, z, perhaps yaw, perhaps pitch
+  std::vector<double> at;      ///< x, y, z, perhaps yaw, perhaps pitch
+  std::vector<double> origin;  ///< x, y, z of the scene's zero at the site; empty: as the scene states
   std::string bookmark;
   std::vector<std::string> section;
   std::vector<std::string> hide;  ///< patterns of names

@@ -9,9 +9,14 @@ namespace {
 
 constexpr float infinite = std::numeric_limits<float>::max();
 
+bool is_parallel(const osg::CullStack& camera) {
+  const osg::RefMatrix* const projection = camera.getProjectionMatrix();
+  return projection != nullptr && (*projection)(3, 3) != 0.0;
+}
+
 }  // namespace
 
-PageLod::PageLod(const DisplayPages& pages, std::shared_ptr<const PageRules> rules)
+PageLod::PageLod(const DisplayPages& pages, std::shared_ptr<PageRules> rules)
     : rules_(std::move(rules)),
       by_error_(pages.measure == DisplayMeasure::error),
       error_(pages.error),
@@ -55,8 +60,36 @@ void PageLod::choose(const osg::CullStack& camera) {
 void PageLod::traverse(osg::NodeVisitor& visitor) {
   const osg::CullStack* const camera =
       visitor.getVisitorType() == osg::NodeVisitor::CULL_VISITOR ? visitor.asCullStack() : nullptr;
-  if (by_error_ && camera != nullptr) choose(*camera);
+  if (camera == nullptr) return PagedLOD::traverse(visitor);
+  if (is_parallel(*camera)) return draw_last(visitor);
+  if (by_error_) choose(*camera);
   PagedLOD::traverse(visitor);
+  note_drawn(visitor);
+}
+
+/// The base class gives the number of the frame to each child that it draws.
+void PageLod::note_drawn(const osg::NodeVisitor& visitor) {
+  if (visitor.getFrameStamp() == nullptr) return;
+  const unsigned now = visitor.getFrameStamp()->getFrameNumber();
+  std::vector<unsigned> drawn;
+  for (unsigned i = 0; i < getNumChildren(); ++i) {
+    if (getFrameNumber(i) == now) drawn.push_back(i);
+  }
+  if (drawn == drawn_) return;
+  drawn_ = std::move(drawn);
+  ++rules_->changes;
+}
+
+/// Requests no page, and keeps none. In place of a page that has been dropped since, the last one that is there.
+void PageLod::draw_last(osg::NodeVisitor& visitor) {
+  const unsigned count = getNumChildren();
+  bool is_drawn = false;
+  for (const unsigned i : drawn_) {
+    if (i >= count) continue;
+    getChild(i)->accept(visitor);
+    is_drawn = true;
+  }
+  if (!is_drawn && count > 0) getChild(count - 1)->accept(visitor);
 }
 
 bool PageLod::removeExpiredChildren(double time, unsigned int frame, osg::NodeList& removed) {

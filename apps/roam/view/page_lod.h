@@ -2,6 +2,7 @@
 /// \file
 /// The node of a scene's pages: which of its levels is drawn, and when its page is dropped.
 
+#include <cstdint>
 #include <limits>
 #include <memory>
 #include <osg/CullStack>
@@ -17,15 +18,16 @@ struct PageRules {
   double allowed_error = 0.0;  ///< pixels; see DisplayMeasure::error. 0: the finest level everywhere
   /// Pages that were seen last before this time (osg::FrameStamp's reference time, s) may be dropped.
   double drop_before = -std::numeric_limits<double>::infinity();
+  std::uint64_t changes = 0;  ///< how often a node was drawn by other levels than before
 };
 
 /// Distance and pixels choose levels as in osg::PagedLOD. By error, the level changes where the node's error is as
 /// large on the screen as is allowed, seen from the eye at the nearest point of the node's box. Each picture chooses
-/// anew; visitors that do not draw find what was drawn last.
+/// anew; visitors that do not draw find what was drawn last, and so does a parallel projection, such as the sun's.
 class PageLod : public osg::PagedLOD {
  public:
   /// Takes all but the levels from `pages`.
-  PageLod(const DisplayPages& pages, std::shared_ptr<const PageRules> rules);
+  PageLod(const DisplayPages& pages, std::shared_ptr<PageRules> rules);
 
   /// Sets the range of the level added last, in the measure of the pages.
   void add_range(float from, float to);
@@ -42,12 +44,15 @@ class PageLod : public osg::PagedLOD {
 
  private:
   void choose(const osg::CullStack& camera);
+  void note_drawn(const osg::NodeVisitor& visitor);
+  void draw_last(osg::NodeVisitor& visitor);
 
-  std::shared_ptr<const PageRules> rules_;
+  std::shared_ptr<PageRules> rules_;
   bool by_error_;
   double error_;
   osg::Vec3d half_;
-  RangeList levels_;  ///< in the measure of the pages
+  RangeList levels_;             ///< in the measure of the pages
+  std::vector<unsigned> drawn_;  ///< the children that were drawn last
 };
 
 }  // namespace roam::app

@@ -44,6 +44,10 @@ class PageSource : public osgDB::ReadFileCallback {
   void tend(double now);
   /// Bytes of the pages in memory.
   [[nodiscard]] std::uint64_t bytes() const { return *memory_; }
+  /// Whether an error chooses the levels of some pages.
+  [[nodiscard]] bool by_error() const { return by_error_; }
+  /// A number that changes when other levels are drawn. For the thread that draws.
+  [[nodiscard]] std::uint64_t changes() const { return rules_->changes; }
   /// Whether they are as many as make unseen ones go.
   [[nodiscard]] bool is_full() const;
   /// How many times the allowed error is drawn, because more would not fit.

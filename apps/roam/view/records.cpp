@@ -79,6 +79,13 @@ void Records::ask_name(Prompt& prompt) {
   });
 }
 
+std::vector<std::string> Records::bookmark_names() const {
+  std::vector<std::string> names;
+  if (!bookmarks_) return names;
+  for (const Bookmark& bookmark : bookmarks_->all()) names.push_back(bookmark.name);
+  return names;
+}
+
 std::vector<graphics::PlanPlace> Records::places() const {
   std::vector<graphics::PlanPlace> places;
   if (!bookmarks_) return places;
@@ -89,13 +96,21 @@ std::vector<graphics::PlanPlace> Records::places() const {
 }
 
 void Records::go_to_next_bookmark(bool backwards) {
-  const Bookmark* bookmark = bookmarks_ ? bookmarks_->next(backwards) : nullptr;
-  if (bookmark == nullptr) {
+  if (!bookmarks_ || bookmarks_->next(backwards) == nullptr) {
     news_.tell("this scene has no bookmarks yet" + remedy(roamer_));
     return;
   }
-  go_to(roamer_, bookmark->pose);
-  news_.tell(fmt::format("bookmark {} ({} of {})", bookmark->name, bookmarks_->number(), bookmarks_->all().size()));
+  go_to_present();
+}
+
+void Records::go_to_bookmark(const std::string& name) {
+  if (bookmarks_ && bookmarks_->find(name) != nullptr) go_to_present();
+}
+
+void Records::go_to_present() {
+  const Bookmark& bookmark = *bookmarks_->present();
+  go_to(roamer_, bookmark.pose);
+  news_.tell(fmt::format("bookmark {} ({} of {})", bookmark.name, bookmarks_->number(), bookmarks_->all().size()));
 }
 
 void Records::record(const std::filesystem::path& file, files::Naming naming) {

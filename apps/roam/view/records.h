@@ -40,6 +40,9 @@ class Records {
   void ask_name(Prompt& prompt);
   /// All bookmarks, seen from above.
   [[nodiscard]] std::vector<graphics::PlanPlace> places() const;
+  [[nodiscard]] std::vector<std::string> bookmark_names() const;
+  /// Puts the body at the bookmark of that name, if there is one.
+  void go_to_bookmark(const std::string& name);
   /// Puts the body at the next bookmark, or the previous one; at first, at the first or the last.
   void go_to_next_bookmark(bool backwards);
   /// Adds both as "bookmark" and "next_bookmark". Adds "record", which ends the recording, or begins one in the current
@@ -57,6 +60,8 @@ class Records {
   void fill(ViewReport& report) const;
 
  private:
+  void go_to_present();
+
   osgRoam::Manipulator& roamer_;
   News& news_;
   std::optional<SceneFrame> frame_;  ///< of the scene; none: its files differ

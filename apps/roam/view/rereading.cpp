@@ -13,8 +13,16 @@
 
 namespace roam::app {
 
+SceneFrame next_unit(const SceneFrame& frame) {
+  const std::size_t next = (static_cast<std::size_t>(frame.unit) + 1) % length_unit_names.size();
+  return {frame.up, static_cast<LengthUnit>(next)};
+}
+
 void Rereading::add_to(Commands& commands) {
-  commands.add("turn", [this] { turn(); });
+  commands.add("turn", [this] {
+    read_with([this](const SceneFrame& frame) { return next_frame(frame, arrival_.likely_up()); });
+  });
+  commands.add("unit", [this] { read_with(next_unit); });
   commands.add("leave_out", [this] { leave_out_ahead(); });
   commands.add("show_all", [this] { show_all(); });
 }
@@ -27,20 +35,20 @@ bool Rereading::is_possible() {
   return false;
 }
 
-/// Another axis up, which the profile keeps.
-void Rereading::turn() {
+/// In another frame, which the profile keeps.
+void Rereading::read_with(const std::function<SceneFrame(const SceneFrame&)>& changed) {
   const std::optional<SceneFrame> frame = frame_of(what_.scene);
   if (!what_.store.empty() || !frame) {
-    news_.tell("a store keeps the frame in which it was built: turn its scene, and build it again");
+    news_.tell("a store keeps the frame in which it was built: change that of its scene, and build it again");
   } else if (is_possible()) {
-    next_ = NextSession{next_frame(*frame, arrival_.likely_up()), {}, {}, Mode::walk};
+    next_ = NextSession{changed(*frame), {}, {}, Mode::walk};
     if (what_.scene.no_profile) return;
     try {
       const std::filesystem::path file = profile_path(what_.scene.scenes);
       if (save_frame(*next_->frame, file))
         news_.note(file.string() + " had a body for the scene as it was: train again");
     } catch (const Error& error) {
-      news_.note(fmt::format("the turn is not kept: {}", error.what()));
+      news_.note(fmt::format("the frame is not kept: {}", error.what()));
     }
   }
 }

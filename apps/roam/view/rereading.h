@@ -1,7 +1,9 @@
 #pragma once
 /// \file
-/// The end of a session for another one that reads the scene otherwise: with another axis up, or without some objects.
+/// The end of a session for another one that reads the scene otherwise: with another axis up, in another unit, or
+/// without some objects.
 
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -23,20 +25,23 @@ struct NextSession {
   Mode mode = Mode::walk;
 };
 
+/// The same axis, and the next unit of m, cm, mm, ft, in, in a circle.
+[[nodiscard]] SceneFrame next_unit(const SceneFrame& frame);
+
 class Rereading {
  public:
   Rereading(const SceneAndStore& what, const ViewOptions& options, const Arrival& arrival,
             const osgRoam::Manipulator& roamer, const Display& display, News& news)
       : what_(what), options_(options), arrival_(arrival), roamer_(roamer), display_(display), news_(news) {}
 
-  /// Adds "turn", "leave_out" and "show_all".
+  /// Adds "turn", "unit", "leave_out" and "show_all".
   void add_to(Commands& commands);
   /// Set if this session ends for another one.
   [[nodiscard]] const std::optional<NextSession>& next() const { return next_; }
 
  private:
   [[nodiscard]] bool is_possible();
-  void turn();
+  void read_with(const std::function<SceneFrame(const SceneFrame&)>& changed);
   void leave_out_ahead();
   void show_all();
   void leave_out(const std::string& pattern);

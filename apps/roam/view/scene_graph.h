@@ -47,6 +47,8 @@ class SceneGraph {
   [[nodiscard]] bool has_pieces() const { return pieces_ > 0; }
   /// Whether the detail of some piece depends on the eye.
   [[nodiscard]] bool is_paged() const { return paged_; }
+  /// A number that changes with the drawn pages and objects.
+  [[nodiscard]] std::uint64_t version() const { return loader_->pages().changes() + objects_version_; }
   /// Whether everything visible from here is in the graph. Call it once a frame: with pages, it is true after some
   /// frames without a new one.
   [[nodiscard]] bool is_complete();

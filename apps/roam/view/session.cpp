@@ -58,7 +58,8 @@ Session::Session(const ViewOptions& options, const ViewPlan& plan, const ViewSet
       prompt_(new Prompt(stage_)),
       hidden_(scene_, arrival_, *roamer_, news_, plan_.path.empty() && !options.verify),
       layers_(new Layers(stage_, scene_, hidden_, *roamer_, *prompt_, news_)),
-      tools_(new Tools(stage_, scene_, *roamer_, *layers_, hidden_, what_, options.program, plan_.section)),
+      bookmark_list_(new BookmarkList(stage_, *roamer_, records_)),
+      tools_(new Tools(stage_, scene_, *roamer_, hidden_, what_, options.program, plan_.section)),
       controllers_(stage_, *roamer_, *prompt_, plan_.sensitivity),
       building_(what_, options.program, *roamer_, news_),
       rereading_(what_, options_, arrival_, *roamer_, display_, news_) {
@@ -67,10 +68,10 @@ Session::Session(const ViewOptions& options, const ViewPlan& plan, const ViewSet
   }
   stage_.add_to(commands_);
   display_.add_to(commands_);
-  layers_->add_to(commands_);
+  layers_->add_to(commands_, *bookmark_list_);
   hidden_.add_to(commands_);
   if (options.pass_hidden) hidden_.pass_through(true);
-  commands_.add("store", [this] { building_.toggle(arrival_.pager(), place(), arrival_.triangles()); });
+  commands_.add("store", [this] { building_.toggle(arrival_.pager().get(), place(), arrival_.triangles()); });
   commands_.add("name_bookmark", [this] { records_.ask_name(*prompt_); });
   rereading_.add_to(commands_);
   commands_.add("quit", [this] { quits_ = true; });
@@ -79,6 +80,7 @@ Session::Session(const ViewOptions& options, const ViewPlan& plan, const ViewSet
   stage_.viewer().addEventHandler(new SessionHandler(*this));
   stage_.viewer().addEventHandler(new Menu(stage_, *roamer_));
   stage_.viewer().addEventHandler(layers_);
+  stage_.viewer().addEventHandler(bookmark_list_);
   stage_.viewer().addEventHandler(tools_);
   // SessionHandler handles Escape; the viewer would end before any other use of the key.
   stage_.viewer().setKeyEventSetsDone(0);
@@ -141,6 +143,7 @@ void Session::enter() {
     learning_->add_to(commands_);
   }
   records_.add_to(commands_);
+  bookmark_list_->add_to(commands_, *layers_);
   tools_->add_to(commands_);
   arrival_.enter();
   show_keys();
@@ -243,7 +246,14 @@ void Session::show(bool at_once) {
   tools_->add_to(marks);
   hidden_.update(tools_->section());
   layers_->update();
-  tools_->update(roaming(), records_.places());
+  ListPanel* const list = shown_list();
+  if (list != nullptr) {
+    list->draw();
+  } else {
+    stage_.hud().set_list(std::nullopt);
+  }
+  // The list takes the plan's place.
+  tools_->update(roaming(), list == nullptr, records_.places());
   display_.update(roaming(), roaming() && !arrival_.is_ghost_only() ? roamer_->leastEyeDistance() : plan_.walker.radius,
                   std::move(marks));
   if (!at_once && !display_.is_due()) return;
@@ -253,8 +263,9 @@ void Session::show(bool at_once) {
     status.around = surroundings(*roamer_, *visible);
   }
   if (roaming() && !roamer_leads()) status.camera = cameras_->present();
-  // It is said of the file's own frame.
-  if (scene_.report() && frame_of(what_.scene) == SceneFrame{}) {
+  if (!options_.origin.empty()) {
+    status.georeference = Georeference{{}, {options_.origin[0], options_.origin[1], options_.origin[2]}};
+  } else if (scene_.report() && frame_of(what_.scene) == SceneFrame{}) {  // it is said of the file's own frame
     status.georeference = scene_.report()->import.georeference;
   }
   arrival_.fill(status);
@@ -264,6 +275,11 @@ void Session::show(bool at_once) {
   tools_->fill(status);
   if (learning_) learning_->fill(status);
   display_.show(std::move(status));
+}
+
+ListPanel* Session::shown_list() {
+  if (layers_->is_shown()) return layers_.get();
+  return bookmark_list_->is_shown() ? bookmark_list_.get() : nullptr;
 }
 
 bool Session::run(const std::string& command) {

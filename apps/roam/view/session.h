@@ -8,6 +8,7 @@
 
 #include "osgRoam/Manipulator.h"
 #include "view/arrival.h"
+#include "view/bookmark_list.h"
 #include "view/cameras.h"
 #include "view/commands.h"
 #include "view/controllers.h"
@@ -38,6 +39,7 @@ namespace roam::app {
 ///     Records        the recorded path, bookmarks
 ///     Display        head-up display, marks, overview
 ///     Layers         objects on and off by name
+///     BookmarkList   bookmarks for the mouse
 ///     HiddenSpace    what the body and clicks meet of what is hidden
 ///     Controllers    gamepads
 ///     Tools          measuring by clicks, sections, the plan
@@ -74,7 +76,8 @@ class Session {
   [[nodiscard]] osgRoam::Manipulator& roamer() { return *roamer_; }
   [[nodiscard]] Stage& stage() { return stage_; }
   [[nodiscard]] const Tools& tools() const { return *tools_; }
-  [[nodiscard]] Layers& layers() { return *layers_; }
+  /// The list that is shown; null: none.
+  [[nodiscard]] ListPanel* shown_list();
   [[nodiscard]] HiddenSpace& hidden() { return hidden_; }
   [[nodiscard]] const SceneGraph& scene() const { return scene_; }
   [[nodiscard]] const WalkLog& log() const { return log_; }
@@ -114,6 +117,7 @@ class Session {
   const osg::ref_ptr<Prompt> prompt_;
   HiddenSpace hidden_;
   const osg::ref_ptr<Layers> layers_;
+  const osg::ref_ptr<BookmarkList> bookmark_list_;
   const osg::ref_ptr<Tools> tools_;
   Controllers controllers_;
   StoreBuilding building_;

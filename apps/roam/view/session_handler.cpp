@@ -25,14 +25,14 @@ bool SessionHandler::handle(const osgGA::GUIEventAdapter& event, osgGA::GUIActio
 bool SessionHandler::step_out() {
   graphics::Hud& hud = session_.stage().hud();
   osgRoam::Manipulator& roamer = session_.roamer();
-  Layers& layers = session_.layers();
-  if (!hud.help_shown() && !roamer.mouseGrab() && !layers.is_shown()) return false;
+  ListPanel* const list = session_.shown_list();
+  if (!hud.help_shown() && !roamer.mouseGrab() && list == nullptr) return false;
   if (hud.help_shown()) {
     hud.show_help(false);
   } else if (roamer.mouseGrab()) {
     roamer.setMouseGrab(false);
   } else {
-    layers.close();
+    list->close();
   }
   return true;
 }

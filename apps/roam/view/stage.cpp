@@ -258,20 +258,23 @@ void Stage::see_events() {
 void Stage::draw() {
   if (is_filmed()) film_->before_frame(now_);
   const auto begin = Clock::now();
+  if (thrift_) frame_->set_timed(thrift_->doubts());
   viewer_->updateTraversal();
   viewer_->renderingTraversals();
   const double ns = std::chrono::duration<double, std::nano>(Clock::now() - begin).count();
   if (times_.count() > 0) last_ms_ = ns * 1e-6;
   times_.add(ns);
-  if (thrift_ && runs_) draw_less_if_slow(ns * 1e-6);
+  if (thrift_ && runs_) draw_less_if_slow(begin, ns * 1e-6);
   if (std::exchange(enlarged_wanted_, false)) take_enlarged();
 }
 
 /// On a slow card. It stays so: a picture that changes back and forth is worse.
-void Stage::draw_less_if_slow(double ms) {
+void Stage::draw_less_if_slow(Clock::time_point begin, double ms) {
   constexpr double seconds = 5.0;
   using graphics::Quality;
-  const std::optional<double> median = thrift_->take(ms);
+  const graphics::FrameTimes& times = frame_->times();
+  const double drawn_ms = std::chrono::duration<double, std::milli>(times.drawn - times.waited - begin).count();
+  const std::optional<double> median = thrift_->take(ms, drawn_ms);
   if (!median || frame_->quality() == Quality::plain) return;
   const bool light = frame_->quality() == Quality::full;
   frame_->set_quality(light ? Quality::light : Quality::plain);

@@ -99,7 +99,7 @@ class Stage {
   void cycle_hud();
   void fade_hint();
   void toggle_fullscreen();
-  void draw_less_if_slow(double ms);
+  void draw_less_if_slow(Clock::time_point begin, double ms);
 
   graphics::Context context_;
   osg::ref_ptr<osgViewer::Viewer> viewer_;

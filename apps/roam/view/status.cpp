@@ -124,7 +124,8 @@ std::vector<StatusText> status_lines(const Status& status) {
     if (status.georeference) {
       const auto& [srs, origin] = *status.georeference;
       const Vec3 site = p + origin;
-      add("site", fmt::format("{:.2f}, {:.2f}, {:.2f} {}", site.x, site.y, site.z, printable(srs)));
+      add("site",
+          fmt::format("{:.2f}, {:.2f}, {:.2f}{}{}", site.x, site.y, site.z, srs.empty() ? "" : " ", printable(srs)));
     }
     add("height", height_text(status));
     add("heading", heading_text(status.yaw, status.pitch));

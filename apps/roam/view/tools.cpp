@@ -30,13 +30,11 @@ bool is_left(const Adapter& event) { return event.getButton() == Adapter::LEFT_M
 
 }  // namespace
 
-Tools::Tools(Stage& stage, SceneGraph& scene, osgRoam::Manipulator& roamer, const Layers& layers,
-             const HiddenSpace& hidden, const SceneAndStore& what, const std::filesystem::path& program,
-             SectionShape section)
+Tools::Tools(Stage& stage, SceneGraph& scene, osgRoam::Manipulator& roamer, const HiddenSpace& hidden,
+             const SceneAndStore& what, const std::filesystem::path& program, SectionShape section)
     : stage_(stage),
       scene_(scene),
       roamer_(roamer),
-      layers_(layers),
       hidden_(hidden),
       measuring_(roamer),
       probing_(program, what, roamer),
@@ -132,10 +130,10 @@ Box Tools::box_ahead() const {
   return Box{seen->point, seen->point}.grown(std::max(least, share * glm::distance(eye, seen->point)));
 }
 
-void Tools::update(bool has_body, const std::vector<graphics::PlanPlace>& places) {
+void Tools::update(bool has_body, bool has_plan, const std::vector<graphics::PlanPlace>& places) {
   section_.show(scene_.group(), scene_.origin());
-  // The list takes the plan's place.
-  if (has_body) plan_.update(stage_.hud().detail() != graphics::Detail::off && !layers_.is_shown(), places);
+  const bool is_plan_seen = has_plan && stage_.hud().detail() != graphics::Detail::off;
+  if (has_body) plan_.update(is_plan_seen, hidden_.met(), places);
   stage_.hud().set_covered(plan_.covered());
 }
 

@@ -8,7 +8,6 @@
 #include "osgRoam/Manipulator.h"
 #include "view/commands.h"
 #include "view/hidden_space.h"
-#include "view/layers.h"
 #include "view/live_plan.h"
 #include "view/measuring.h"
 #include "view/probing.h"
@@ -29,14 +28,14 @@ namespace roam::app {
 class Tools : public osgGA::GUIEventHandler {
  public:
   /// `program`: path of roam; empty: the running program. `section`: at first.
-  Tools(Stage& stage, SceneGraph& scene, osgRoam::Manipulator& roamer, const Layers& layers, const HiddenSpace& hidden,
+  Tools(Stage& stage, SceneGraph& scene, osgRoam::Manipulator& roamer, const HiddenSpace& hidden,
         const SceneAndStore& what, const std::filesystem::path& program, SectionShape section);
 
   /// Adds "measure", "section" and "section_box", which turn these tools on or off; "probe", which searches a way
   /// between the measured points; and "plan", which shows the plan smaller, larger or not.
   void add_to(Commands& commands);
-  /// Call it in each frame. `places`: for the plan.
-  void update(bool has_body, const std::vector<graphics::PlanPlace>& places);
+  /// Call it in each frame. `has_plan`: whether there is room for the plan; `places`: on it.
+  void update(bool has_body, bool has_plan, const std::vector<graphics::PlanPlace>& places);
 
   using osgGA::GUIEventHandler::handle;
   bool handle(const osgGA::GUIEventAdapter& event, osgGA::GUIActionAdapter& action) override;
@@ -77,7 +76,6 @@ class Tools : public osgGA::GUIEventHandler {
   Stage& stage_;
   SceneGraph& scene_;
   osgRoam::Manipulator& roamer_;
-  const Layers& layers_;
   const HiddenSpace& hidden_;
   Tool tool_ = Tool::none;
   Measuring measuring_;

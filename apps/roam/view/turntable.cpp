@@ -12,7 +12,7 @@ namespace {
 
 // Degrees. The turn begins where the overview stands.
 constexpr double first_yaw = 60.0, pitch = -27.0;
-constexpr int headings = 72;
+constexpr int looked_from = 72;
 
 /// Distance from which a camera with this heading sees all corners of a box of these half sides around its middle.
 double distance_for(const Vec3& half, double yaw, double tan_across, double tan_up) {
@@ -37,8 +37,8 @@ Pose on_turntable(const Box& box, double fov, double aspect, double share) {
   const Vec3 half = box.empty() ? Vec3(1.0) : glm::max(0.5 * box.size(), Vec3(least));
   const double tan_up = std::tan(0.5 * glm::radians(fov)) / border;
   double distance = 0.0;
-  for (int i = 0; i < headings; ++i) {
-    distance = std::max(distance, distance_for(half, glm::radians(360.0 * i / headings), aspect * tan_up, tan_up));
+  for (int i = 0; i < looked_from; ++i) {
+    distance = std::max(distance, distance_for(half, glm::radians(360.0 * i / looked_from), aspect * tan_up, tan_up));
   }
   const double yaw = first_yaw + 360.0 * share;
   return {middle - distance * gaze(glm::radians(yaw), glm::radians(pitch)), yaw, pitch};

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <span>
 
+#include "index/rest.h"
+#include "world/remaining.h"
 #include "world/unknown.h"
 
 namespace roam::paging {
@@ -69,6 +71,13 @@ bool gather(const Residents& residents, const Box& box, index::Roots& out) {
   return complete;
 }
 
+template <class Use>
+auto PagedScene::in_rest(const index::Index& page, const Use& use) const {
+  if (ignored_ == nullptr) return use(page);
+  const query::Remaining rest(page, *ignored_, nullptr);
+  return use(rest.index());
+}
+
 std::optional<double> PagedScene::first(const index::Piece& piece) {
   if (roots_ != nullptr) return first_of_roots(piece);
   Asking asking{residents_, piece, nullptr, false, 0, {}};
@@ -86,7 +95,10 @@ std::optional<double> PagedScene::first(const index::Piece& piece) {
       base_ = unknown_base({number, PagedItem::whole});
     } else {
       asking.page = number;
-      const index::Impact impact = index::first_impact(residents_.view(page, absent), piece, until);
+      const index::Impact impact = in_rest(residents_.view(page, absent), [&](const index::Index& index) {
+        return index.skip == nullptr ? index::first_impact(index, piece, until)
+                                     : index::first_impact_of_rest(index, piece, until);
+      });
       if (!impact.hit) return;
       until = impact.time;
       known_ = !page.in.tiles[impact.place.tile].absent();
@@ -107,8 +119,11 @@ std::optional<double> PagedScene::first_of_roots(const index::Piece& piece) {
   double until = 1.0;
   bool hit = false;
   each_page(*roots_, [&](std::uint32_t number, std::span<const index::Root> roots) {
-    const index::Index index = residents_.view(residents_.page(number), none);
-    const index::Impact impact = index::first_impact(index, roots, piece, until);
+    const index::Index page = residents_.view(residents_.page(number), none);
+    const index::Impact impact = in_rest(page, [&](const index::Index& index) {
+      return index.skip == nullptr ? index::first_impact(index, roots, piece, until)
+                                   : index::first_impact_of_rest(index, roots, piece, until);
+    });
     if (!impact.hit) return;
     hit = known_ = true;
     until = impact.time;
@@ -144,8 +159,8 @@ void PagedScene::near(const index::Piece& piece, Collector& collector) const {
   if (roots_ != nullptr) {
     const index::Absent none{};
     each_page(*roots_, [&](std::uint32_t number, std::span<const index::Root> roots) {
-      const index::Index index = residents_.view(residents_.page(number), none);
-      query::visit_near(index, roots, piece, page_base(number), collector);
+      in_rest(residents_.view(residents_.page(number), none),
+              [&](const index::Index& index) { query::visit_near(index, roots, piece, page_base(number), collector); });
     });
     return;
   }
@@ -157,7 +172,8 @@ void PagedScene::near(const index::Piece& piece, Collector& collector) const {
     const Residents::Page& page = residents_.page(number);
     if (page.in.tiles != nullptr) {
       asking.page = number;
-      query::visit_near(residents_.view(page, absent), piece, page_base(number), collector);
+      in_rest(residents_.view(page, absent),
+              [&](const index::Index& index) { query::visit_near(index, piece, page_base(number), collector); });
     } else if ((!only_coming || !page.failed) && collector.takes_unknown(page.box, piece.body.radius, Pager::margin)) {
       collector.offer(near_box(page.box, piece, unknown_base({number, PagedItem::whole})), Pager::margin);
     }

@@ -22,8 +22,12 @@ class PagedScene {
     coming,  ///< unknown items that have not failed
   };
   explicit PagedScene(const Residents& residents, What what = What::everything) : residents_(residents), what_(what) {}
-  /// All items. The search begins at `roots` unless that is null.
-  PagedScene(const Residents& residents, const index::Roots* roots) : residents_(residents), roots_(roots) {}
+  /// All items, without the triangles beyond the half spaces of a filter, which may be null. The search begins at
+  /// `roots` unless that is null.
+  PagedScene(const Residents& residents, const index::Roots* roots, const ObjectFilter* ignored)
+      : residents_(residents),
+        roots_(roots),
+        ignored_(ignored != nullptr && ignored->has_beyond() ? ignored : nullptr) {}
 
   std::optional<double> first(const index::Piece& piece);
   [[nodiscard]] bool name(FirstImpact& first) const;
@@ -32,10 +36,14 @@ class PagedScene {
 
  private:
   std::optional<double> first_of_roots(const index::Piece& piece);
+  /// Calls use(index of a page), without the ignored triangles.
+  template <class Use>
+  auto in_rest(const index::Index& page, const Use& use) const;
 
   const Residents& residents_;
   What what_ = What::everything;
   const index::Roots* roots_ = nullptr;
+  const ObjectFilter* ignored_ = nullptr;
   // The result of first().
   bool known_ = false;
   std::uint32_t page_ = 0;

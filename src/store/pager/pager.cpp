@@ -259,10 +259,10 @@ bool Pager::wait(const Body& body, const Vec3& place, const Vec3& velocity, doub
 }
 
 PagedScene Pager::State::scene(const Query& query, double reach, Vicinity* vicinity) const {
-  if (vicinity == nullptr) return PagedScene(residents);
+  if (vicinity == nullptr) return {residents, nullptr, query.ignored};
   const QueryRegion region{query.body, query.from, query.motion, reach, store->info().largest_error, revision};
-  return {residents, roots_in(*vicinity, region,
-                              [this](const Box& box, index::Roots& out) { return gather(residents, box, out); })};
+  const auto gathered = [this](const Box& box, index::Roots& out) { return gather(residents, box, out); };
+  return {residents, roots_in(*vicinity, region, gathered), query.ignored};
 }
 
 FirstImpact Pager::find_first(const Query& query, Vicinity* vicinity) const {

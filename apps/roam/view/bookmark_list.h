@@ -1,0 +1,32 @@
+#pragma once
+/// \file
+/// The scene's bookmarks as a list.
+
+#include <string>
+
+#include "view/commands.h"
+#include "view/list_panel.h"
+#include "view/records.h"
+
+namespace roam::app {
+
+/// A click on a bookmark leads the body there; one on the field above keeps a new one.
+class BookmarkList : public ListPanel {
+ public:
+  BookmarkList(Stage& stage, const osgRoam::Manipulator& roamer, Records& records)
+      : ListPanel(stage, roamer), roamer_(roamer), records_(records) {}
+
+  /// Adds "bookmarks", which shows or hides the list in place of `other`. Needs a walker.
+  void add_to(Commands& commands, ListPanel& other);
+
+ protected:
+  ~BookmarkList() override = default;
+  [[nodiscard]] graphics::HudList head() override;
+  void click(const std::string& part) override;
+
+ private:
+  const osgRoam::Manipulator& roamer_;
+  Records& records_;
+};
+
+}  // namespace roam::app
