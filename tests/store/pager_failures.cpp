@@ -121,7 +121,7 @@ TEST(PagerFailures, WaitingForNoTimeAheadWaitsForWhatTheBodyIsIn) {
 
 TEST(PagerFailures, WhoHasWaitedIsNotSlowedByTheLatency) {
   const Yard yard("pager_waited");
-  yard.bytes->delay_us = 100'000;
+  yard.bytes->delay_us = 60'000;
   Pager pager(yard.store);
   const Body body{0.3, 0.6};
   ASSERT_TRUE(pager.wait(body, middle, Vec3(0.0), 60.0));
