@@ -158,7 +158,8 @@ store is solid there; everywhere else you can walk in it.
 --repair builds only the damaged shards again, from the scene that the store was made of. The store knows its --up,
 --unit, --ignore and --lossless. The report also says whether you built the store or somebody else.
 
-Exit status 0 if the store is whole, 3 if it is not, or if its build is not finished.
+Exit status 0 if the store is whole, 3 if it is not, or if its build is not finished; 1 if that cannot be found out,
+such as when the network fails.
 
 Examples:
   roam verify dam.roam

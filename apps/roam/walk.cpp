@@ -52,9 +52,11 @@ std::optional<SourceTriangle> source_of(const OpenScene& scene, TriangleId trian
 /// Records every step of a walk.
 class Recorder {
  public:
-  Recorder(const WalkOptions& options, OpenScene& scene, double expected_steps)
+  /// `around`: see reach_of_steps().
+  Recorder(const WalkOptions& options, OpenScene& scene, double around, double expected_steps)
       : options_(options),
         scene_(scene),
+        around_(around),
         progress_(std::in_place, to_string(options.walker_mode()) + std::string("ing"), "steps"),
         expected_steps_(static_cast<std::uint64_t>(expected_steps)) {
     if (!options.trace.empty()) trace_.emplace(options.trace);
@@ -79,7 +81,7 @@ class Recorder {
     tally_.add_step(report);
     take(report, begun);
     along_->add(report);  // at once: a pager drops the tiles behind the body
-    scene_.follow(walker);
+    if (walker.mode() != Mode::ghost) scene_.wait_around(walker.body(), report.to, walker.velocity(), around_);
     goes_on_ = progress_->goes_on(tally_.steps, std::max(tally_.steps, expected_steps_));
     return report;
   }
@@ -116,6 +118,7 @@ class Recorder {
 
   const WalkOptions& options_;
   OpenScene& scene_;
+  double around_;
   std::optional<Progress> progress_;
   std::uint64_t expected_steps_;
   bool goes_on_ = true;
@@ -127,6 +130,16 @@ class Recorder {
   std::optional<measure::Along> along_;
   double reach_ = 0.0;  ///< m: measuring distance around the body
 };
+
+/// m: all that a step, its measurements and a look around query is nearer to the body.
+double reach_of_steps(const WalkOptions& options, const Space& space) {
+  constexpr double ahead = 0.5;   // s
+  constexpr double strides = 12;  // m, in which a wanderer looks around
+  const WalkerSettings& body = options.settings;
+  const measure::Room room(space, body, options.walker_mode());
+  return std::max({options.route.speed * std::max(ahead, 2.0 * options.route.dt), body.radius + room.reach(),
+                   (1.0 + measure::height_reach) * body.height, options.wander ? strides : 0.0});
+}
 
 double path_length(std::span<const Vec3> points) {
   double sum = 0.0;
@@ -207,10 +220,12 @@ verification::Verification verified(const WalkOptions& options, const OpenScene&
 constexpr std::uint64_t bytes_a_segment = 2048;
 
 draw::Measured measured(OpenScene& scene, const WalkReport& report, const draw::Record& record) {
-  Surroundings around(scene);
   // The pager has dropped the tiles along the path; a picture would show them as unknown. After Ctrl-C there is no time
   // to load them again.
-  const auto arrive = [&](const Vec3& place, double reach) { around.wait(place, reach); };
+  const auto arrive = [&](const Vec3& place, double reach) {
+    stop_if_interrupted();
+    scene.wait_around(Body{}, place, Vec3(0.0), reach);
+  };
   return draw::measure(scene.space(), report, record,
                        scene.store() && !interrupted() ? draw::Arrive(arrive) : draw::Arrive());
 }
@@ -303,11 +318,12 @@ ExitStatus walk(WalkOptions options) {
   if (!size.empty()) tell("note: " + size);
 
   const double seconds = options.wander ? *options.wander : path_length(path) / options.route.speed;
-  Recorder recorder(options, scene, seconds / options.route.dt);
   const Vec3 start = !options.from.empty() ? Vec3(options.from[0], options.from[1], options.from[2])
                      : options.wander      ? scene.start(options.settings, mode)
                                            : path.front();
-  scene.wait_at(Body::capsule(options.settings.radius, options.settings.height), start);
+  const double around = reach_of_steps(options, scene.space());
+  Recorder recorder(options, scene, around, seconds / options.route.dt);
+  scene.wait_around(Body::capsule(options.settings.radius, options.settings.height), start, Vec3(0.0), around);
   Walker walker(scene.space(), options.settings, mode, start);
   if (options.profile) walker.set_regions(options.profile->profile.regions);
   WalkReport report;

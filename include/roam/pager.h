@@ -48,6 +48,8 @@ struct PagerStats {
   std::uint64_t pages = 0;       ///< resident
   std::uint64_t triangles = 0;   ///< resident
   std::uint64_t wanted = 0;      ///< tiles and pages within the horizon that are not resident
+  std::uint64_t reading = 0;     ///< tiles and pages that are being read now
+  bool full = false;             ///< memory does not hold all tiles and pages within the horizon
   std::uint64_t loads = 0;       ///< tiles and pages loaded so far
   std::uint64_t evictions = 0;   ///< tiles and pages evicted so far
   std::uint64_t failures = 0;    ///< failed reads and decodings so far
@@ -72,7 +74,8 @@ class Pager final : public LiveSpace {
 
   bool update(const Body& body, const Vec3& place, const Vec3& velocity) override;
   /// Updates until all that the body can reach within `ahead` seconds is known or failed, for at most `seconds`.
-  /// Returns whether it is. Blocks: not for use in a frame.
+  /// Returns whether it is; if so, the speed limit takes no latency into account until the next update(). Blocks: not
+  /// for use in a frame.
   bool wait(const Body& body, const Vec3& place, const Vec3& velocity, double seconds, double ahead = 0.5);
 
   /// The speed limit is (ready_radius - radius) / (latency + 1/60 s), with the latency of a read that starts now: a

@@ -60,7 +60,7 @@ extern "C" {
 /* ------------------------------------------------------------------------------------------ versions and errors --- */
 
 /** The interface of this header. It grows whenever a function or a member is added. */
-#define ROAM_INTERFACE 1
+#define ROAM_INTERFACE 2
 
 /** The interface of the library that runs. A program needs one that is >= the ROAM_INTERFACE it was compiled with. */
 ROAM_API uint32_t roam_interface(void);
@@ -99,8 +99,8 @@ typedef struct roam_space roam_space;
 /** The triangles of one object. Strides are in bytes; 0 means packed. The arrays are copied and need no alignment. */
 typedef struct roam_mesh {
   size_t size;
-  const char* name;          /**< UTF-8, for display; may be NULL */
-  const double* vertices;    /**< x, y, z of each: finite, at most 1e9 */
+  const char* name;       /**< UTF-8, for display; may be NULL */
+  const double* vertices; /**< x, y, z of each: finite, at most 1e9 */
   size_t vertex_count;
   ptrdiff_t vertex_stride;
   const uint32_t* triangles; /**< three indices into vertices each; either winding */
@@ -110,10 +110,10 @@ typedef struct roam_mesh {
 
 typedef struct roam_world_options {
   size_t size;
-  int32_t threads;           /**< at most one a core; 0: one a core */
-  int32_t lossless;          /**< 1: bodies stop up to 0.01 mm before a wall instead of 2 mm, for more memory */
-  const char* up;            /**< of a file: "x", "y", "z", "-x", "-y", "-z"; NULL: y for glTF, else z */
-  const char* unit;          /**< of a file: "m", "cm", "mm", "ft", "in"; NULL: "m" */
+  int32_t threads;  /**< at most one a core; 0: one a core */
+  int32_t lossless; /**< 1: bodies stop up to 0.01 mm before a wall instead of 2 mm, for more memory */
+  const char* up;   /**< of a file: "x", "y", "z", "-x", "-y", "-z"; NULL: y for glTF, else z */
+  const char* unit; /**< of a file: "m", "cm", "mm", "ft", "in"; NULL: "m" */
   roam_progress progress;
   void* progress_data;
 } roam_world_options;
@@ -133,15 +133,22 @@ ROAM_API roam_status roam_world_open(const char* path, const roam_world_options*
 
 typedef struct roam_store_options {
   size_t size;
-  uint64_t memory;    /**< bytes, >= 8 MiB, for tiles and all else; 0: 64 MiB */
-  int32_t loaders;    /**< loading threads, 1 to 16; 0: 1 for a folder, up to 8 for a web server */
-  int32_t reserved;   /**< 0 */
-  double horizon;     /**< seconds of motion ahead that are loaded; 0: 3 */
+  uint64_t memory;  /**< bytes, >= 8 MiB, for tiles and all else; 0: 64 MiB */
+  int32_t loaders;  /**< loading threads, 1 to 16; 0: 1 for a folder, up to 8 for a web server */
+  int32_t reserved; /**< 0 */
+  double horizon;   /**< seconds of motion ahead that are loaded; 0: 3 */
+  /* Since interface 2; for a store on a web server, see roam::WebAccess in roam/store.h. */
+  const char* cache;    /**< file for a cache, which processes may share; NULL: none */
+  uint64_t cache_bytes; /**< size of that file, >= 4 MiB; 0: 1 GiB */
+  double patience;      /**< seconds that a failing request is tried again; 0: 20 */
+  int32_t redirects;    /**< not 0: redirects to other hosts and folders are followed */
+  int32_t reserved_2;   /**< 0 */
 } roam_store_options;
 
 /**
- * Opens a store, a folder that `roam build` or roam/store_build.h has made. Its tiles are loaded around one body:
- * by roam_space_update() while it walks, or by roam_space_load(). Space that is not loaded is solid, and unknown.
+ * Opens a store, a folder that `roam build` or roam/store_build.h has made, or its address on a web server. Its tiles
+ * are loaded around one body: by roam_space_update() while it walks, or by roam_space_load(). Space that is not loaded
+ * is solid, and unknown.
  */
 ROAM_API roam_status roam_store_open(const char* path, const roam_store_options* options, roam_space** store);
 
@@ -157,11 +164,11 @@ typedef struct roam_space_facts {
   roam_vec3 lower, upper; /**< the box of all triangles; lower > upper for an empty world */
   uint64_t triangles;
   uint64_t objects;
-  uint64_t bytes;         /**< of memory; of a store: all that it may take */
-  double largest_error;   /**< largest distance of a stored vertex from the caller's */
-  double speed_limit;     /**< m/s: up to this speed a store loads ahead in time; infinite for a world */
-  uint64_t failed;        /**< tiles and pages of a store that cannot be read now, and so are solid */
-  double ready;           /**< of a store: all within this distance of the body is known */
+  uint64_t bytes;       /**< of memory; of a store: all that it may take */
+  double largest_error; /**< largest distance of a stored vertex from the caller's */
+  double speed_limit;   /**< m/s: up to this speed a store loads ahead in time; infinite for a world */
+  uint64_t failed;      /**< tiles and pages of a store that cannot be read now, and so are solid */
+  double ready;         /**< of a store: all within this distance of the body is known */
 } roam_space_facts;
 
 ROAM_API roam_status roam_space_get_facts(const roam_space* space, roam_space_facts* facts);
@@ -190,27 +197,27 @@ enum { ROAM_FACE = 0, ROAM_EDGE = 1, ROAM_VERTEX = 2 };
 /** The first impact of a motion. A miss has time 1, and 0 or no number in the rest. */
 typedef struct roam_impact {
   size_t size;
-  double time;       /**< fraction of the motion that is certified free, in [0, 1]; 0: starts in touch */
-  double gap;        /**< certified lower bound at `time`; negative: the body starts that deep in the triangle */
-  roam_vec3 point;   /**< on the triangle */
-  roam_vec3 normal;  /**< unit vector from `point` towards the body's axis */
+  double time;      /**< fraction of the motion that is certified free, in [0, 1]; 0: starts in touch */
+  double gap;       /**< certified lower bound at `time`; negative: the body starts that deep in the triangle */
+  roam_vec3 point;  /**< on the triangle */
+  roam_vec3 normal; /**< unit vector from `point` towards the body's axis */
   uint64_t triangle;
   uint32_t object;
-  uint8_t hit;       /**< 0 or 1, as `unknown` */
-  uint8_t unknown;   /**< the hit is the border of space that is not loaded */
-  uint8_t feature;   /**< ROAM_FACE, ROAM_EDGE or ROAM_VERTEX */
+  uint8_t hit;     /**< 0 or 1, as `unknown` */
+  uint8_t unknown; /**< the hit is the border of space that is not loaded */
+  uint8_t feature; /**< ROAM_FACE, ROAM_EDGE or ROAM_VERTEX */
   uint8_t reserved;
 } roam_impact;
 
 /** A triangle near a body. */
 typedef struct roam_contact {
   size_t size;
-  double gap;        /**< certified lower bound of the distance from the body's surface; <= 0: touches or overlaps */
+  double gap; /**< certified lower bound of the distance from the body's surface; <= 0: touches or overlaps */
   roam_vec3 point;
   roam_vec3 normal;
   uint64_t triangle;
   uint32_t object;
-  uint8_t found;     /**< 0: nothing within the reach; `gap` is the reach then */
+  uint8_t found; /**< 0: nothing within the reach; `gap` is the reach then */
   uint8_t unknown;
   uint8_t feature;
   uint8_t reserved;
@@ -259,18 +266,18 @@ typedef struct roam_batch {
   roam_input half_height;  /**< 1 double each; data NULL: 0 */
   const uint32_t* ignored; /**< objects that all queries ignore, ascending */
   size_t ignored_count;
-  double reach;            /**< of clearance and contacts, [0, 1000] */
-  size_t most;             /**< of contacts: results a query, >= 1 */
-  roam_output hit;         /**< uint8_t: roam_impact::hit, roam_contact::found, whether it fits */
-  roam_output time;        /**< double; of a sweep */
-  roam_output gap;         /**< double */
-  roam_output point;       /**< 3 double */
-  roam_output normal;      /**< 3 double */
-  roam_output triangle;    /**< uint64_t */
-  roam_output object;      /**< uint32_t */
-  roam_output feature;     /**< uint8_t */
-  roam_output unknown;     /**< uint8_t */
-  roam_output found;       /**< size_t, one a query: how many contacts; the rest of its results is as if not found */
+  double reach;         /**< of clearance and contacts, [0, 1000] */
+  size_t most;          /**< of contacts: results a query, >= 1 */
+  roam_output hit;      /**< uint8_t: roam_impact::hit, roam_contact::found, whether it fits */
+  roam_output time;     /**< double; of a sweep */
+  roam_output gap;      /**< double */
+  roam_output point;    /**< 3 double */
+  roam_output normal;   /**< 3 double */
+  roam_output triangle; /**< uint64_t */
+  roam_output object;   /**< uint32_t */
+  roam_output feature;  /**< uint8_t */
+  roam_output unknown;  /**< uint8_t */
+  roam_output found;    /**< size_t, one a query: how many contacts; the rest of its results is as if not found */
   roam_progress progress;
   void* progress_data;
 } roam_batch;
@@ -295,13 +302,13 @@ enum { ROAM_WALK = 0, ROAM_FLY = 1, ROAM_GHOST = 2 };
 /** The body and what it can do. roam_walker_person() fills in an adult. Ranges: roam/walker_settings.h. */
 typedef struct roam_walker_settings {
   size_t size;
-  double radius;          /**< >= 0.001 */
-  double height;          /**< >= 2 * radius; equal: a sphere */
-  double eye;             /**< height of the camera above the lowest point */
-  double step;            /**< height of the steps that it walks up and down */
-  double slope_degrees;   /**< [0, 89]: steeper ground is a wall to go up */
-  double support_radius;  /**< of the disc that carries it over cracks of the floor; 0: none */
-  double gravity;         /**< m/s2 */
+  double radius;         /**< >= 0.001 */
+  double height;         /**< >= 2 * radius; equal: a sphere */
+  double eye;            /**< height of the camera above the lowest point */
+  double step;           /**< height of the steps that it walks up and down */
+  double slope_degrees;  /**< [0, 89]: steeper ground is a wall to go up */
+  double support_radius; /**< of the disc that carries it over cracks of the floor; 0: none */
+  double gravity;        /**< m/s2 */
   double jump_height;
   double crouch_height;
   double clearance_reach; /**< caps the reported gaps */
@@ -322,9 +329,27 @@ typedef struct roam_walker_input {
 
 /** Bits of roam_step::events: 1 << one of these. roam/step_report.h explains each. */
 enum {
-  ROAM_SLID, ROAM_BLOCKED, ROAM_STEPPED_UP, ROAM_STEPPED_DOWN, ROAM_JUMPED, ROAM_AIRBORNE, ROAM_LANDED, ROAM_FELL,
-  ROAM_CROUCHED, ROAM_STOOD, ROAM_PLACED, ROAM_FREED, ROAM_HELD, ROAM_PUT_BACK, ROAM_RETURNED, ROAM_THROTTLED,
-  ROAM_MET_UNKNOWN, ROAM_SLOWED, ROAM_NARROWED, ROAM_WIDENED, ROAM_BRIDGED
+  ROAM_SLID,
+  ROAM_BLOCKED,
+  ROAM_STEPPED_UP,
+  ROAM_STEPPED_DOWN,
+  ROAM_JUMPED,
+  ROAM_AIRBORNE,
+  ROAM_LANDED,
+  ROAM_FELL,
+  ROAM_CROUCHED,
+  ROAM_STOOD,
+  ROAM_PLACED,
+  ROAM_FREED,
+  ROAM_HELD,
+  ROAM_PUT_BACK,
+  ROAM_RETURNED,
+  ROAM_THROTTLED,
+  ROAM_MET_UNKNOWN,
+  ROAM_SLOWED,
+  ROAM_NARROWED,
+  ROAM_WIDENED,
+  ROAM_BRIDGED
 };
 
 /** The result of a step, or of another call that moves a walker. */
@@ -345,14 +370,14 @@ typedef struct roam_step {
 /** A walker as it is between two calls. */
 typedef struct roam_walker_state {
   size_t size;
-  roam_vec3 position;            /**< of the centre */
-  roam_vec3 feet;                /**< the lowest point */
-  roam_vec3 eye;                 /**< the camera */
-  roam_vec3 velocity;            /**< m/s, over the last call */
+  roam_vec3 position; /**< of the centre */
+  roam_vec3 feet;     /**< the lowest point */
+  roam_vec3 eye;      /**< the camera */
+  roam_vec3 velocity; /**< m/s, over the last call */
   double radius, height;
-  double rise_speed;             /**< m/s, in the air */
-  double skin;                   /**< the gap that it keeps from surfaces along which it slides */
-  int32_t mode;                  /**< ROAM_WALK, ROAM_FLY or ROAM_GHOST */
+  double rise_speed; /**< m/s, in the air */
+  double skin;       /**< the gap that it keeps from surfaces along which it slides */
+  int32_t mode;      /**< ROAM_WALK, ROAM_FLY or ROAM_GHOST */
   uint8_t grounded, crouched, held, reserved;
 } roam_walker_state;
 
@@ -396,10 +421,10 @@ ROAM_API roam_status roam_space_load(roam_space* space, const roam_query* query,
 
 typedef struct roam_route_options {
   size_t size;
-  double speed;    /**< m/s; 0: 1.4 */
-  double dt;       /**< of one step; 0: 1/60 */
-  double patience; /**< time without progress after which the body is blocked; 0: 1 */
-  double wait;     /**< real time to wait for a store after its last change; 0: 10 */
+  double speed;           /**< m/s; 0: 1.4 */
+  double dt;              /**< of one step; 0: 1/60 */
+  double patience;        /**< time without progress after which the body is blocked; 0: 1 */
+  double wait;            /**< real time to wait for a store after its last change; 0: 10 */
   roam_progress progress; /**< gets the fraction of the waypoints reached */
   void* progress_data;
 } roam_route_options;
@@ -408,17 +433,17 @@ enum { ROAM_ROUTE_REACHED, ROAM_ROUTE_BLOCKED, ROAM_ROUTE_LEFT_SCENE, ROAM_ROUTE
 
 typedef struct roam_route_result {
   size_t size;
-  int32_t outcome;       /**< ROAM_ROUTE_REACHED, ... */
+  int32_t outcome; /**< ROAM_ROUTE_REACHED, ... */
   int32_t reserved;
-  uint64_t waypoints;    /**< reached, with the start */
+  uint64_t waypoints; /**< reached, with the start */
   uint64_t steps;
-  double length;         /**< of the way */
-  double simulated;      /**< time */
-  double least_gap;      /**< certified, over all of it */
-  roam_vec3 end;         /**< the centre */
-  uint64_t blocked_by;   /**< the triangle, or ROAM_NO_TRIANGLE */
-  roam_vec3 blocked_at;  /**< on it */
-  double opening;        /**< width of the opening that is too small; 0: a closed wall, or not blocked */
+  double length;        /**< of the way */
+  double simulated;     /**< time */
+  double least_gap;     /**< certified, over all of it */
+  roam_vec3 end;        /**< the centre */
+  uint64_t blocked_by;  /**< the triangle, or ROAM_NO_TRIANGLE */
+  roam_vec3 blocked_at; /**< on it */
+  double opening;       /**< width of the opening that is too small; 0: a closed wall, or not blocked */
 } roam_route_result;
 
 /** Puts the walker at the first waypoint and heads for each in turn; they are positions of its centre. */
@@ -454,8 +479,16 @@ typedef struct roam_probe_options {
 } roam_probe_options;
 
 enum {
-  ROAM_LIMIT_NONE, ROAM_LIMIT_DOOR, ROAM_LIMIT_LINTEL, ROAM_LIMIT_GAP, ROAM_LIMIT_EDGE, ROAM_LIMIT_START,
-  ROAM_LIMIT_TARGET, ROAM_LIMIT_HEIGHT, ROAM_LIMIT_STEP, ROAM_LIMIT_APART
+  ROAM_LIMIT_NONE,
+  ROAM_LIMIT_DOOR,
+  ROAM_LIMIT_LINTEL,
+  ROAM_LIMIT_GAP,
+  ROAM_LIMIT_EDGE,
+  ROAM_LIMIT_START,
+  ROAM_LIMIT_TARGET,
+  ROAM_LIMIT_HEIGHT,
+  ROAM_LIMIT_STEP,
+  ROAM_LIMIT_APART
 };
 
 typedef struct roam_probe_answer {
@@ -482,15 +515,15 @@ ROAM_API void roam_path_free(roam_path* path);
 
 typedef struct roam_train_options {
   size_t size;
-  int32_t mode;            /**< ROAM_WALK or ROAM_FLY */
-  int32_t paths;           /**< 0: 5, or more if there are more rooms */
-  uint64_t seed;           /**< of the paths; 0: 1 */
-  double height;           /**< of a walking body; 0: a sphere */
-  double radius_min;       /**< narrower openings are ignored; 0: 0.15 */
-  double radius_max;       /**< 0: 1 */
-  double spacing;          /**< as in a probe; 0: 0.2 */
-  int32_t threads;         /**< 0: one a core */
-  int32_t reserved;        /**< 0 */
+  int32_t mode;      /**< ROAM_WALK or ROAM_FLY */
+  int32_t paths;     /**< 0: 5, or more if there are more rooms */
+  uint64_t seed;     /**< of the paths; 0: 1 */
+  double height;     /**< of a walking body; 0: a sphere */
+  double radius_min; /**< narrower openings are ignored; 0: 0.15 */
+  double radius_max; /**< 0: 1 */
+  double spacing;    /**< as in a probe; 0: 0.2 */
+  int32_t threads;   /**< 0: one a core */
+  int32_t reserved;  /**< 0 */
   roam_progress progress;
   void* progress_data;
 } roam_train_options;
@@ -498,9 +531,9 @@ typedef struct roam_train_options {
 typedef struct roam_training {
   size_t size;
   double radius, height, support_radius, step, slope_degrees; /**< the body to use */
-  double smallest;  /**< half the width of the widest crack: lower end of the radii that serve; 0: no crack */
-  double largest;   /**< upper end: decided by the narrowest opening; infinite: none */
-  uint64_t paths;   /**< planned and walked */
+  double smallest; /**< half the width of the widest crack: lower end of the radii that serve; 0: no crack */
+  double largest;  /**< upper end: decided by the narrowest opening; infinite: none */
+  uint64_t paths;  /**< planned and walked */
   uint64_t cracks;
   uint64_t places;  /**< free positions searched; 0: no body fits anywhere, and the rest says nothing */
   uint8_t feasible; /**< one body without a support disc serves all paths */

@@ -149,15 +149,15 @@ def path_text(path: Path) -> bytes:
     return text
 
 
-def memory_bytes(value: Union[int, str]) -> int:
+def memory_bytes(value: Union[int, str], name: str = "memory") -> int:
     """Bytes of 64 << 20 or of "64M"; K, M and G are powers of 1024."""
     if not isinstance(value, str):
-        return whole(value, "memory", 1, 2**63)
+        return whole(value, name, 1, 2**63)
     units = {"K": 1 << 10, "M": 1 << 20, "G": 1 << 30}
     digits, unit = (value[:-1], units[value[-1]]) if value[-1:] in units else (value, 1)
     if not (digits.isascii() and digits.isdigit()):
-        raise ValueError(f'memory must be bytes, or a text such as "64M"; it is {value!r}')
-    return whole(int(digits) * unit, "memory", 1, 2**63)
+        raise ValueError(f'{name} must be bytes, or a text such as "64M"; it is {value!r}')
+    return whole(int(digits) * unit, name, 1, 2**63)
 
 
 def one_of(value: str, names: Sequence[str], name: str) -> int:

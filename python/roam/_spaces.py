@@ -203,7 +203,7 @@ class World(Space):
 
 
 class Store(Space):
-    """A scene on disk, of any size, in fixed memory. `roam build` makes one.
+    """A scene on disk or on a web server, of any size, in fixed memory. `roam build` makes one.
 
     Each query first loads what it needs; so queries run one after another. Space that does not fit into memory, or does
     not come within `patience` seconds, is `unknown` in the results, and hit as if it were solid. OSError if it cannot
@@ -212,14 +212,19 @@ class Store(Space):
 
     @classmethod
     def open(cls, path: Path, memory: Union[int, str] = "64M", *, loaders: int = 0,
-             patience: float = 10.0) -> "Store":
+             patience: float = 10.0, cache: Optional[Path] = None, cache_size: Union[int, str] = "1G",
+             redirects: bool = False) -> "Store":
         """Opens a store. `memory`: bytes, or a text such as "64M", at least 8M. `loaders`: loading threads, 1 to 16; 0:
-        1 for a folder, up to 8 for a web server."""
+        1 for a folder, up to 8 for a web server. `path` may be an address; then `cache` is a file of `cache_size` for
+        what is read, and `redirects` follows the server to other hosts and folders."""
         patience = _arrays.number(patience, "patience")
         if not 0.0 <= patience < float("inf"):
             raise ValueError(f"patience must be at least 0 seconds; it is {patience}")
         options = _structs.StoreOptions(memory=_arrays.memory_bytes(memory),
-                                        loaders=_arrays.whole(loaders, "loaders", 0, 16))
+                                        loaders=_arrays.whole(loaders, "loaders", 0, 16),
+                                        cache=None if cache is None else _arrays.path_text(cache),
+                                        cache_bytes=_arrays.memory_bytes(cache_size, "cache_size"),
+                                        redirects=bool(redirects))
         text, made = _arrays.path_text(path), SpaceHandle(threading.Lock(), patience)
         run(None, lambda note: call("roam_store_open", text, ctypes.byref(options), made.handle.address))
         return cls(made)

@@ -4,6 +4,8 @@
 #include <filesystem>
 #include <system_error>
 
+#include "text/web_address.h"
+
 namespace roam::c {
 namespace {
 
@@ -21,6 +23,7 @@ roam_status failed(roam_status status, const char* why) noexcept {
 }
 
 bool is_missing(const char* path) {
+  if (scheme_size(path) > 0) return false;
   std::error_code none;
   const auto status = std::filesystem::status(path, none);
   return status.type() == std::filesystem::file_type::not_found;

@@ -25,19 +25,25 @@ inline void check_size(std::size_t size, std::size_t least, const char* name) {
                 std::to_string(least) + ")");
 }
 
+/// The size of a struct in the interface in which it was new. Members that came later are zero in older programs.
+template <class T>
+constexpr std::size_t first_size = sizeof(T);
+template <>
+constexpr std::size_t first_size<roam_store_options> = offsetof(roam_store_options, cache);
+
 /// A struct of the caller, with zeros in the members that it does not have. Throws Invalid for null, for a wrong size,
 /// and for members that this library does not know, unless they are zero.
 template <class T>
 T given(const T* from, const char* name) {
   static_assert(std::is_trivially_copyable_v<T>);
   const std::size_t size = needed(from, name).size;
-  check_size(size, sizeof(T), name);
+  check_size(size, first_size<T>, name);
   const auto* bytes = reinterpret_cast<const unsigned char*>(from);
-  if (!std::all_of(bytes + sizeof(T), bytes + size, [](unsigned char byte) { return byte == 0; })) {
+  if (size > sizeof(T) && !std::all_of(bytes + sizeof(T), bytes + size, [](unsigned char byte) { return byte == 0; })) {
     throw Invalid(std::string(name) + " uses members that this libroam.so does not have; install a later one");
   }
-  T known;
-  std::memcpy(&known, from, sizeof(T));
+  T known{};
+  std::memcpy(&known, from, std::min(size, sizeof(T)));
   return known;
 }
 

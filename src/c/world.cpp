@@ -69,7 +69,12 @@ roam_status roam_store_open(const char* path, const roam_store_options* options,
     if (how.memory != 0) pager.memory = how.memory;
     if (how.loaders != 0) pager.loaders = how.loaders;
     if (how.horizon != 0.0) pager.horizon = how.horizon;
-    auto opened = roam::Store::open(path);
+    roam::WebAccess web;
+    if (how.cache != nullptr) web.cache = how.cache;
+    if (how.cache_bytes != 0) web.cache_bytes = how.cache_bytes;
+    if (how.patience != 0.0) web.patience = how.patience;
+    web.redirects = how.redirects != 0;
+    auto opened = roam::Store::open(path, roam::Store::usual_memory, web);
     auto space = about_arguments([&] { return std::make_shared<StoreSpace>(std::move(opened), pager); });
     auto handle = std::make_unique<roam_space>();
     handle->store = space.get();

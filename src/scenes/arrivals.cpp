@@ -1,7 +1,13 @@
 #include "scenes/arrivals.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <glm/geometric.hpp>
 #include <thread>
+#include <utility>
+
+#include "cli/tell.h"
 
 namespace roam::app {
 namespace {
@@ -9,28 +15,63 @@ namespace {
 /// Seconds of one wait.
 constexpr double slice = 0.02;
 
-}  // namespace
+/// Seconds without an arrival and without a read after which no more will arrive: if memory is full, and if it is not,
+/// which a busy machine needs.
+constexpr double full_after = 0.1, idle_after = 5.0;
 
-Arrivals::Arrivals(OpenScene& scene) : scene_(scene), loads_(scene.paging()->loads) {}
+/// Seconds in which a body would reach its surroundings. A pager loads all that is within six times this time ahead,
+/// and within this time behind.
+constexpr double ahead = 0.5;
 
-double Arrivals::wait(const Body& body, const Vec3& place, const Vec3& velocity) {
-  settled_ = scene_.wait_along(body, place, velocity, slice);
-  if (settled_) std::this_thread::sleep_for(std::chrono::milliseconds(1));
-  const std::uint64_t now = scene_.paging()->loads;
-  if (now != loads_) last_ = Clock::now();
-  loads_ = now;
-  return std::chrono::duration<double>(Clock::now() - last_).count();
+/// m/s. A pager counts on this speed at least.
+constexpr double least_pace = 4.0;
+
+/// Factor by which a reach that did not fit into memory grows again with each wait.
+constexpr double recovery = 1.01;
+
+double seconds_since(std::chrono::steady_clock::time_point begin) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 }
 
-void Surroundings::wait(const Vec3& place, double reach) {
-  const Body point = Body{};
-  const Vec3 velocity(std::min(reach, fits_), 0.0, 0.0);
-  if (scene_.wait_along(point, place, velocity, slice)) return;
-  Arrivals arrivals(scene_);
-  while (arrivals.wait(point, place, velocity) < Arrivals::full_after) {
-    if (arrivals.settled()) return;
+}  // namespace
+
+Arrivals::Arrivals(Pager& pager, double stuck) : pager_(pager), stuck_(stuck), loads_(pager.stats().loads) {}
+
+bool Arrivals::wait(const Body& body, const Vec3& place, const Vec3& velocity, double within) {
+  settled_ = pager_.wait(body, place, velocity, slice, within);
+  if (settled_) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  const PagerStats now = pager_.stats();
+  if (now.loads != loads_) last_ = Clock::now();
+  if (now.loads != loads_ || now.reading > 0) read_ = Clock::now();
+  loads_ = now.loads;
+  return !settled_ && !stuck() && seconds_since(read_) < (now.full ? full_after : idle_after);
+}
+
+double Arrivals::silence() const { return seconds_since(last_); }
+
+TilesAround::TilesAround(Pager& pager, std::function<bool()> goes_on, double stuck)
+    : pager_(pager), goes_on_(std::move(goes_on)), stuck_(stuck) {}
+
+void TilesAround::wait(const Body& body, const Vec3& place, const Vec3& velocity, double reach) {
+  const double speed = glm::length(velocity), within = std::min(std::max(reach, ahead * speed), fits_);
+  const double pace = std::max({speed, within / ahead, least_pace});
+  const Vec3 heading = speed > 0.0 ? velocity / speed : Vec3(1.0, 0.0, 0.0);
+  if (pager_.wait(body, place, pace * heading, slice, within / pace)) {
+    fits_ *= recovery;
+    return;
   }
-  fits_ = 0.5 * velocity.x;
+  if (pager_.stats().loads == stuck_at_) return;
+  Arrivals arrivals(pager_, stuck_);
+  while (goes_on_() && arrivals.wait(body, place, pace * heading, within / pace)) {
+  }
+  if (arrivals.settled() || !goes_on_()) return;
+  if (!arrivals.stuck()) {
+    fits_ = 0.5 * within;
+    return;
+  }
+  stuck_at_ = pager_.stats().loads;
+  tell(fmt::format("note: nothing has come from {} for {:g} s; it is no longer waited for, and stays solid",
+                   pager_.store().name(), stuck_));
 }
 
 }  // namespace roam::app

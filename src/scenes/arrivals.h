@@ -1,51 +1,62 @@
 #pragma once
 /// \file
-/// Waits for a pager's loads, as long as any arrive.
+/// Waits for a pager's loads, as long as any arrive or are on their way.
 
 #include <chrono>
 #include <cstdint>
+#include <functional>
 #include <limits>
 
-#include "scenes/open_scene.h"
+#include "roam/pager.h"
 
 namespace roam::app {
 
-/// Waits while anything arrives.
+/// Waits while anything arrives, or is being read.
 class Arrivals {
  public:
-  /// Seconds without an arrival after which memory counts as full: the rest will not arrive.
-  static constexpr double full_after = 0.1;
+  /// Seconds without an arrival after which reads in progress count as none: the disk or the server is stuck.
+  static constexpr double stuck_after = 60.0;
 
-  /// The scene must be a store.
-  explicit Arrivals(OpenScene& scene);
+  explicit Arrivals(Pager& pager, double stuck = stuck_after);
 
-  /// Waits for the tiles that a body moving at `velocity` from `place` could reach. Returns the seconds since anything
-  /// arrived.
-  double wait(const Body& body, const Vec3& place, const Vec3& velocity);
-  /// Whether all of them are loaded, except unreadable ones.
+  /// Waits a moment for everything that a body at `place` could reach within `ahead` s at `velocity`. Returns whether
+  /// more of it may arrive: not if all is there, memory is full, or nothing has arrived for `stuck` seconds.
+  bool wait(const Body& body, const Vec3& place, const Vec3& velocity, double ahead = 1.0);
+  /// Whether all of it is loaded, except unreadable tiles.
   [[nodiscard]] bool settled() const { return settled_; }
+  /// Whether nothing has arrived for `stuck` seconds.
+  [[nodiscard]] bool stuck() const { return silence() >= stuck_; }
+  /// Seconds since anything arrived.
+  [[nodiscard]] double silence() const;
 
  private:
   using Clock = std::chrono::steady_clock;
 
-  OpenScene& scene_;
+  Pager& pager_;
+  double stuck_;
   std::uint64_t loads_;
-  Clock::time_point last_ = Clock::now();
+  Clock::time_point last_ = Clock::now(), read_ = last_;
   bool settled_ = false;
 };
 
-/// Waits for the surroundings of places, as far as memory allows.
-class Surroundings {
+/// Waits for the surroundings of places, as far as memory allows: for work that is not done in real time.
+class TilesAround {
  public:
-  explicit Surroundings(OpenScene& scene) : scene_(scene) {}
+  /// `goes_on`: waits end when it returns false. `stuck`: see Arrivals.
+  TilesAround(Pager& pager, std::function<bool()> goes_on, double stuck = Arrivals::stuck_after);
 
-  /// Waits until everything readable within `reach` (m) is loaded. If memory is too small for a store, waits until
-  /// nothing more arrives, and from then on for a smaller reach.
-  void wait(const Vec3& place, double reach);
+  /// Waits until everything readable within `reach` (m) of a body, and within half a second at `velocity`, is loaded;
+  /// what lies in its direction comes first. If memory is too small for it, waits until nothing more arrives, and then
+  /// for a smaller reach. If nothing arrives for `stuck` seconds, says so on standard error, and waits no more until
+  /// something arrives.
+  void wait(const Body& body, const Vec3& place, const Vec3& velocity, double reach);
 
  private:
-  OpenScene& scene_;
-  double fits_ = std::numeric_limits<double>::infinity();  ///< metres, as far as known
+  Pager& pager_;
+  std::function<bool()> goes_on_;
+  double stuck_;
+  double fits_ = std::numeric_limits<double>::infinity();               ///< metres, as far as known
+  std::uint64_t stuck_at_ = std::numeric_limits<std::uint64_t>::max();  ///< loads when nothing more arrived
 };
 
 }  // namespace roam::app

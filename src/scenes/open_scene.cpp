@@ -22,9 +22,6 @@
 namespace roam::app {
 namespace {
 
-/// s: longest wait of a placed body for its surroundings; then it is held
-constexpr double longest_wait = 60.0;
-
 /// How long a pager's thread may take to find the name of an unknown part. If all threads wait for reads, it stays
 /// unnamed.
 constexpr std::chrono::milliseconds longest_naming{200};
@@ -110,25 +107,15 @@ Vec3 OpenScene::start(const WalkerSettings& settings, Mode mode) {
 }
 
 void OpenScene::leave() {
+  around_.reset();
   pager_.reset();
   return_memory();
 }
 
-void OpenScene::wait_at(const Body& body, const Vec3& place) {
+void OpenScene::wait_around(const Body& body, const Vec3& place, const Vec3& velocity, double reach) {
   if (!pager_) return;
-  pager_->wait(body, place, Vec3(0.0), longest_wait);
-  stop_if_interrupted();
-}
-
-bool OpenScene::wait_along(const Body& body, const Vec3& from, const Vec3& velocity, double seconds) {
-  const bool known = !pager_ || pager_->wait(body, from, velocity, seconds, 1.0);
-  stop_if_interrupted();
-  return known;
-}
-
-void OpenScene::follow(const Walker& walker) {
-  if (!pager_) return;
-  pager_->wait(walker.body(), walker.position(), walker.velocity(), walker.report().elapsed);
+  if (!around_) around_.emplace(*pager_, [] { return !interrupted(); });
+  around_->wait(body, place, velocity, reach);
 }
 
 SourceTriangle OpenScene::source(TriangleId triangle) const {

@@ -9,6 +9,7 @@
 
 #include "roam/pager.h"
 #include "roam/walker.h"
+#include "scenes/arrivals.h"
 #include "scenes/scene_options.h"
 
 namespace roam::app {
@@ -37,14 +38,11 @@ class OpenScene {
   [[nodiscard]] Vec3 start(const WalkerSettings& settings, Mode mode);
   /// Call it after the last step: frees a pager's memory for later work. space() is invalid then.
   void leave();
-  /// Waits until ground is loaded below a body at `place`, if it must be loaded.
-  void wait_at(const Body& body, const Vec3& place);
-  /// Waits until everything that a body can reach within a second at this velocity is loaded or unreadable, at most
-  /// `seconds`. Returns whether it is.
-  bool wait_along(const Body& body, const Vec3& from, const Vec3& velocity, double seconds);
-  /// Call it after every step: puts loaded tiles into use. A walk that is computed faster than real time waits for
-  /// tiles that would have loaded in real time, at most as long as the step lasts.
-  void follow(const Walker& walker);
+  /// Waits until everything readable within `reach` (m) of a body is loaded, if it must be loaded; see TilesAround.
+  /// Call it before and between the steps of a walk: then no step depends on the time that loading takes.
+  void wait_around(const Body& body, const Vec3& place, const Vec3& velocity, double reach);
+  /// The pager of a store; null if the scene was read whole.
+  [[nodiscard]] Pager* pager() { return pager_.get(); }
 
   /// The name of the object of a triangle of a result, and the triangle's number in the scene.
   [[nodiscard]] SourceTriangle source(TriangleId triangle) const;
@@ -59,6 +57,7 @@ class OpenScene {
   LoadedScene loaded_;
   std::shared_ptr<const Store> store_;
   std::unique_ptr<Pager> pager_;
+  std::optional<TilesAround> around_;  ///< of the pager's body
 };
 
 /// Sets the options that determine how a scene is read to those of its store. Throws roam::Error if this program does

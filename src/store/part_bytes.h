@@ -19,6 +19,13 @@
 
 namespace roam::store {
 
+/// Thrown when bytes of a part file cannot be read.
+struct PartUnread : Error {
+  PartUnread(const std::string& name, const char* reason)
+      : Error(Error::at(name, fmt::format("{} cannot be used: {}", name, reason))), why(reason) {}
+  const char* why;  ///< the cause alone
+};
+
 /// Returns the bytes of a part file piece by piece and hashes them. Throws Cancelled once `stop` is requested.
 class PartBytes {
  public:
@@ -30,9 +37,7 @@ class PartBytes {
     if (out.empty()) return 0;
     const char* const problem = store_.bytes->read(file_, at_, out, stop_);
     if (stop_.stop_requested()) throw Cancelled();
-    if (problem) {
-      throw Error::at(name(), fmt::format("{} cannot be used: {}", name(), problem));
-    }
+    if (problem) throw PartUnread(name(), problem);
     hash_.add(out);
     at_ += out.size();
     return out.size();

@@ -115,13 +115,26 @@ void Store::for_each_triangle(const Box& box,
   store::TileReader reader(*state_);
   std::vector<Triangle> triangles;
   std::vector<TriangleId> ids;
+  std::vector<std::uint64_t> pages;
   for (std::uint64_t p = 0; p < state_->pages.size(); ++p) {
-    if (!meet(box, state_->pages[p].ref.box)) continue;
+    if (meet(box, state_->pages[p].ref.box)) pages.push_back(p);
+  }
+  std::vector<std::uint32_t> tiles;
+  for (std::size_t n = 0; n < pages.size(); ++n) {
+    const std::uint64_t p = pages[n];
     const auto page = had([&] { return reader.page(p); });
+    if (n + 1 < pages.size()) reader.expect(pages[n + 1]);
     if (!page) continue;
+    tiles.clear();
     for (std::uint32_t t = 0; t < page->view.tiles.size(); ++t) {
+      if (meet(box, store::box_of(page->view.tiles[t]))) tiles.push_back(t);
+    }
+    for (std::size_t k = 0, expected = 0; k < tiles.size(); ++k) {
+      for (expected = std::max(expected, k); expected < tiles.size() && reader.expects_more(); ++expected) {
+        reader.expect(p, page->view.tiles[tiles[expected]]);
+      }
+      const std::uint32_t t = tiles[k];
       const store::TileEntry& entry = page->view.tiles[t];
-      if (!meet(box, store::box_of(entry))) continue;
       const auto tile = had([&] { return reader.tile(p, entry, t); });
       if (!tile) continue;
       triangles.clear();

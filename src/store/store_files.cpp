@@ -12,6 +12,7 @@
 
 #include "files/holes.h"
 #include "store/files.h"
+#include "store/read_ahead.h"
 
 namespace roam::store {
 namespace {
@@ -125,7 +126,7 @@ class Files : public StoreBytes {
 const char* StoreBytes::read_checked(const std::string& file, std::uint64_t offset, std::span<std::byte> out,
                                      std::uint64_t hash, const std::stop_token& stop) {
   if (const char* problem = read(file, offset, out, stop)) return problem;
-  return xxh3(out) == hash ? nullptr : "its checksum is wrong";
+  return xxh3(out) == hash ? nullptr : wrong_checksum;
 }
 
 std::shared_ptr<StoreBytes> files_of(const Folder& folder) { return std::make_shared<Files>(folder); }

@@ -25,8 +25,8 @@ std::string place(const Box& box) {
 
 }  // namespace
 
-Unusable::Unusable(const std::string& store, const std::string& what, const char* reason)
-    : Error(store, fmt::format("{} cannot be used: {}", what, reason)), why(reason) {}
+Unusable::Unusable(const std::string& store, const std::string& what, const char* reason, bool is_unread)
+    : Error(store, fmt::format("{} cannot be used: {}", what, reason)), why(reason), unread(is_unread) {}
 
 std::string name_of(std::uint64_t page, std::uint32_t tile, const Box& box) {
   return fmt::format("tile {} of page {} {}", tile, page, place(box));
@@ -34,19 +34,30 @@ std::string name_of(std::uint64_t page, std::uint32_t tile, const Box& box) {
 
 std::string name_of(std::uint64_t page, const Box& box) { return fmt::format("page {} {}", page, place(box)); }
 
-std::vector<std::byte> TileReader::read(std::uint64_t page, std::uint64_t offset, std::uint64_t bytes,
-                                        std::uint64_t hash, const std::string& what) {
-  std::vector<std::byte> content(static_cast<std::size_t>(bytes));
-  const std::string& file = store_.packs[store_.pages[page].shard];
-  const char* const problem = store_.bytes->read_checked(file, offset, content, hash, {});
-  if (problem) refuse(store_, what + " in " + file, problem);
-  return content;
+CheckedRange TileReader::range_of(std::uint64_t page) const {
+  const Store::State::Page& p = store_.pages[page];
+  return {store_.packs[p.shard], p.ref.offset, p.ref.bytes, p.ref.hash};
+}
+
+CheckedRange TileReader::range_of(std::uint64_t page, const TileEntry& entry) const {
+  return {store_.packs[store_.pages[page].shard], entry.offset, entry.bytes, entry.hash};
+}
+
+void TileReader::expect(std::uint64_t page) { ahead_.begin(range_of(page)); }
+void TileReader::expect(std::uint64_t page, const TileEntry& entry) { ahead_.begin(range_of(page, entry)); }
+
+std::vector<std::byte> TileReader::read(const CheckedRange& range, const std::string& what) {
+  ReadAhead::Result result = ahead_.take(range);
+  if (result.problem) {
+    throw Unusable(store_.name, what + " in " + range.file, result.problem, result.problem != wrong_checksum);
+  }
+  return std::move(result.bytes);
 }
 
 LoadedPage TileReader::page(std::uint64_t number) {
   const Store::State::Page& page = store_.pages[number];
   const std::string what = name_of(number, page.ref.box);
-  const std::vector<std::byte> content = read(number, page.ref.offset, page.ref.bytes, page.ref.hash, what);
+  const std::vector<std::byte> content = read(range_of(number), what);
   LoadedPage loaded;
   loaded.memory = blocks_for(content.size());
   std::memcpy(loaded.memory.get(), content.data(), content.size());
@@ -60,7 +71,7 @@ LoadedPage TileReader::page(std::uint64_t number) {
 
 LoadedTile TileReader::tile(std::uint64_t page, const TileEntry& entry, std::uint32_t number) {
   const std::string what = name_of(page, number, box_of(entry));
-  const std::vector<std::byte> content = read(page, entry.offset, entry.bytes, entry.hash, what);
+  const std::vector<std::byte> content = read(range_of(page, entry), what);
   const TileShape shape = shape_of(entry);
   LoadedTile loaded;
   loaded.memory = blocks_for(shape.bytes());
@@ -83,8 +94,9 @@ LoadedTile TileReader::tile(std::uint64_t page, const TileEntry& entry, std::uin
 
 std::vector<SourceNumber> TileReader::numbers(std::uint64_t page, const TileEntry& entry, std::uint32_t number) {
   const std::string what = "the source numbers of " + name_of(page, number, box_of(entry));
-  return decode_numbers(read(page, entry.offset + entry.bytes, entry.number_bytes, entry.number_hash, what),
-                        entry.triangles);
+  const CheckedRange range{store_.packs[store_.pages[page].shard], entry.offset + entry.bytes, entry.number_bytes,
+                           entry.number_hash};
+  return decode_numbers(read(range, what), entry.triangles);
 }
 
 Triangle stored_triangle(const index::Tile& tile, const index::Leaf& leaf, const index::FineLeaf* fine, int triangle) {

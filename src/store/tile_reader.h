@@ -13,6 +13,7 @@
 #include "store/codec/tile_codec.h"
 #include "store/opened.h"
 #include "store/page.h"
+#include "store/read_ahead.h"
 
 namespace roam::store {
 
@@ -33,14 +34,20 @@ struct LoadedTile {
 /// Thrown when a page or a tile cannot be read or is altered.
 class Unusable : public Error {
  public:
-  Unusable(const std::string& store, const std::string& what, const char* reason);
+  Unusable(const std::string& store, const std::string& what, const char* reason, bool unread = false);
   std::string why;  ///< the cause alone; what() also names the store, the page or tile, and its position
+  bool unread;      ///< its bytes did not come, so that nothing is known of them
 };
 
 /// Reads pages and tiles of one store. For one thread at a time.
 class TileReader {
  public:
-  explicit TileReader(const Store::State& store) : store_(store) {}
+  explicit TileReader(const Store::State& store) : store_(store), ahead_(*store.bytes) {}
+
+  /// Begins to read what page() or tile() will soon read, if the store is far away. For as many as expects_more().
+  void expect(std::uint64_t page);
+  void expect(std::uint64_t page, const TileEntry& entry);
+  [[nodiscard]] bool expects_more() const { return ahead_.has_room(); }
 
   // All throw Unusable, or roam::Error that names the page or tile, its position and the cause.
   [[nodiscard]] LoadedPage page(std::uint64_t number);
@@ -48,10 +55,12 @@ class TileReader {
   [[nodiscard]] std::vector<SourceNumber> numbers(std::uint64_t page, const TileEntry& entry, std::uint32_t number);
 
  private:
-  [[nodiscard]] std::vector<std::byte> read(std::uint64_t page, std::uint64_t offset, std::uint64_t bytes,
-                                            std::uint64_t hash, const std::string& what);
+  [[nodiscard]] CheckedRange range_of(std::uint64_t page) const;
+  [[nodiscard]] CheckedRange range_of(std::uint64_t page, const TileEntry& entry) const;
+  [[nodiscard]] std::vector<std::byte> read(const CheckedRange& range, const std::string& what);
 
   const Store::State& store_;
+  ReadAhead ahead_;
   TileDecoder decoder_;
 };
 

@@ -97,13 +97,19 @@ class Verifier {
     for (std::uint64_t at = 0; at < bytes; at += piece.size()) {
       piece.resize(std::min<std::uint64_t>(bytes - at, piece.size()));
       if (const char* const problem = state_.bytes->read(file, at, piece)) {
-        if (is_damage(problem)) throw Error(problem);
-        throw NotReached(store_->name(), "cannot be verified: " + file + ": " + problem);
+        demand_reached(file, problem);
+        throw Error(problem);
       }
       hash.add(piece);
       tick(piece.size());
     }
     return hash.digits();
+  }
+
+  /// Throws NotReached for a problem of the network.
+  void demand_reached(const std::string& what, const std::string& problem) const {
+    if (folder_ || is_damage(problem)) return;
+    throw NotReached(store_->name(), "cannot be verified: " + what + ": " + problem);
   }
 
   void tick(std::uint64_t bytes) {
@@ -148,6 +154,9 @@ class Verifier {
       PartBytes(state_, part).visit(std::move(visitor));
     } catch (const NotReached&) {
       throw;
+    } catch (const PartUnread& error) {
+      demand_reached(file, error.why);
+      damage({file + " (" + part.name + ")", error.what(), Box{}});
     } catch (const Error& error) {
       damage({file + " (" + part.name + ")", error.what(), Box{}});
     }
@@ -186,6 +195,7 @@ class Verifier {
     try {
       page = reader.page(number);
     } catch (const Unusable& error) {
+      if (error.unread) demand_reached(name_of(number, box), error.why);
       damage({name_of(number, box), error.why, box});
       return false;
     }
@@ -203,8 +213,11 @@ class Verifier {
         counted.geometry_hash += entry.geometry_hash;
         counted.largest_error = std::max(counted.largest_error, double(entry.fine_error));
       } catch (const Unusable& error) {
+        if (error.unread) demand_reached(name_of(number, t, box_of(entry)), error.why);
         damage({name_of(number, t, box_of(entry)), error.why, box_of(entry)});
         good = false;
+      } catch (const NotReached&) {
+        throw;
       } catch (const Error& error) {
         damage({name_of(number, t, box_of(entry)), error.what(), box_of(entry)});
         good = false;
@@ -213,7 +226,7 @@ class Verifier {
     return good;
   }
 
-  static void check_tile(std::uint64_t page, const TileEntry& entry, std::uint32_t number, TileReader& reader) {
+  void check_tile(std::uint64_t page, const TileEntry& entry, std::uint32_t number, TileReader& reader) const {
     const LoadedTile tile = reader.tile(page, entry, number);
     if (geometry_hash(tile.tile, tile.leaves, tile.fine) != entry.geometry_hash) {
       throw Error("its triangles are not those that its entry counts");
@@ -239,6 +252,7 @@ class Verifier {
     try {
       static_cast<void>(reader.numbers(page, entry, number));
     } catch (const Unusable& error) {
+      if (error.unread) demand_reached(name_of(page, number, box), error.why);
       throw Error("the numbers of its triangles in the scene: " + error.why);
     }
   }

@@ -45,6 +45,13 @@ std::size_t scheme_size(std::string_view text) {
   return size > 0 && text.substr(size).starts_with("//") ? size + 2 : 0;
 }
 
+std::string_view web_host(std::string_view address) {
+  const std::size_t scheme = scheme_size(address);
+  if (scheme == 0) return {};
+  address.remove_prefix(scheme);
+  return address.substr(0, address.find_first_of("/?"));
+}
+
 std::size_t login_size(std::string_view address) {
   const std::size_t question = std::min(address.find('?'), address.size());
   const std::string_view host = address.substr(0, std::min(address.find_first_of("/?"), address.size()));

@@ -14,6 +14,9 @@ namespace roam {
 /// The size of a name and a password, with the @, at the start of an address behind its scheme; 0: none.
 [[nodiscard]] std::size_t login_size(std::string_view address);
 
+/// "host:port" of an address; empty: it is none.
+[[nodiscard]] std::string_view web_host(std::string_view address);
+
 /// The text with every address in it cut at its question mark, and without a name and a password. An address ends at
 /// the next blank; one whose slashes became one, as in a path, counts too.
 [[nodiscard]] std::string without_secrets(std::string_view text);

@@ -30,8 +30,9 @@ std::string explain_blocked(const EndedWalk& walk) {
 std::string explain_wait(const EndedWalk& walk) {
   const RouteResult& result = walk.result;
   if (!result.blocked_at) {
-    return fmt::format("at {} the space ahead is not loaded fast enough; go slower, or read it from a faster disk",
-                       exactly_at(result.end));
+    return fmt::format(
+        "at {} the space ahead is not loaded fast enough; go slower, or read it from a faster disk or server",
+        exactly_at(result.end));
   }
   return fmt::format("at {} the space ahead is solid until it is read, from {} on: {}", exactly_at(result.end),
                      exactly_at(result.blocked_at->point),
@@ -61,10 +62,15 @@ std::string explain_left(const EndedWalk& walk) {
   return fmt::format("at {} it has wandered out of the scene{}", exactly_at(result.end), scene);
 }
 
+/// Whether the body met unknown space, or slowed down before it.
+bool lacked_space(const RouteResult& result) {
+  return first(result, EventKind::met_unknown) || first(result, EventKind::slowed);
+}
+
 std::string explain_held(const EndedWalk& walk) {
   const RouteResult& result = walk.result;
   const bool wanders = walk.waypoints == 0;
-  if (held_since_start(result) && first(result, EventKind::met_unknown)) {
+  if (held_since_start(result) && lacked_space(result)) {
     return fmt::format("the space around its start, {}, cannot be read, or not in time", exactly_at(result.end));
   }
   if (held_since_start(result)) {
@@ -73,7 +79,7 @@ std::string explain_held(const EndedWalk& walk) {
         "by; {} or take a smaller radius",
         exactly_at(result.end), wanders ? "start elsewhere (--from)" : "move the first waypoint");
   }
-  if (!first(result, EventKind::put_back) && first(result, EventKind::met_unknown)) return explain_wait(walk);
+  if (!first(result, EventKind::put_back) && lacked_space(result)) return explain_wait(walk);
   return fmt::format("at {} there is no ground below to stand on; {}, or fly", exactly_at(result.end),
                      wanders ? "start elsewhere (--from)" : "move the waypoint onto the ground");
 }
@@ -119,10 +125,9 @@ std::string stopped(const EndedWalk& walk) {
     case Outcome::fell:
       return "fell";
     case Outcome::held:
-      return held_since_start(result) && !first(result, EventKind::met_unknown) ? "does not fit where it starts"
-             : first(result, EventKind::put_back) || !first(result, EventKind::met_unknown)
-                 ? "no ground below"
-                 : "the space ahead is not loaded";
+      return held_since_start(result) && !lacked_space(result)             ? "does not fit where it starts"
+             : first(result, EventKind::put_back) || !lacked_space(result) ? "no ground below"
+                                                                           : "the space ahead is not loaded";
   }
   return {};
 }

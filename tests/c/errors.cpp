@@ -1,9 +1,11 @@
 // Wrong arguments give a status and a text, never a crash.
 #include <gtest/gtest.h>
 
+#include <cstddef>
 #include <cstring>
 #include <thread>
 
+#include "c/structs.h"
 #include "c_rig.h"
 #include "roam/version.h"
 
@@ -33,6 +35,31 @@ TEST(CErrors, NullIsRefused) {
   roam_survey_free(nullptr);
   roam_profile_free(nullptr);
   roam_path_free(nullptr);
+}
+
+TEST(CErrors, AProgramOfAnEarlierVersionHasFewerMembers) {
+  roam_store_options earlier{};
+  earlier.size = offsetof(roam_store_options, cache);
+  earlier.horizon = 5.0;
+  earlier.cache = "of something else that lies there";
+  EXPECT_EQ(roam::c::given(&earlier, "roam_store_options").horizon, 5.0);
+  EXPECT_EQ(roam::c::given(&earlier, "roam_store_options").cache, nullptr);
+  earlier.size -= 1;
+  EXPECT_THROW((void)roam::c::given(&earlier, "roam_store_options"), roam::c::Invalid);
+}
+
+TEST(CErrors, ACacheIsForWebServersAndHasASize) {
+  roam_store_options options{};
+  options.size = sizeof options;
+  options.cache = "web.cache";
+  options.cache_bytes = 1;
+  roam_space* store = nullptr;
+  EXPECT_EQ(roam_store_open("http://127.0.0.1:1/x.roam", &options, &store), ROAM_UNREADABLE);
+  EXPECT_NE(std::string(roam_error()).find("4 MiB"), std::string::npos) << roam_error();
+  options.cache = nullptr;
+  options.patience = -1.0;
+  EXPECT_EQ(roam_store_open("http://127.0.0.1:1/x.roam", &options, &store), ROAM_UNREADABLE);
+  EXPECT_NE(std::string(roam_error()).find("patience"), std::string::npos) << roam_error();
 }
 
 TEST(CErrors, StructsOfOtherVersions) {

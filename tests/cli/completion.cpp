@@ -80,7 +80,7 @@ class Completion : public testing::TestWithParam<Shell> {
   /// The completions of the last word; the first is "roam".
   [[nodiscard]] Words complete(const std::vector<std::string>& words) const {
     std::vector<std::string> arguments = GetParam().options;
-    arguments.push_back(std::string(COMPLETE_SCRIPTS "/complete.") + GetParam().program);
+    arguments.push_back(std::string(TEST_PROGRAMS "/complete.") + GetParam().program);
     arguments.push_back(stage_.path());
     arguments.push_back(stage_.script(GetParam().script));
     arguments.insert(arguments.end(), words.begin(), words.end());

@@ -34,6 +34,11 @@ int main(void) {
   MEMBER(roam_store_options, loaders);
   MEMBER(roam_store_options, reserved);
   MEMBER(roam_store_options, horizon);
+  MEMBER(roam_store_options, cache);
+  MEMBER(roam_store_options, cache_bytes);
+  MEMBER(roam_store_options, patience);
+  MEMBER(roam_store_options, redirects);
+  MEMBER(roam_store_options, reserved_2);
   SIZE(roam_space_facts);
   MEMBER(roam_space_facts, size);
   MEMBER(roam_space_facts, lower);

@@ -2,7 +2,8 @@
 """Serves a folder by HTTP on a port of its own, which it prints, and misbehaves on demand.
 
 The first part of a path says how: /MODE/dam.roam/packs/... A mode "current-404" concerns CURRENT alone, one without such
-a beginning only packs. GET /log answers with all requests so far, one a line, and forgets them.
+a beginning only packs. GET /log answers with all requests so far, one a line, and forgets them; GET /most with the
+largest number of requests that were under way at once.
 """
 import http.server
 import os
@@ -16,6 +17,8 @@ import time
 
 root = sys.argv[1]
 log, tries, lock = [], {}, threading.Lock()
+line = threading.Lock()  # that all answers share
+under_way = most = 0
 
 
 class Handler(http.server.BaseHTTPRequestHandler):
@@ -35,11 +38,27 @@ class Handler(http.server.BaseHTTPRequestHandler):
         self.wfile.write(body)
 
     def do_GET(self):
+        global under_way, most
+        with lock:
+            under_way += 1
+            most = max(most, under_way)
+        try:
+            self.get()
+        finally:
+            with lock:
+                under_way -= 1
+
+    def get(self):
+        global most
         path, _, query = re.sub("^http://[^/]*", "", self.path).partition("?")  # as a proxy it is given the host, too
         if path == "/log":
             with lock:
                 lines, log[:] = "\n".join(log), []
             return self.answer(200, lines.encode())
+        if path == "/most":
+            with lock:
+                found, most = most, 0
+            return self.answer(200, str(found).encode())
         wanted = self.headers.get("Range", "")
         with lock:
             log.append(f"{path} {wanted or '-'} {query or '-'} {self.headers.get('Authorization', '-')}")
@@ -86,6 +105,9 @@ class Handler(http.server.BaseHTTPRequestHandler):
             time.sleep(600)
         if mode.startswith("late"):  # "late20": by 20 ms
             time.sleep(int(mode[4:]) / 1000)
+        if mode.startswith("inner"):  # "inner503": beyond the file's beginning
+            mode = mode[5:] if wanted is None or int(wanted[1]) > 0 else "good"
+            return self.respond(mode, body, wanted, turn, path, query)
         if mode == "garbage":
             self.wfile.write(b"\0\1\2 this is no HTTP\r\n\r\n")
             self.close_connection = True
@@ -113,6 +135,16 @@ class Handler(http.server.BaseHTTPRequestHandler):
         if mode == "cut":  # the connection ends early
             self.close_connection = True
             part = part[:length // 2]
+        if mode.startswith("rate"):  # "rate1250": 1250 kB a second for all answers together, 10 Mbit a second
+            self.send_response(206)
+            self.send_header("Content-Range", said)
+            self.send_header("Content-Length", str(length))
+            self.end_headers()
+            for at in range(0, length, 4096):
+                with line:
+                    time.sleep(len(part[at:at + 4096]) / (1000 * int(mode[4:])))
+                self.wfile.write(part[at:at + 4096])
+            return None
         if mode == "long":
             part = part + bytes(1000)
             length += 1000

@@ -105,7 +105,7 @@ def test_files(tmp_path, room_file):
         roam.Profile.beside(room_file)
 
 
-def test_a_store_answers_as_its_scene(room, store):
+def test_a_store_answers_as_its_scene(room, store, tmp_path):
     opened = roam.Store.open(store, memory="16M")
     assert opened.triangles == 4
     from_ = np.array([[1, y, 1.5] for y in np.linspace(-3, 4, 20)])
@@ -121,6 +121,10 @@ def test_a_store_answers_as_its_scene(room, store):
             roam.Store.open(store, memory=wrong)
     with raises(ValueError, "memory"):
         roam.Store.open(store, memory="1M")
+    with raises(ValueError, "cache_size"):
+        roam.Store.open(store, cache_size="much")
+    with raises(OSError, "4 MiB"):
+        roam.Store.open("http://127.0.0.1:1/x.roam", cache=tmp_path / "web.cache", cache_size="1M")
 
 
 def test_a_store_whose_files_are_cut_off(store):

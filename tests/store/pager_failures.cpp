@@ -119,6 +119,18 @@ TEST(PagerFailures, WaitingForNoTimeAheadWaitsForWhatTheBodyIsIn) {
   EXPECT_FALSE(pager.clearance(body, place, 1e-3).unknown);
 }
 
+TEST(PagerFailures, WhoHasWaitedIsNotSlowedByTheLatency) {
+  const Yard yard("pager_waited");
+  yard.bytes->delay_us = 60'000;
+  Pager pager(yard.store);
+  const Body body{0.3, 0.6};
+  ASSERT_TRUE(pager.wait(body, middle, Vec3(0.0), 60.0));
+  const double limit = pager.facts().speed_limit;
+  EXPECT_GT(limit, 50.0);
+  (void)pager.update(body, middle, Vec3(0.0));
+  EXPECT_LT(pager.facts().speed_limit, 0.5 * limit);
+}
+
 TEST(PagerFailures, ABodyThatWasHeldGoesOnWhenItsSurroundingsCome) {
   Yard yard("pager_release");
   yard.bytes->hold();

@@ -15,7 +15,8 @@ start_nginx() {
   [[ ! ${3:-} ]] || secure="listen 127.0.0.1:$((port + 1)) ssl http2; ssl_certificate $3; ssl_certificate_key $3;"
   cat > "$nginx_work/nginx.conf" << END
 pid $nginx_work/pid;
-events {}
+worker_rlimit_nofile 8192;
+events { worker_connections 4096; }
 http {
   access_log $nginx_work/requests;
   client_body_temp_path $nginx_work/t1; proxy_temp_path $nginx_work/t2; fastcgi_temp_path $nginx_work/t3;

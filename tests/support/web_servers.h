@@ -117,6 +117,11 @@ class Misbehaving {
     return fmt::format("{}://127.0.0.1:{}/{}/{}", secure_ ? "https" : "http", port_, mode, store);
   }
   [[nodiscard]] int port() const { return port_; }
+  /// The largest number of requests at once since the last call.
+  [[nodiscard]] int most_at_once() const {
+    const std::string all = got(port_, "/most");
+    return std::atoi(all.c_str() + std::min(all.find("\r\n\r\n") + 4, all.size()));
+  }
   /// The requests since the last call: path, range, query, authorization.
   [[nodiscard]] std::vector<std::string> requests() const {
     const std::string all = got(port_, "/log");

@@ -36,4 +36,10 @@ TEST(WebAddress, ASchemeHasAnyCase) {
   }
 }
 
+TEST(WebAddress, AHostIsNamedWithItsPort) {
+  EXPECT_EQ(roam::web_host("https://a.org:81/b?c"), "a.org:81");
+  EXPECT_EQ(roam::web_host("HTTP://a?b"), "a");
+  EXPECT_EQ(roam::web_host("/a/b"), "");
+}
+
 }  // namespace

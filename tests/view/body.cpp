@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 #include <sstream>
 
+#include "changing_room.h"
 #include "roam/error.h"
 #include "roam/path_file.h"
 #include "roam/world.h"
@@ -78,6 +79,16 @@ TEST(Hold, TellsOfAFall) {
     if (hold.told().text != told && !hold.told().text.empty()) told = hold.told().text;
   }
   EXPECT_EQ(told, "fell 4.0 m");
+}
+
+TEST(Hold, TellsWhatASlowedBodyWaitsFor) {
+  scenes::ChangingRoom room(rectangle("ground", {-50, -50, 0}, {100, 0, 0}, {0, 100, 0}), true);
+  room.limit = 0.5;
+  Walker walker(room, {}, Mode::walk, {0, 0, 0.95});
+  Hold hold;
+  hold.take(walker, {1.4, 0, 0}, walker.step({.velocity = {1.4, 0, 0}}, 1.0 / 60.0).elapsed);
+  EXPECT_EQ(hold.told().text, "slowed: loading ahead");
+  EXPECT_EQ(hold.told("3 pages to come from a.org").text, "slowed: 3 pages to come from a.org");
 }
 
 TEST(Hold, TellsOfABodyThatDoesNotFit) {

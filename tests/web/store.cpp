@@ -255,6 +255,44 @@ TEST(WebStore, NeighboursBecomeOneRequest) {
   EXPECT_LT(2 * requests, store->info().tiles + store->info().pages);
 }
 
+TEST(WebStore, WhoReadsAllHasSeveralRequestsUnderWay) {
+  const Served served("web_ahead");
+  const support::Misbehaving server(served.root());
+  const auto store = opened(server.address("late100"));
+  static_cast<void>(server.most_at_once());
+  const auto begin = std::chrono::steady_clock::now();
+  EXPECT_EQ(all_bytes(*store), all_bytes(*Store::open(served.store())));
+  const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
+  EXPECT_GE(server.most_at_once(), 2);
+  EXPECT_LT(took.count(), 0.05 * static_cast<double>(store->info().tiles + store->info().pages));
+  struct Enough {};
+  EXPECT_THROW(store->for_each_triangle(store->info().bounds, [](auto, auto) { throw Enough(); }), Enough);
+}
+
+TEST(WebStore, OverASlowLineTheFirstTileOfARequestDoesNotWaitForTheLast) {
+  const Served served("web_line");
+  const support::Misbehaving server(served.root());
+  const auto store = opened(server.address("rate20"));
+  const auto& state = store->state();
+  const auto read = [&](std::uint64_t offset, std::size_t bytes) {
+    return std::async(std::launch::async, [&state, offset, bytes] {
+      std::vector<std::byte> out(bytes);
+      EXPECT_EQ(state.bytes->read(state.packs.front(), offset, out), nullptr);
+      return std::chrono::steady_clock::now();
+    });
+  };
+  // While one is under way, the next wait for their neighbours.
+  const std::uint64_t size = state.manifest.shards.front().bytes;
+  ASSERT_GT(size, 47'000U) << "they would be neighbours";
+  static_cast<void>(server.requests());
+  auto before = read(size - 4000, 4000);
+  while (server.requests().empty()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  auto first = read(0, 100), last = read(100, 10'000);
+  const auto apart = last.get() - first.get();
+  EXPECT_EQ(server.requests().size(), 1U) << "they are one request";
+  EXPECT_GT(apart, std::chrono::milliseconds(150));
+}
+
 TEST(WebStore, APagerOfAStalledServerEndsAtOnce) {
   const Served served("web_stalled");
   const support::Misbehaving server(served.root());
@@ -295,7 +333,16 @@ TEST(WebStore, AFailureOfTheServerIsNoDamage) {
   for (const char* mode : {"403", "503", "reset", "stall", "whole"}) {
     EXPECT_THROW(static_cast<void>(roam::verify_store(server.address(mode), {}, patient(0.3))), roam::Error) << mode;
   }
-  for (const char* mode : {"404", "416", "short", "bits"}) {
+  // The files come whole, and then a page or a tile does not.
+  for (const char* mode : {"inner403", "inner503", "innerreset", "innerstall"}) {
+    try {
+      static_cast<void>(roam::verify_store(server.address(mode), {}, patient(0.3)));
+      ADD_FAILURE() << mode;
+    } catch (const roam::Error& error) {
+      EXPECT_NE(std::string(error.what()).find("cannot be verified: page 0"), std::string::npos) << error.what();
+    }
+  }
+  for (const char* mode : {"404", "416", "short", "bits", "inner404", "innerbits"}) {
     EXPECT_FALSE(roam::verify_store(server.address(mode), {}, patient(0.3)).whole()) << mode;
   }
 }

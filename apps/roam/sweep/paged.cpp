@@ -4,6 +4,7 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
+#include "cli/interrupt.h"
 #include "roam/error.h"
 #include "scenes/arrivals.h"
 
@@ -12,28 +13,30 @@ namespace {
 
 /// m: surroundings of so short a part fit into the least memory
 constexpr double least_part = 0.5;
-/// Seconds of waiting for tiles of the shortest part, and for unreadable tiles.
-constexpr double late_after = 60.0, broken_after = 3.0;
+/// Seconds of waiting for unreadable tiles.
+constexpr double broken_after = 3.0;
 
 }  // namespace
 
 /// Nothing if memory cannot hold the surroundings and `may_part` allows shorter parts. Tiles of an unknown hit are
 /// unreadable.
 std::optional<Impact> PagedSweep::sweep(const SweepQuery& part, bool may_part) {
-  Arrivals arrivals(scene_);
+  Arrivals arrivals(*scene_.pager());
   for (;;) {
+    stop_if_interrupted();
     const Impact answer = scene_.space().sweep(part.body, part.from, part.motion);
     if (!answer.unknown) return answer;
-    const double quiet = arrivals.wait(part.body, part.from, part.motion);
+    const bool more = arrivals.wait(part.body, part.from, part.motion);
     if (arrivals.settled()) {
       const std::string why = scene_.space().object_name(answer.triangle);
-      if (quiet < broken_after && !given_up_.contains(why)) continue;
+      if (arrivals.silence() < broken_after && !given_up_.contains(why)) continue;
       if (!why.empty()) given_up_.insert(why);
       return answer;
     }
-    if (may_part && quiet > Arrivals::full_after) return std::nullopt;
-    if (quiet > late_after)
-      throw Error("what lies along this way does not come; give --memory more, or wait for the disk");
+    if (arrivals.stuck()) {
+      throw Error("what lies along this way does not come; give --memory more, or wait for the disk or the network");
+    }
+    if (may_part && !more) return std::nullopt;
   }
 }
 
@@ -42,10 +45,11 @@ double PagedSweep::gap(const SweepQuery& part) {
   const double length = glm::length(part.motion);
   const Vec3 ahead = length > 0.0 ? part.motion / length : Vec3(1.0, 0.0, 0.0);
   for (const double reach : gap_reaches) {
-    Arrivals arrivals(scene_);
+    Arrivals arrivals(*scene_.pager());
     Clearance nearest = scene_.space().clearance(part.body, part.from, part.motion, reach);
-    while (nearest.unknown && !arrivals.settled() &&
-           arrivals.wait(part.body, part.from, ahead * (length + reach)) < Arrivals::full_after) {
+    for (bool more = true; nearest.unknown && more;) {
+      more = arrivals.wait(part.body, part.from, ahead * (length + reach));
+      stop_if_interrupted();
       nearest = scene_.space().clearance(part.body, part.from, part.motion, reach);
     }
     // The sweep has certified at least 0, even if the grid subtracts more here. Unknown space only makes the gap

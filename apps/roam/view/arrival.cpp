@@ -7,8 +7,10 @@
 #include <glm/trigonometric.hpp>
 #include <utility>
 
+#include "cli/interrupt.h"
 #include "cli/tell.h"
 #include "roam/error.h"
+#include "text/web_address.h"
 #include "view/body.h"
 #include "view/commands.h"
 #include "words/frame.h"
@@ -16,6 +18,8 @@
 namespace roam::app {
 namespace {
 
+constexpr double ahead = 0.5;              // s: tiles that are waited for
+constexpr double least_reach = 4.0;        // m
 constexpr double failure_period = 10.0;    // s: minimum between two notes of failed tiles
 constexpr std::size_t most_failures = 20;  // named in the report
 
@@ -30,6 +34,7 @@ CollisionWish wish_for(const ViewOptions& options, const ViewPlan& plan, std::ui
   wish.memory = store_memory;
   wish.walker = plan.walker;
   wish.mode = plan.mode;
+  wish.patient = options.headless;
   return wish;
 }
 
@@ -118,6 +123,7 @@ void Arrival::tell_where_put() {
 
 void Arrival::change_to(std::shared_ptr<Pager> pager) {
   if (is_ghost_only()) roamer_.controls().rebind(std::exchange(collision_keys_, {}));
+  around_.reset();
   auto before = std::exchange(pager_, std::move(pager));
   roamer_.setSpace(pager_);
   news_.tell(fmt::format("the walls come from {} now", pager_->store().name()));
@@ -135,7 +141,10 @@ void Arrival::change_to(std::shared_ptr<Pager> pager) {
 
 void Arrival::wait_for_tiles(double seconds) {
   const Walker& walker = *roamer_.walker();
-  if (pager_) pager_->wait(walker.body(), walker.position(), walker.velocity(), seconds);
+  if (!pager_) return;
+  if (!around_) around_.emplace(*pager_, [] { return !interrupted(); });
+  const double reach = std::max(least_reach, std::max(plan_.walker.speed, roamer_.speed()) * (ahead + seconds));
+  around_->wait(walker.body(), walker.position(), walker.velocity(), reach);
 }
 
 void Arrival::watch_footing(const StepReport& report, double seconds) {
@@ -186,6 +195,8 @@ void Arrival::fill(Status& status) const {
   if (pager_) {
     status.paging = pager_->stats();
     status.world_bytes = status.paging->memory;
+    const std::string_view host = web_host(pager_->store().name());
+    if (!host.empty()) status.coming = fmt::format("{} pages to come from {}", status.paging->wanted, host);
   } else if (loaded_) {
     status.world_bytes = loaded_->world->stats().bytes;
   }

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "osgRoam/Manipulator.h"
+#include "scenes/arrivals.h"
 #include "view/collision_loader.h"
 #include "view/news.h"
 #include "view/options.h"
@@ -64,8 +65,8 @@ class Arrival {
   /// Makes the body collide with a store. The body stays where it is. Another thread frees the previous collision.
   void change_to(std::shared_ptr<Pager> pager);
 
-  /// Waits at most `seconds` for tiles around the body. For a body that moves faster than the clock: in real time the
-  /// tiles would have loaded.
+  /// Waits for the tiles around the body that it may reach in `seconds`, as long as any are on their way; see
+  /// scenes/arrivals.h. For a body that does not move in real time.
   void wait_for_tiles(double seconds);
   /// Checks for ground below the body. Call it after each step of `seconds`, or after a placement (0).
   void watch_footing(const StepReport& report, double seconds);
@@ -91,6 +92,7 @@ class Arrival {
   News& news_;
   std::optional<Collision> loaded_;
   std::shared_ptr<Pager> pager_;
+  std::optional<TilesAround> around_;  ///< of a body that does not move in real time
   std::optional<Pose> start_;
   bool placed_ = false;
   bool without_ground_ = false;  ///< the body walks, and would fall out of the scene

@@ -5,12 +5,14 @@
 
 #include "roam/error.h"
 #include "roam/wander.h"
+#include "scenes/arrivals.h"
 
 namespace roam::app {
 namespace {
 
 constexpr double longest_wait = 5.0;  // s, for the tiles around the start
 constexpr double short_wait = 0.1;    // s
+constexpr double least_reach = 4.0;   // m
 
 }  // namespace
 
@@ -80,9 +82,15 @@ void CollisionLoader::load_store(std::shared_ptr<const Store> store) {
   loaded.pager = std::make_shared<Pager>(store, PagerOptions{.memory = wish_.memory});
   if (!wish_.place) loaded.start = find_start(*store, wish_.memory, wish_.walker, wish_.mode, goes_on);
   const Vec3 place = wish_.place.value_or(loaded.start ? loaded.start->pose.position : Vec3(0.0));
-  place_.set_value(place);
+  place_.set_value({store, place});
   place_is_known_ = true;
-  wait_at(*loaded.pager, wish_.walker, place, goes_on);
+  if (wish_.patient) {
+    const Body body = Body::capsule(wish_.walker.radius, wish_.walker.height);
+    TilesAround(*loaded.pager, goes_on).wait(body, place, Vec3(0.0), std::max(least_reach, wish_.walker.speed));
+    if (!goes_on()) throw Cancelled();
+  } else {
+    wait_at(*loaded.pager, wish_.walker, place, goes_on);
+  }
   finish(std::move(loaded));
 }
 

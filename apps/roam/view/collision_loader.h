@@ -13,6 +13,7 @@
 #include "roam/pager.h"
 #include "roam/profile.h"
 #include "roam/world.h"
+#include "view/display_loader.h"
 #include "view/loading.h"
 #include "view/start.h"
 #include "view/store_choice.h"
@@ -39,6 +40,7 @@ struct CollisionWish {
   WalkerSettings walker;
   Mode mode = Mode::walk;
   std::uint64_t memory = 0;  ///< bytes, for a store's pager
+  bool patient = false;      ///< nobody looks on: wait for a store's tiles as long as any are on their way
 };
 
 /// Opens the scene's store, or reads and indexes the scene. The collision has full detail, independent of the picture.
@@ -57,8 +59,8 @@ class CollisionLoader {
   [[nodiscard]] std::optional<StoreChoice> take_choice();
   /// Whether the scene is large (see is_large) and has no store.
   [[nodiscard]] bool wants_store() const { return wants_store_; }
-  /// The body's start position in a store, or the error that prevents one. Call it once.
-  [[nodiscard]] std::future<Vec3> place() { return place_.get_future(); }
+  /// The store and the body's start position in it, or the error that prevents one. Call it once.
+  [[nodiscard]] std::future<PlaceInStore> place() { return place_.get_future(); }
 
  private:
   void load();
@@ -72,7 +74,7 @@ class CollisionLoader {
   std::optional<Collision> loaded_;
   std::optional<StoreChoice> choice_;
   std::atomic<bool> wants_store_ = false;
-  std::promise<Vec3> place_;
+  std::promise<PlaceInStore> place_;
   bool place_is_known_ = false;
   Loading loading_;
 };

@@ -122,7 +122,7 @@ Status Display::status(bool has_body) {
   s.pace = roamer_.speed();
   s.speed = speed_;
   s.collision_us = static_cast<double>(roamer_.collisionNanoseconds()) * 1e-3;
-  s.hold = hold_.told();
+  s.hold = hold_.told(shown_.coming);
   return s;
 }
 

@@ -15,10 +15,8 @@ DisplayLoader::DisplayLoader(const SceneOptions& scene, const TextureQuality& qu
       pages_(new PageSource(scene.scenes, scene.import_options(), quality, std::move(objects), pages)),
       loading_([this] { load_scene(); }) {}
 
-DisplayLoader::DisplayLoader(const std::filesystem::path& store, const WebAccess& web, std::future<Vec3> place)
-    : web_(web),
-      store_(store),
-      place_(std::move(place)),
+DisplayLoader::DisplayLoader(std::future<PlaceInStore> place)
+    : place_(std::move(place)),
       pages_(new PageSource({}, {}, {}, std::make_shared<SceneObjects>())),
       loading_([this] { load_store(); }) {}
 
@@ -60,15 +58,14 @@ void DisplayLoader::load_store() {
   while (place_.wait_for(a_moment) != std::future_status::ready) {
     if (!loading_.wanted()) throw Cancelled();
   }
-  const Vec3 place = place_.get();
+  const PlaceInStore at = place_.get();
   const auto take = [this](DisplayNode&& node, std::uint64_t triangles) {
     loading_.with_state([&](LoadState& state) {
       ready_.push_back(std::move(node));
       state.triangles += triangles;
     });
   };
-  finish(
-      show_store(*Store::open(store_, Store::usual_memory, web_), place, take, [this] { return loading_.wanted(); }));
+  finish(show_store(*at.store, at.place, take, [this] { return loading_.wanted(); }));
 }
 
 void DisplayLoader::finish(DisplayReport&& report) {

@@ -26,6 +26,12 @@ struct DisplayNode {
   bool paged = false;  ///< its detail depends on the eye
 };
 
+/// A store, and the place in it that is to be seen.
+struct PlaceInStore {
+  std::shared_ptr<const Store> store;
+  Vec3 place{0.0};
+};
+
 /// Reads in a thread and a reader process of its own, piece by piece.
 class DisplayLoader {
  public:
@@ -33,7 +39,7 @@ class DisplayLoader {
   DisplayLoader(const SceneOptions& scene, const TextureQuality& quality, std::shared_ptr<SceneObjects> objects,
                 const PageSettings& pages = {});
   /// For a store without its scene: the triangles around `place`, once that is known. See show_store.
-  DisplayLoader(const std::filesystem::path& store, const WebAccess& web, std::future<Vec3> place);
+  explicit DisplayLoader(std::future<PlaceInStore> place);
 
   /// Ends the work, the reader process too, within a fraction of a second. Does not wait for that; the destructor does.
   void cancel() {
@@ -56,9 +62,7 @@ class DisplayLoader {
   bool receive(const DisplayPart& part);
 
   SceneOptions scene_;
-  WebAccess web_;
-  std::filesystem::path store_;
-  std::future<Vec3> place_;
+  std::future<PlaceInStore> place_;
   osg::ref_ptr<PageSource> pages_;
   std::deque<DisplayNode> ready_;
   std::optional<DisplayReport> report_;

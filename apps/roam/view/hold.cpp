@@ -110,13 +110,14 @@ void Hold::look_at_blockage(const Walker& walker, const Vec3& wish, double secon
   }
 }
 
-Told Hold::told() const {
-  if (waiting_) return {"waiting: " + (reason_.empty() ? "loading ahead" : reason_), true};
+Told Hold::told(const std::string& coming) const {
+  const std::string ahead = coming.empty() ? "loading ahead" : coming;
+  if (waiting_) return {"waiting: " + (reason_.empty() ? ahead : reason_), true};
   if (held_)
     return {nothing_below_ ? "held: there is nothing below to stand on" : "held: the body does not fit here", true};
   if (!blockage_.empty()) return {"blocked by " + blockage_, true};
   if (now_ - news_at_ <= news_seconds) return news_;
-  if (now_ - slowed_at_ <= slowed_seconds) return {"slowed: loading ahead", false};
+  if (now_ - slowed_at_ <= slowed_seconds) return {"slowed: " + ahead, false};
   return {};
 }
 

@@ -22,7 +22,8 @@ class Hold {
   /// Call it after each step and each placement. `wish`: the desired velocity (m/s; length 0: none). `seconds`: the
   /// time of the step. `failing`: some unknown tiles cannot be read; the sentence then gives the reason.
   void take(const Walker& walker, const Vec3& wish, double seconds, bool failing = false);
-  [[nodiscard]] Told told() const;
+  /// `coming`: the tiles that a body waits for, or slows down for; empty: only that it does.
+  [[nodiscard]] Told told(const std::string& coming = {}) const;
 
  private:
   void note_events(const Walker& walker);

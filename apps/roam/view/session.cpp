@@ -31,7 +31,7 @@ ViewPlan with_bookmark(ViewPlan plan, const std::string& bookmark, Records& reco
 std::unique_ptr<DisplayLoader> load_picture(const SceneAndStore& what, CollisionLoader& collision, const Stage& stage,
                                             std::shared_ptr<SceneObjects> objects, const PageSettings& pages) {
   return what.store_only
-             ? std::make_unique<DisplayLoader>(what.store, what.scene.web, collision.place())
+             ? std::make_unique<DisplayLoader>(collision.place())
              : std::make_unique<DisplayLoader>(what.scene, stage.texture_quality(), std::move(objects), pages);
 }
 
@@ -108,9 +108,9 @@ bool Session::frame() {
 
   arrival_.fly_without_ground();
   if (controllers_.update(roamer_leads())) show_keys();
-  stage_.see_events();
-  // Headless frames run faster than real time: wait for the tiles that would have loaded meanwhile.
+  // Headless frames are not in real time: no step depends on the time that loading takes.
   if (stage_.headless() && roaming()) arrival_.wait_for_tiles(passed);
+  stage_.see_events();
   arrival_.fly_without_ground();
   if (learning_) learning_->update();
   if (quits_ || next() || stage_.viewer().done()) return false;

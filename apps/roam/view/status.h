@@ -68,6 +68,7 @@ struct Status {
   std::string section;                ///< what hides a part of the scene, and whether it stops the body; may be empty
   std::vector<Told> news;             ///< at this moment
   Told hold;
+  std::string coming;  ///< the tiles on their way from a web server; empty: none
 };
 
 /// The lines from top to bottom. The first alone is the minimal display.

@@ -252,7 +252,10 @@ bool Pager::wait(const Body& body, const Vec3& place, const Vec3& velocity, doub
     (void)update(body, place, velocity);
     const TrackedBody tracked(body, place, velocity);
     const double reach = std::clamp(tracked.pace() * ahead, least_wait_reach, reach_limit);
-    if (!s.speed_limiter.anything_coming(s.residents, tracked, reach)) return true;
+    if (!s.speed_limiter.anything_coming(s.residents, tracked, reach)) {
+      s.speed_limiter.forget_latency();
+      return true;
+    }
     if (Clock::now() - begin >= limit) return false;
     std::this_thread::sleep_for(std::chrono::microseconds(500));
   }
@@ -296,6 +299,7 @@ PagerStats Pager::stats() const {
   Handover& h = state_->handover;
   std::unique_lock lock(h.mutex);
   PagerStats stats = h.stats;
+  for (const Clock::time_point since : h.reading_since) stats.reading += since != Clock::time_point{} ? 1 : 0;
   const auto failure = h.last_failure;
   lock.unlock();
   if (failure.why) {

@@ -170,7 +170,7 @@ bool Planner::stale(const TrackedBody& now, Clock::time_point time) const {
 
 void Planner::plan(const TrackedBody& tracked, Clock::time_point time) {
   planned_for_ = tracked;
-  changed_ = more_ = appraised_ = false;
+  changed_ = more_ = appraised_ = full_ = false;
   look_again_at_requests(tracked);
   consider_all(tracked, time);
   for (std::size_t i = 0; i < candidate_count_; ++i) {
@@ -182,6 +182,7 @@ void Planner::plan(const TrackedBody& tracked, Clock::time_point time) {
   const std::lock_guard lock(handover_.mutex);
   handover_.stats.wanted = wanted_;
   handover_.stats.failed = failed_;
+  handover_.stats.full = full_;
 }
 
 void Planner::look_again_at_requests(const TrackedBody& tracked) {
@@ -255,7 +256,10 @@ bool Planner::place(const Candidate& candidate, const TrackedBody& tracked) {
   } else if (candidate.key <= horizon_) {
     run = clear(candidate, units, tracked, request);
   }
-  if (!run.found()) return false;
+  if (!run.found()) {
+    full_ = candidate.key <= horizon_;
+    return false;
+  }
   request.item = candidate.item;
   request.unit = run.unit;
   request.units = run.count;

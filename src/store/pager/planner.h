@@ -112,6 +112,7 @@ class Planner {
   std::size_t candidate_count_ = 0;
   std::uint64_t wanted_ = 0, failed_ = 0;
   bool appraised_ = false;  ///< in this plan
+  bool full_ = false;       ///< no room was found in this plan
   // State of the last plan.
   TrackedBody planned_for_;
   bool changed_ = true;  ///< an item came, went or failed since

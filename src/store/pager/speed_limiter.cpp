@@ -54,6 +54,8 @@ void SpeedLimiter::look(const Residents& residents, const TrackedBody& tracked, 
   limit_ = std::max(least_limit, ready_ / (latency_ + two_updates));
 }
 
+void SpeedLimiter::forget_latency() { limit_ = std::max(least_limit, ready_ / two_updates); }
+
 bool SpeedLimiter::anything_coming(const Residents& residents, const TrackedBody& tracked, double reach) {
   return gap(residents, tracked, reach) < reach;
 }

@@ -17,6 +17,8 @@ class SpeedLimiter {
   /// `changed`: an item came or went. `complete`: all items are in memory. `latency` is the time to load an item, in
   /// seconds.
   void look(const Residents& residents, const TrackedBody& tracked, double latency, bool changed, bool complete);
+  /// For a body that waits before its next step: the limit until the next look().
+  void forget_latency();
   /// Whether any item within `reach` (m) of the body is unknown and has not failed.
   [[nodiscard]] static bool anything_coming(const Residents& residents, const TrackedBody& tracked, double reach);
 

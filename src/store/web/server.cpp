@@ -101,6 +101,7 @@ void Server::run() noexcept {
       start_all();
       int running = 0;
       curl.multi_perform(multi_, &running);
+      end_complete();
       collect();
     } catch (const std::exception&) {
       const Answer none{no_memory};
@@ -194,6 +195,17 @@ void Server::start(std::vector<Job*>&& jobs) {
   if (Curl::library().multi_add_handle(multi_, active_.back()->handle) != CURLM_OK) {
     for (Job* job : started) end(*job, {not_started});
     active_.pop_back();
+  }
+}
+
+/// Over a slow line the last tile of a request comes long after the first.
+void Server::end_complete() {
+  for (const auto& transfer : active_) {
+    std::erase_if(transfer->jobs, [&](Job* job) {
+      if (!transfer->has_all(*job)) return false;
+      end(*job, {});
+      return true;
+    });
   }
 }
 

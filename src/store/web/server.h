@@ -82,6 +82,7 @@ class Server {
   void run() noexcept;
   void start_all();
   void start(std::vector<Job*>&& jobs);
+  void end_complete();
   void collect();
   /// The end of a transfer; false: it goes on at another address.
   [[nodiscard]] bool settle(Transfer& transfer, int result);

@@ -107,12 +107,6 @@ bool same_name(std::string_view a, std::string_view lower) {
          });
 }
 
-/// "host:port" of an address.
-std::string_view host_of(std::string_view address) {
-  const std::string_view rest = address.substr(scheme_size(address));
-  return rest.substr(0, rest.find_first_of("/?"));
-}
-
 bool is_loopback(std::string_view host) {
   const std::string_view name = host.starts_with('[') ? host.substr(0, host.find(']')) : host.substr(0, host.find(':'));
   const bool is_number = name.find_first_not_of("0123456789.") == std::string_view::npos;
@@ -179,12 +173,12 @@ void Transfer::prepare() {
 
 /// Passwords are for the first host alone, and for no line where others read along.
 void Transfer::set_login() {
-  const bool may = !is_elsewhere_ && (address.starts_with("https:") || is_loopback(host_of(address)));
+  const bool may = !is_elsewhere_ && (address.starts_with("https:") || is_loopback(web_host(address)));
   set(CURLOPT_NETRC, long{may ? CURL_NETRC_OPTIONAL : CURL_NETRC_IGNORED});
 }
 
 void Transfer::redirect(const std::string& to) {
-  is_elsewhere_ = is_elsewhere_ || host_of(to) != host_of(address);
+  is_elsewhere_ = is_elsewhere_ || web_host(to) != web_host(address);
   address = to;
   ++hops;
   set_login();

@@ -18,7 +18,7 @@ class Transfer {
   Transfer(const Transfer&) = delete;
   Transfer& operator=(const Transfer&) = delete;
 
-  std::vector<Job*> jobs;
+  std::vector<Job*> jobs;  ///< that have not ended
   CURL* handle;
   std::string address;  ///< of the request
   int hops = 0;         ///< redirects followed

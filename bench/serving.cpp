@@ -1,0 +1,226 @@
+// Simulates walkers in a store on a web server, each with a connection and a memory of its own: prints how much they
+// load, and the time until a tile is there.
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "program.h"
+#include "roam/pager.h"
+#include "roam/path_file.h"
+#include "store/opened.h"
+#include "store/pager/tracked_body.h"
+#include "store/tile_reader.h"
+#include "store/web_files.h"
+#include "timing.h"
+
+namespace {
+
+using namespace roam::bench;
+using roam::Vec3;
+using Clock = std::chrono::steady_clock;
+
+struct Options {
+  std::string store, path;
+  int walkers = 1000;
+  double speed = 1.4, seconds = 60.0, ramp = 30.0;
+};
+
+constexpr double horizon = 3.0;                ///< s: as a pager's
+constexpr double needed_within = 0.5;          ///< s: a body waits for nearer tiles
+constexpr std::uint64_t memory = 6ull << 20;   ///< for tiles and pages in a pager of 8 MiB
+constexpr std::chrono::milliseconds nap{100};  ///< between two looks of a walker that has all it needs
+
+/// A page or a tile.
+struct Item {
+  roam::Box box;
+  roam::store::CheckedRange range;
+  std::uint64_t resident = 0;  ///< bytes in memory
+};
+
+std::vector<Item> items_of(const roam::Store::State& store) {
+  std::vector<Item> items;
+  roam::store::TileReader reader(store);
+  for (std::size_t p = 0; p < store.pages.size(); ++p) {
+    const auto& [shard, ref] = store.pages[p];
+    items.push_back({ref.box, {store.packs[shard], ref.offset, ref.bytes, ref.hash}, ref.bytes});
+    const roam::store::LoadedPage page = reader.page(p);
+    for (const roam::store::TileEntry& tile : page.view.tiles) {
+      items.push_back({box_of(tile), {store.packs[shard], tile.offset, tile.bytes, tile.hash}, shape_of(tile).bytes()});
+    }
+  }
+  return items;
+}
+
+double seconds_between(Clock::time_point from, Clock::time_point to) {
+  return std::chrono::duration<double>(to - from).count();
+}
+
+/// What all walkers together measure, after the start.
+struct Sums {
+  std::mutex mutex;
+  std::vector<double> until_there;  ///< s, from the moment at which a tile comes within the horizon
+  double metres = 0.0, waited = 0.0;
+  std::uint64_t bytes = 0, failures = 0;
+};
+
+class Walker {
+ public:
+  Walker(const std::vector<Item>& items, const std::vector<Vec3>& way, double start, const Options& options)
+      : items_(items), way_(way), along_(start), speed_(options.speed), states_(items.size()) {
+    bytes_ = roam::store::web_store(options.store, {}).bytes;
+  }
+
+  void run(Clock::time_point begin, Clock::time_point measured, Clock::time_point end, Sums& sums) {
+    std::this_thread::sleep_until(begin);
+    for (auto before = Clock::now(); before < end;) {
+      const std::size_t next = look(before);
+      const bool counts = before >= measured;
+      const bool waits = next < items_.size() && keys_[next] < needed_within;
+      if (next < items_.size()) {
+        read(next, counts, sums);
+      } else {
+        std::this_thread::sleep_for(nap);
+      }
+      const auto now = Clock::now();
+      const double passed = seconds_between(before, now);
+      before = now;
+      if (!waits) along_ += speed_ * passed;
+      if (!counts) continue;
+      const std::lock_guard lock(sums.mutex);
+      (waits ? sums.waited : sums.metres) += waits ? passed : speed_ * passed;
+    }
+  }
+
+ private:
+  struct State {
+    bool here = false;
+    Clock::time_point wanted{};
+  };
+
+  /// Where the way is after so many metres, to and fro.
+  [[nodiscard]] std::pair<Vec3, Vec3> place() const {
+    double length = 0.0;
+    for (std::size_t i = 1; i < way_.size(); ++i) length += glm::distance(way_[i - 1], way_[i]);
+    double at = std::fmod(along_, 2.0 * length);
+    const double sign = at < length ? 1.0 : -1.0;
+    if (at >= length) at = 2.0 * length - at;
+    for (std::size_t i = 1;; ++i) {
+      const Vec3 piece = way_[i] - way_[i - 1];
+      const double size = glm::length(piece);
+      if (at <= size || i + 1 == way_.size()) return {way_[i - 1] + at / size * piece, sign * speed_ / size * piece};
+      at -= size;
+    }
+  }
+
+  /// The nearest item that is needed and not here; items_.size(): none.
+  std::size_t look(Clock::time_point now) {
+    const auto [at, velocity] = place();
+    const roam::paging::TrackedBody body(roam::Body::capsule(0.3, 1.8), at, velocity);
+    keys_.resize(items_.size());
+    std::size_t nearest = items_.size();
+    for (std::size_t i = 0; i < items_.size(); ++i) {
+      keys_[i] = body.time_to(items_[i].box);
+      if (keys_[i] > horizon) states_[i].wanted = {};
+      if (keys_[i] > horizon || states_[i].here) continue;
+      if (states_[i].wanted == Clock::time_point{}) states_[i].wanted = now;
+      if (nearest == items_.size() || keys_[i] < keys_[nearest]) nearest = i;
+    }
+    return nearest;
+  }
+
+  void read(std::size_t item, bool counts, Sums& sums) {
+    while (used_ + items_[item].resident > memory) drop_farthest();
+    const Item& wanted = items_[item];
+    buffer_.resize(wanted.range.bytes);
+    const bool failed = bytes_->read_checked(wanted.range.file, wanted.range.offset, buffer_, wanted.range.hash, {});
+    const double took = seconds_between(states_[item].wanted, Clock::now());
+    states_[item] = {!failed, {}};
+    if (!failed) used_ += wanted.resident;
+    if (!counts) return;
+    const std::lock_guard lock(sums.mutex);
+    sums.until_there.push_back(took);
+    sums.bytes += wanted.range.bytes;
+    sums.failures += failed ? 1 : 0;
+  }
+
+  void drop_farthest() {
+    std::size_t farthest = items_.size();
+    for (std::size_t i = 0; i < items_.size(); ++i) {
+      if (states_[i].here && (farthest == items_.size() || keys_[i] > keys_[farthest])) farthest = i;
+    }
+    if (farthest == items_.size()) throw std::runtime_error("a tile is larger than a walker's memory");
+    states_[farthest] = {};
+    used_ -= items_[farthest].resident;
+  }
+
+  const std::vector<Item>& items_;
+  const std::vector<Vec3>& way_;
+  double along_, speed_;
+  std::vector<State> states_;
+  std::vector<double> keys_;
+  std::uint64_t used_ = 0;
+  std::vector<std::byte> buffer_;
+  std::shared_ptr<roam::store::StoreBytes> bytes_;
+};
+
+int run(const Options& options) {
+  const std::vector<Item> items = items_of(roam::Store::open(options.store)->state());
+  const std::vector<Vec3> way = roam::positions(roam::load_path(options.path));
+  double length = 0.0;
+  for (std::size_t i = 1; i < way.size(); ++i) length += glm::distance(way[i - 1], way[i]);
+  std::vector<std::unique_ptr<Walker>> walkers;
+  for (int i = 0; i < options.walkers; ++i) {
+    // Spread over the way, in both directions.
+    walkers.push_back(std::make_unique<Walker>(items, way, 2.0 * length * i / options.walkers, options));
+  }
+  Sums sums;
+  const auto begin = Clock::now();
+  const auto after = [&](double s) {
+    return begin + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(s));
+  };
+  std::printf("measuring begins in %g s\n", options.ramp);
+  std::fflush(stdout);
+  {
+    std::vector<std::jthread> threads;
+    for (int i = 0; i < options.walkers; ++i) {
+      threads.emplace_back([&, i] {
+        walkers[static_cast<std::size_t>(i)]->run(after(0.5 * options.ramp * i / options.walkers), after(options.ramp),
+                                                  after(options.ramp + options.seconds), sums);
+      });
+    }
+  }
+  std::sort(sums.until_there.begin(), sums.until_there.end());
+  const auto reads = static_cast<double>(sums.until_there.size());
+  std::printf(
+      "%d walkers, %g m/s, %g s: %.0f m, %.0f tiles and pages, %.1f MB; a metre: %.0f bytes, %.3f reads; until a tile "
+      "is there: median %.1f ms, p99 %.1f ms, worst %.1f ms; waiting %.3f %% of the time; %llu failures\n",
+      options.walkers, options.speed, options.seconds, sums.metres, reads, 1e-6 * static_cast<double>(sums.bytes),
+      static_cast<double>(sums.bytes) / sums.metres, reads / sums.metres, 1e3 * quantile(sums.until_there, 0.5),
+      1e3 * quantile(sums.until_there, 0.99), 1e3 * quantile(sums.until_there, 1.0),
+      100.0 * sums.waited / (options.walkers * options.seconds), static_cast<unsigned long long>(sums.failures));
+  return sums.failures == 0 ? 0 : 1;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Options options;
+  CLI::App app{"Simulates walkers in a store on a web server"};
+  app.add_option("STORE", options.store, "the store's address")->required();
+  app.add_option("--path", options.path, "the way that they walk, to and fro")->required();
+  app.add_option("--walkers", options.walkers)->capture_default_str()->check(CLI::Range(1, 20000));
+  app.add_option("--speed", options.speed, "metres per second")->capture_default_str()->check(CLI::Range(0.1, 100.0));
+  app.add_option("--seconds", options.seconds, "measured")->capture_default_str()->check(CLI::PositiveNumber);
+  app.add_option("--ramp", options.ramp, "seconds before, in which all of them start")->capture_default_str();
+  return run_program(app, argc, argv, [&] { return run(options); });
+}

@@ -1,0 +1,72 @@
+// Verbs over a slow network: slower, with the results of the disk to the last bit.
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "store_verbs.h"
+#include "web_servers.h"
+
+namespace {
+
+using nlohmann::json;
+using store_verbs::run;
+
+class WebVerbs : public store_verbs::StoreVerbs {};
+
+/// What is certified of the clearance may be a little less if a far tile comes: the body then forgets what it measured.
+std::string without_clearances(const std::string& trace) {
+  std::string kept;
+  std::istringstream lines(trace);
+  for (std::string line; std::getline(lines, line);) {
+    int column = 0;
+    for (const char c : line) {
+      column += c == ',' ? 1 : 0;
+      if (column != 7) kept += c;
+    }
+    kept += '\n';
+  }
+  return kept;
+}
+
+TEST_F(WebVerbs, WalkAsOnTheDiskWhateverTheLatencyAndTheRate) {
+  const TestFolder folder;
+  const support::Misbehaving server(store_verbs::fs::path(store()).parent_path());
+  const std::string name = store_verbs::fs::path(store()).filename().string();
+  const auto walk = [&](const std::string& of, const std::string& trace) {
+    const ProgramResult result = run({"walk", of, "--path", path(), "--mode", "fly", "--speed", "20", "--verify",
+                                      "--json", "--trace", folder.file(trace)});
+    EXPECT_EQ(result.status, 0) << result.err << result.out;
+    json told, report = json::parse(result.out, nullptr, false);
+    for (const char* what : {"outcome", "length_m", "simulated_s", "end", "events", "narrowest", "headroom"}) {
+      told[what] = report[what];
+    }
+    return told;
+  };
+  const json disk = walk(store(), "disk.csv");
+  EXPECT_EQ(disk["outcome"], "reached");
+  const std::string places = without_clearances(folder.read("disk.csv"));
+  EXPECT_TRUE(places.starts_with("step,t,x,y,z,radius,height,contacts,event")) << places.substr(0, 80);
+  for (const char* mode : {"late20", "late300", "rate1250"}) {
+    EXPECT_EQ(walk(server.address(mode, name), mode), disk) << mode;
+    EXPECT_TRUE(without_clearances(folder.read(mode)) == places) << mode;
+  }
+}
+
+TEST_F(WebVerbs, ProbeAndSweepAsOnTheDisk) {
+  const TestFolder folder;
+  const support::Misbehaving server(store_verbs::fs::path(store()).parent_path());
+  const std::string address = server.address("late100", store_verbs::fs::path(store()).filename().string());
+  const auto swept = [&](const std::string& of) {
+    return run({"sweep", of}, "x,y,z,dx,dy,dz,radius\n-13739,253,182,100,106,0,0.3\n").out;
+  };
+  EXPECT_EQ(swept(address), swept(store()));
+  static_cast<void>(server.most_at_once());
+  const auto probed = [&](const std::string& of) {
+    json report = json::parse(run({"probe", of, "--from=-13739,253,182", "--to=-13719,274,182", "--json"}).out);
+    for (const char* what : {"scene", "seconds"}) report.erase(what);
+    return report;
+  };
+  EXPECT_EQ(probed(address), probed(store()));
+  EXPECT_GE(server.most_at_once(), 2);
+}
+
+}  // namespace
