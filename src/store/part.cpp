@@ -76,7 +76,7 @@ class Content {
     if (value > UINT64_MAX) ok_ = false;
     return static_cast<std::uint64_t>(value);
   }
-  /// Reads a text and keeps at most its first longest_name bytes.
+  /// Reads a text and keeps at most its first longest_part_name bytes.
   void text(std::string& start) {
     start.clear();
     for (std::uint64_t size = count(); ok_ && size > 0;) {
@@ -86,7 +86,7 @@ class Content {
       }
       const auto piece = static_cast<std::size_t>(std::min<std::uint64_t>(size, end_ - at_));
       const auto* first = reinterpret_cast<const char*>(content_.data() + at_);
-      start.append(first, std::min(piece, longest_name - start.size()));
+      start.append(first, std::min(piece, longest_part_name - start.size()));
       at_ += piece;
       size -= piece;
     }

@@ -53,13 +53,13 @@ struct PartCounts {
 struct PartVisitor {
   /// Called before all others.
   std::function<void(const PartCounts&)> counts{};
-  /// Called with the number of the first triangle and the first `longest_name` bytes of the name.
+  /// Called with the number of the first triangle and the first `longest_part_name` bytes of the name.
   std::function<void(std::uint64_t, std::string_view)> object{};
   std::function<void(const Cell&)> cell{};
   /// Called before each piece of content is unpacked, some 128 KiB. True ends the visit; an exception leaves it.
   std::function<bool()> enough{};
 };
-inline constexpr std::size_t longest_name = 1U << 16;
+inline constexpr std::size_t longest_part_name = 1U << 16;
 
 /// Thrown for a part file that no builder writes.
 class PartDamage : public Error {

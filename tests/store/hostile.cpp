@@ -123,7 +123,7 @@ TEST_F(HostileStore, ALongNameIsCutAndNotKept) {
   publish_part(1, std::string(1, '\0') + number(name.size()) + name + cell(), 10);
   std::string object;
   EXPECT_LT(cost_of([&] { object = object_of_one(); }).mebibytes, 16U);
-  EXPECT_EQ(object, std::string(store::longest_name, 'a'));
+  EXPECT_EQ(object, std::string(store::longest_part_name, 'a'));
 }
 
 /// Reads of part files wait until they are let go.

@@ -28,7 +28,6 @@ constexpr double first_pause = 0.1, longest_pause = 5.0;
 constexpr int most_hops = 5;
 
 constexpr const char* stopped = "it is no longer wanted";
-constexpr const char* no_memory = "there is no memory left to read it";
 constexpr const char* not_started = "libcurl cannot start the request";
 
 std::chrono::nanoseconds seconds(double s) {

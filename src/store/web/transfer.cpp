@@ -29,7 +29,6 @@ constexpr const char* no_ranges =
 constexpr const char* wrong_range = "the web server sends another range than requested";
 constexpr const char* too_much = "the web server sends more bytes than it says";
 constexpr const char* larger = "it is larger than any file of its kind";
-constexpr const char* no_memory = "there is no memory left to read it";
 constexpr const char* broken = "the connection to the web server broke";
 
 bool is_redirect(long status) {

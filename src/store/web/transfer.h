@@ -10,6 +10,8 @@
 
 namespace roam::web {
 
+inline constexpr const char* no_memory = "there is no memory left to read it";
+
 class Transfer {
  public:
   /// `jobs`: of one file, by ascending offset; or one, of a whole file.
