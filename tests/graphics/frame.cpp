@@ -210,7 +210,7 @@ TEST(GraphicsFrame, DrawsInAThreadOfItsOwn) {
 
 TEST(GraphicsFrame, IsTimedWithoutWaitsForTheScreen) {
   using Clock = graphics::FrameTimes::Clock;
-  constexpr auto wait = std::chrono::milliseconds(400);
+  static constexpr auto wait = std::chrono::milliseconds(400);
   struct SlowScreen : osg::GraphicsContext::SwapCallback {
     void swapBuffersImplementation(osg::GraphicsContext* window) override {
       std::this_thread::sleep_for(wait);

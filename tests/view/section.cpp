@@ -262,10 +262,10 @@ double pace(Tooled& d) { return glm::length(d.session->roamer().walker()->pace()
 TEST(OpenSection, KeepsTheBodysMotionWhileItsBoxIsDragged) {
   Tooled d(with_section({"box 12 -3 -1, 18 3 5"}, true));
   d.session->run("section_box");
-  const auto middle = grip_place(d, middle_grip);
   d.press('w');
   d.run(0.5);
   ASSERT_NEAR(pace(d), 1.4, 0.01);
+  const auto middle = grip_place(d, middle_grip);
   d.hold_at(middle);
   for (int i = 0; i < 12; ++i) {
     const double x = d.place().x, y = box_of(d)->center().y;
