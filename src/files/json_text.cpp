@@ -17,15 +17,16 @@ using Json = nlohmann::ordered_json;
 class Limits {
  public:
   bool operator()(int depth, Json::parse_event_t event, Json&) {
-    if (depth > most_depth) throw Error(fmt::format("is nested deeper than {} levels", most_depth));
+    const bool begins = event == Json::parse_event_t::object_start || event == Json::parse_event_t::array_start;
+    // `depth` counts what is around it.
+    if (begins && depth >= most_depth) throw Error(fmt::format("is nested deeper than {} levels", most_depth));
     if (event == Json::parse_event_t::key && ++members_.at(static_cast<std::size_t>(depth)) > most_members) {
       throw Error(fmt::format("has an object of more than {} members", most_members));
     }
-    const bool begins = event == Json::parse_event_t::object_start || event == Json::parse_event_t::array_start;
     if ((begins || event == Json::parse_event_t::value) && ++values_ > most_values) {
       throw Error(fmt::format("holds more than {} values", most_values));
     }
-    if (begins && depth < most_depth) members_.at(static_cast<std::size_t>(depth) + 1) = 0;
+    if (begins) members_.at(static_cast<std::size_t>(depth) + 1) = 0;
     return true;
   }
 

@@ -118,7 +118,13 @@ bool WholeFile::begin(std::uint64_t number) {
     fail_to_write(error);
   }
   file_ = Descriptor(file);
-  listed_.begin(folder_.number(), temporary_);
+  try {
+    listed_.begin(folder_.number(), temporary_);
+  } catch (...) {
+    // Called by a constructor, so the destructor will not remove it.
+    ::unlinkat(folder_.number(), temporary_.c_str(), 0);
+    throw;
+  }
   return true;
 }
 

@@ -47,6 +47,10 @@ TEST_F(HostileProfile, ThatWouldTakeMuchMemoryIsRefused) {
   const auto write = [&](const std::string& text) { (void)folder_.write("dam.ply.roam.json", text); };
   write(std::string(15 << 20, '['));
   expect_refused("nested deeper");
+  write(std::string(17, '[') + std::string(17, ']'));
+  expect_refused("nested deeper than 16 levels");
+  write(std::string(16, '[') + std::string(16, ']'));
+  expect_refused("must be an object");
   std::string flat = "[0";
   for (int i = 0; i < 5'000'000; ++i) flat += ",[]";
   write(flat + "]");

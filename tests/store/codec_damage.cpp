@@ -95,58 +95,6 @@ TEST_F(StoreCodecDamage, IsSafeAfterEveryFlippedBit) {
   }
 }
 
-TEST_F(StoreCodecDamage, IsSafeAfterRandomCorruption) {
-  clutter::Random random(1);
-  std::vector<Coded> all = samples();
-  for (int i = 0; i < 50000 && !HasFailure(); ++i) {
-    const Coded& c = all[random.engine() % all.size()];
-    auto bytes = c.bytes;
-    for (auto n = random.engine() % 8; n-- > 0;)
-      bytes[random.engine() % bytes.size()] = std::byte(random.engine() & 255U);
-    if (random.engine() % 4 == 0) bytes.resize(random.engine() % bytes.size());
-    (void)decodes(bytes, c.shape);
-  }
-}
-
-TEST_F(StoreCodecDamage, IsSafeAfterCorruptionBehindTheCompression) {
-  clutter::Random random(4);
-  std::vector<Coded> all = samples();
-  int taken = 0;
-  for (int i = 0; i < 50000 && !HasFailure(); ++i) {
-    const Coded& c = all[random.engine() % all.size()];
-    Unpacked u = unpack(c.bytes);
-    for (auto n = random.engine() % 8; n-- > 0;) {
-      // Small steps lead to letters that mean something.
-      auto& b = u.streams[random.engine() % u.streams.size()];
-      b = random.engine() % 2 == 0 ? std::byte(random.engine() & 255U) : std::byte(std::to_integer<unsigned>(b) + 1U);
-    }
-    if (random.engine() % 8 == 0) {
-      // Moves a letter from one stream to another, so that the sizes still agree.
-      --u.numbers[random.engine() % u.numbers.size()];
-      ++u.numbers[random.engine() % u.numbers.size()];
-    }
-    taken += decodes(pack(u), c.shape) ? 1 : 0;
-  }
-  EXPECT_GT(taken, 1000) << "the corruption is too coarse to get past the first checks";
-}
-
-TEST_F(StoreCodecDamage, IsSafeForAnyShape) {
-  clutter::Random random(6);
-  const std::vector<Coded> all = samples();
-  for (int i = 0; i < 20000 && !HasFailure(); ++i) {
-    const Coded& c = all[random.engine() % all.size()];
-    TileShape shape = c.shape;
-    std::uint32_t& n = *std::array{&shape.triangles, &shape.nodes, &shape.leaves}[random.engine() % 3];
-    n = random.engine() % 2 == 0 ? n + 1 : static_cast<std::uint32_t>(random.engine() >> (32 + random.engine() % 32));
-    if (random.engine() % 4 == 0) shape.fine = !shape.fine;
-    if (shape.nodes > 4096 || shape.leaves > 4096 || shape.bytes() > roam::store::tile_bytes) {
-      EXPECT_NE(decoder_.decode(c.bytes, shape, room_.tile(c.shape)), nullptr);
-    } else if (shape.triangles != c.shape.triangles || shape.nodes != c.shape.nodes || shape.leaves != c.shape.leaves) {
-      EXPECT_FALSE(decodes(c.bytes, shape));
-    }
-  }
-}
-
 TEST_F(StoreCodecDamage, RefusesATreeThatIsTooDeep) {
   // Each node has one inner child and, but for the last, no leaf.
   for (const std::uint32_t deep : {std::uint32_t{roam::index::max_depth}, std::uint32_t{roam::index::max_depth} + 1}) {

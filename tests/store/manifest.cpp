@@ -9,6 +9,7 @@
 #include "import_files.h"
 #include "messages.h"
 #include "store/files.h"
+#include "store_files_made.h"
 
 namespace {
 
@@ -16,36 +17,8 @@ using namespace roam;
 using namespace roam::store;
 using roam::test::TemporaryFolder;
 
-ShardInfo some_shard(std::uint64_t triangles) {
-  ShardInfo shard;
-  shard.key = std::string(64, 'a');
-  shard.pack = std::string(64, 'b');
-  shard.bytes = 123'456'789'012ULL;
-  shard.triangles = triangles;
-  shard.tiles = 3;
-  shard.geometry_bytes = 5;
-  shard.number_bytes = 6;
-  shard.resident_bytes = 7;
-  shard.bounds = {Vec3(-0.1, 1e-300, 2.0 / 3.0), Vec3(6.4e6, 1.0, 2.0)};
-  shard.largest_error = 0x1.fp-11;
-  shard.geometry_hash = 0xfedcba9876543210ULL;
-  shard.pages = {{shard.bounds, 64, 456, 0xffffffffffffffffULL, 1}, {shard.bounds, 2000, 784, 1, 2}};
-  return shard;
-}
-
-Manifest some_manifest() {
-  Manifest manifest;
-  manifest.lossless = true;
-  manifest.options = "up z, metres";
-  manifest.bounds = {Vec3(-1.0), Vec3(1.0)};
-  manifest.geometry_hash = 1;
-  manifest.parts = {{"a \"quoted\" ünïcode.ply", "f", std::string(64, 'c'), 10, 40, 1},
-                    {"b", "g", std::string(64, 'd'), 11, 2, 7}};
-  manifest.shards = {some_shard(30), some_shard(12)};
-  manifest.shards[1].pack = std::string(64, 'e');
-  manifest.notes = {"A note."};
-  return manifest;
-}
+using made::some_manifest;
+using made::some_shard;
 
 TEST(Manifest, ComesBackAsItWas) {
   const Manifest manifest = some_manifest();

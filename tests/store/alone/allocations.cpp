@@ -2,10 +2,9 @@
 // again. Instrumented builds have an operator new of their own, and test the rest.
 #include <gtest/gtest.h>
 
-#include <functional>
 #include <stdexcept>
 
-#include "counted_allocations.h"
+#include "failing_allocations.h"
 #include "pager_made.h"
 
 namespace {
@@ -24,24 +23,6 @@ class StoreAllocations : public testing::Test {
  protected:
   StoreAllocations() : folder_("allocations"), mesh_(bumpy_square()) {
     store_ = made::store(folder_.path(), {&mesh_, 1}, {.page_tiles = 4, .tile_triangles = 100});
-  }
-
-  /// Does the work again and again, each time with another allocation that fails, until none of the first `margin`
-  /// after the last does; how many there were.
-  static long fail_each(const std::function<void()>& work, int margin = 1) {
-    long failed = 0;
-    for (int without = 0; without < margin;) {
-      allocations = 0;
-      failing_allocation = ++failed;
-      try {
-        work();
-      } catch (const Error&) {
-      } catch (const std::bad_alloc&) {
-      }
-      without = allocations < failed ? without + 1 : 0;
-      failing_allocation = 0;
-    }
-    return failed;
   }
 
   const made::Folder folder_;

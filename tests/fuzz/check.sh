@@ -1,0 +1,14 @@
+#!/usr/bin/env bash
+# check.sh PROGRAM TARGET FOLDER: runs one fuzz target over its seeds and regressions, and mutates them for a second.
+# A finding is in FOLDER/found; tests/long/fuzz.sh looks for hours.
+set -euo pipefail
+program=$1 target=$2 folder=$3
+rm -rf "$folder"
+mkdir -p "$folder/corpus" "$folder/found"
+inputs=("$folder/corpus" "$folder/seeds")
+regressions=$(dirname "$0")/regressions/$target
+[[ ! -d $regressions ]] || inputs+=("$regressions")
+# Without coverage libFuzzer would throw all seeds away.
+exec "$program" --target="$target" --seeds="$folder/seeds" -dict="$folder/seeds.words" -keep_seed=1 -seed=1 \
+  -max_total_time="${ROAM_FUZZ_SECONDS:-1}" -timeout=60 -rss_limit_mb=0 -artifact_prefix="$folder/found/" \
+  "${inputs[@]}"
