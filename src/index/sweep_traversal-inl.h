@@ -165,7 +165,7 @@ class SweepTraversal {
       if (short_) {
         out.children.mask = met_children(node, swept);
       } else {
-        choose(node, frame, ~0U, grown, out.children);
+        choose(node, frame, ~0U, grown, out.children);  // a long ray
       }
       const std::uint32_t met = out.children.mask;
       if (met == 0) return out;
