@@ -22,13 +22,20 @@ struct Ray {
   float length[2];          ///< their lengths, rounded up
   float drift[2];           ///< extent of the motion along them, rounded up
   float room[2]{};          ///< in a tile: distance along them within which triangles count, times their lengths
+  bool seen = false;        ///< the vectors across the motion are known
 
   explicit Ray(const Motion& motion) {
-    int least = 0;
     for (int k = 0; k < 3; ++k) {
       const std::uint32_t bits = std::bit_cast<std::uint32_t>(motion.inverse[k]) & ~0xffU;
       early[k] = std::bit_cast<float>(bits);
       late[k] = std::bit_cast<float>(bits + 0x100U);
+    }
+  }
+  /// Sets the vectors across the motion. Rays that reach no leaf do without.
+  void look_along(const Motion& motion) {
+    seen = true;
+    int least = 0;
+    for (int k = 1; k < 3; ++k) {
       if (motion.forward[k] < motion.forward[least]) least = k;
     }
     const float size = motion.longest > 0.0F ? 1.0F / motion.longest : 0.0F;
@@ -51,8 +58,9 @@ struct Ray {
       drift[i] = std::abs(way) + speed_roundings * float_unit * motion.longest * length[i];
     }
   }
-  /// Must be called for each tile, which is at most `steps` wide.
+  /// Must be called before the first leaf of each tile, which is at most `steps` wide.
   HWY_INLINE void enter(const Frame& frame, const Motion& motion, float radius, float steps) {
+    if (!seen) look_along(motion);
     float farthest = motion.longest;
     for (int k = 0; k < 3; ++k) {
       farthest = std::max(farthest, (std::abs(static_cast<float>(frame.whole[k])) + steps) * frame.step);

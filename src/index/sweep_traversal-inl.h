@@ -29,7 +29,7 @@ class SweepTraversal {
   Impact run() {
     const Frame frame(index_.grid.origin, index_.grid.step, piece_.start);
     const double radius = piece_.body.radius + margin_of(index_);
-    const Swept swept(frame, reach_, round_up(margin_of(index_)));
+    const Swept swept = swept_in(frame, round_up(margin_of(index_)));
     const float grown = grown_for(round_up(radius), top_steps, frame);
     Stack stack;
     search(
@@ -58,15 +58,19 @@ class SweepTraversal {
     return grown_radius(radius, motion_.half_height, motion_.longest, steps * frame.step, frame.step);
   }
 
+  /// The box of a short motion, `more` metres wider. Longer motions do without.
+  [[nodiscard]] HWY_INLINE Swept swept_in(const Frame& frame, float more) const {
+    return short_ ? Swept(frame, reach_, more) : Swept();
+  }
+
   /// Searches a tile for the first impact, from its root or from a gathered root.
   void tile(std::uint32_t number, const Root* gathered = nullptr) {
     const Tile& t = index_.tiles[number];
     if (t.absent()) return take(index_.absent->sweep(index_.absent->context, number, best_.time), {number, 0, 0});
-    const Inside in(t, number, index_, piece_);
-    const Swept swept(in.frame, reach_, t.error);
+    Inside in(t, number, index_, piece_);
+    const Swept swept = swept_in(in.frame, t.error);
     // Boxes enclose the vertices without their low bits.
     const float grown = grown_for(round_up(piece_.body.radius + double(t.error)), tile_steps, in.frame);
-    if constexpr (Line::is_ray) line_.enter(in.frame, motion_, in.radius, tile_steps);
     const Block* nodes = index_.blocks + t.nodes;
     const auto beyond = [this](float key) { return key >= t_max_; };
     const auto visit = [&](const Stack::Entry& e) {
@@ -91,6 +95,7 @@ class SweepTraversal {
     const FineLeaf* low;
     Frame frame;
     float radius, hit_limit;  ///< see sweep_leaf()
+    bool entered = false;     ///< by a ray: Ray::enter() has been called
 
     HWY_INLINE Inside(const Tile& t, std::uint32_t n, const Index& index, const Piece& piece)
         : tile(t),
@@ -125,9 +130,14 @@ class SweepTraversal {
 
   /// Selects among the children `met`, and computes times.
   HWY_INLINE void choose(const Node& node, const Frame& frame, std::uint32_t met, float grown, Children& out) const {
-    sweep_node(node, frame, motion_, grown, t_max_, out);
-    out.mask &= met;
-    if ((out.mask & (out.mask - 1)) != 0) delay_children(node, frame, motion_, grown, t_max_, out);
+    if constexpr (Line::is_ray) {
+      ray_node(node, frame, motion_, line_, grown, t_max_, out);
+      out.mask &= met;
+    } else {
+      sweep_node(node, frame, motion_, grown, t_max_, out);
+      out.mask &= met;
+      if ((out.mask & (out.mask - 1)) != 0) delay_children(node, frame, motion_, grown, t_max_, out);
+    }
   }
 
   /// The result of a descent: a single leaf, or the children of one node.
@@ -139,8 +149,8 @@ class SweepTraversal {
   };
 
   /// Visits a node and, as long as there is only one child, that child, without a detour through the stack: a visit is
-  /// latency. Integer boxes settle most visits at a third of the cost. Times of entry matter only where more than `few`
-  /// children are met.
+  /// latency. Integer boxes settle most visits of short motions at a third of the cost. Times of entry matter only
+  /// where more than `few` children are met.
   HWY_INLINE Descent descend(const Block* nodes, std::uint32_t number, const Frame& frame, const Swept& swept,
                              float grown, int few) {
     Descent out;
@@ -152,10 +162,10 @@ class SweepTraversal {
     }
     for (;;) {
       const Node& node = *out.node;
-      if constexpr (Line::is_ray) {
-        ray_node(node, frame, motion_, line_, grown, t_max_, out.children);
-      } else {
+      if (short_) {
         out.children.mask = met_children(node, swept);
+      } else {
+        choose(node, frame, ~0U, grown, out.children);  // a long ray
       }
       const std::uint32_t met = out.children.mask;
       if (met == 0) return out;
@@ -168,18 +178,21 @@ class SweepTraversal {
       }
       out.node = &nodes[node.first_node + child].node;
     }
-    if constexpr (!Line::is_ray) {
-      const std::uint32_t met = out.children.mask;
-      if (std::popcount(met) <= few) {
-        out.children.take(met);
-        return out;
-      }
+    if (!short_) return out;
+    const std::uint32_t met = out.children.mask;
+    if (std::popcount(met) <= few) {
+      out.children.take(met);
+    } else {
       choose(*out.node, frame, met, grown, out.children);
     }
     return out;
   }
 
-  void leaf(const Inside& in, std::uint32_t number, float entry) {
+  void leaf(Inside& in, std::uint32_t number, float entry) {
+    if constexpr (Line::is_ray) {
+      if (!in.entered) line_.enter(in.frame, motion_, in.radius, tile_steps);
+      in.entered = true;
+    }
     Met met;
     sweep_leaf<Line, !skips>(in.leaves[number].leaf, in.low == nullptr ? nullptr : in.low + number, in.frame, motion_,
                              line_, in.radius, in.hit_limit, entry, t_max_, met);

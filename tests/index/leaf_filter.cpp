@@ -276,7 +276,9 @@ TEST(LeafFilter, KnowsHowFarARayLeadsAlongTheVectorsAcrossIt) {
   for (int q = 0; q < 10000; ++q) {
     Vec3 way = random.direction() * std::pow(10.0, random.between(-3.0, 1.8));
     if (q % 5 == 0) way[q % 3] *= 1e-6;
-    const lanes::Ray ray{lanes::Motion(way, 0.0)};
+    const lanes::Motion motion(way, 0.0);
+    lanes::Ray ray(motion);
+    ray.look_along(motion);
     for (int i = 0; i < 2; ++i) {
       long double along = 0.0L, square = 0.0L;
       for (int k = 0; k < 3; ++k) {

@@ -152,6 +152,7 @@ ROAM_ROW row_sweep_random(const roam::World& world, Queries queries) { sweep_all
 ROAM_ROW row_sweep_coherent(const roam::World& world, Queries queries) { sweep_all(world, queries); }
 ROAM_ROW row_sweep_capsule(const roam::World& world, Queries queries) { sweep_all(world, queries); }
 ROAM_ROW row_ray(const roam::World& world, Queries queries) { sweep_all(world, queries); }
+ROAM_ROW row_ray_short(const roam::World& world, Queries queries) { sweep_all(world, queries); }
 ROAM_ROW row_clearance(const roam::World& world, Queries queries) { clear_all(world, queries); }
 ROAM_ROW row_clearance_of_way(const roam::World& world, Queries queries) {
   for (const Query& q : queries) kept += world.clearance(q.body, q.from, q.motion, 1.0).distance;
@@ -200,6 +201,10 @@ int main() try {
   row_sweep_capsule(world, capsules);
   row("ray", rays.size());
   row_ray(world, rays);
+  std::vector<Query> short_rays = ways;
+  for (Query& q : short_rays) q.body = {0.0, 0.0};
+  row("ray_short", short_rays.size());
+  row_ray_short(world, short_rays);
   row("clearance", spheres.size());
   row_clearance(world, spheres);
   row("clearance_of_way", spheres.size());
