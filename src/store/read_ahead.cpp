@@ -1,7 +1,7 @@
 #include "store/read_ahead.h"
 
 #include <algorithm>
-#include <exception>
+#include <system_error>
 #include <utility>
 
 namespace roam::store {

@@ -5,9 +5,10 @@
 #include <condition_variable>
 #include <cstddef>
 #include <cstdint>
+#include <exception>
 #include <list>
 #include <mutex>
-#include <optional>
+#include <stop_token>
 #include <string>
 #include <thread>
 #include <vector>
@@ -26,7 +27,7 @@ struct CheckedRange {
   bool operator==(const CheckedRange&) const = default;
 };
 
-/// For one thread. Memory: most_ahead tiles.
+/// For one thread. Keeps the bytes of a few dozen tiles at most.
 class ReadAhead {
  public:
   explicit ReadAhead(StoreBytes& bytes) : bytes_(bytes) {}
@@ -47,8 +48,7 @@ class ReadAhead {
   [[nodiscard]] Result take(const CheckedRange& range);
 
  private:
-  /// Reads that wait to be taken, for each that the source is best asked for at once: the next ones must wait there
-  /// before these end.
+  /// Reads begun for each that is best made at once: some must be ready to start when these end.
   static constexpr int depth = 4;
 
   struct Read {
