@@ -10,9 +10,9 @@
 namespace roam::app {
 namespace {
 
-constexpr double longest_wait = 5.0;  // s, for the tiles around the start
-constexpr double short_wait = 0.1;    // s
-constexpr double least_start_reach = 4.0;   // m
+constexpr double longest_wait = 5.0;       // s, for the tiles around the start
+constexpr double short_wait = 0.1;         // s
+constexpr double least_start_reach = 4.0;  // m
 
 }  // namespace
 
