@@ -15,7 +15,8 @@ namespace {
 struct Answers {
   std::vector<roam::Impact> sweeps;
   std::vector<roam::Clearance> clearances;
-  std::vector<double> gaps;
+  std::vector<double> gaps, floors;
+  std::vector<roam::Contact> contacts;
   std::vector<roam::Vec3> way;  ///< of a walker and a flier
 };
 
@@ -38,14 +39,19 @@ Answers ask(const roam::World& world) {
   clutter::Random random(11);
   Answers out;
   for (int q = 0; q < 20000; ++q) {
-    const roam::Body body{random.between(0.0, 0.5), q % 2 == 0 ? 0.0 : random.between(0.0, 1.0)};
+    const double radius = random.between(0.0, 0.5), half_height = random.between(0.0, 1.0);
+    const roam::Body body{q % 3 == 0 ? 0.0 : radius, q % 2 == 0 ? 0.0 : half_height};  // one in six is a ray
     constexpr double longest[] = {0.001, 0.01, 0.1, 1.0, 10.0, 30.0};
     const roam::Vec3 from = random.in_box(22.0), direction = random.direction();
     const roam::Vec3 motion = random.between(0.0, longest[q % 6]) * direction;
     out.sweeps.push_back(world.sweep(body, from, motion));
-    const roam::Vec3 way = q % 3 == 0 ? roam::Vec3(0.0) : motion;
+    const roam::Vec3 way = q % 5 == 0 ? roam::Vec3(0.0) : motion;
     out.clearances.push_back(world.clearance(body, from, way, 0.5));
     out.gaps.push_back(world.gap_bound(body, from, way, 0.5));
+    roam::Contact contacts[8];
+    const auto found = world.contacts(body, from, way, 0.2, contacts);
+    out.contacts.insert(out.contacts.end(), contacts, contacts + found);
+    out.floors.push_back(world.floor_clearance(body, from, 1.0, {}).distance);
   }
   for (const roam::Mode mode : {roam::Mode::walk, roam::Mode::fly}) walk(world, mode, out.way);
   return out;
@@ -72,6 +78,12 @@ std::uint64_t digest(const Answers& answers) {
     add(clearance.triangle);
   }
   for (const double gap : answers.gaps) add_real(gap);
+  for (const double floor : answers.floors) add_real(floor);
+  for (const roam::Contact& contact : answers.contacts) {
+    add(contact.triangle);
+    add_real(contact.distance);
+    add_vector(contact.point);
+  }
   for (const roam::Vec3& place : answers.way) add_vector(place);
   return hash;
 }
@@ -106,6 +118,7 @@ void expect_the_same_bits(bool lossless, std::uint64_t expected) {
       ASSERT_EQ(best.clearances[q].triangle, other.clearances[q].triangle) << q;
       ASSERT_EQ(best.gaps[q], other.gaps[q]) << q;
     }
+    ASSERT_EQ(digest(best), digest(other));
     ASSERT_EQ(best.way, other.way);
     ++tried;
   }

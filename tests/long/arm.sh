@@ -2,14 +2,14 @@
 # tests/long/arm.sh [FOLDER [CTEST OPTIONS...]]
 # Builds the core for ARM64 in FOLDER (build-arm) and runs its tests under QEMU, with NEON: the oracle, brute force, and
 # the digests of answers and walks that every processor must give (InstructionSets). Needs g++-aarch64-linux-gnu,
-# qemu-user, apt-get and a mirror: the libraries are unpacked into FOLDER, nothing is installed. About an hour.
+# qemu-user and a mirror of Debian 12: the libraries are unpacked into FOLDER, nothing is installed. Some hours.
 set -euo pipefail
 source_folder=$(realpath "$(dirname "$0")/../..")
 folder=$(realpath -m "${1:-$source_folder/build-arm}")
 shift $(($# ? 1 : 0))
 for tool in aarch64-linux-gnu-g++ qemu-aarch64; do
   command -v "$tool" > /dev/null ||
-    { echo "there is no $tool; as root: apt-get install g++-aarch64-linux-gnu qemu-user" >&2; exit 2; }
+    { echo "there is no $tool; as root: apt-get install g++-aarch64-linux-gnu qemu-user" >&2; exit 77; }
 done
 root=$folder/root libraries=$folder/root/usr/lib/aarch64-linux-gnu
 if [[ ! -e $libraries/libhwy.so ]]; then
@@ -29,5 +29,4 @@ cmake -S "$source_folder" -B "$folder" -G Ninja -DCMAKE_BUILD_TYPE=Release -DROA
   -DCMAKE_FIND_ROOT_PATH_MODE_PACKAGE=ONLY \
   "-DCMAKE_CROSSCOMPILING_EMULATOR=qemu-aarch64;-L;/usr/aarch64-linux-gnu;-E;LD_LIBRARY_PATH=$libraries"
 cmake --build "$folder"
-# Emulated tests of the processor's own environment, and of minutes, are left out by name.
 exec ctest --test-dir "$folder" --output-on-failure --parallel "$(nproc)" --timeout 3600 "$@"

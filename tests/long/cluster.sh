@@ -9,10 +9,10 @@ source "$(dirname "$0")/complaints.sh"
 source "$(dirname "$0")/../support/slurm.sh"
 tasks=${1:-64} triangles=${2:-44000000} troubles=${3:-40}
 export XDG_DATA_HOME=$work/home
-cd "$work" || exit 2
+cd "$work" || exit 1
 if ! start_slurm "$work/slurm"; then
   echo "Slurm does not run here; as root: apt-get install slurmctld slurmd slurm-client" >&2
-  exit 2
+  exit 77
 fi
 trap 'stop_slurm; rm -rf "$work"' EXIT
 RANDOM=1
@@ -21,12 +21,12 @@ scene=()
 for ((i = 0; i < 4 * tasks; ++i)); do
   scene+=("$work/$i.ply")
   "$roam" make terrain -o "${scene[i]}" --triangles $((triangles * (1 + i % 3) / (8 * tasks))) --size 200 --seed "$i" \
-    --origin "$((i % 16 * 200)),$((i / 16 * 200)),0" > /dev/null || exit 2
+    --origin "$((i % 16 * 200)),$((i / 16 * 200)),0" > /dev/null || exit 1
 done
-build "$work/whole" --threads 2 > said 2>&1 || { cat said; exit 2; }
+build "$work/whole" --threads 2 > said 2>&1 || { cat said; exit 1; }
 grep . said
 
-"$roam" cluster slurm "${scene[@]}" -o "$work/array" --shards "$tasks" --threads 1 --submit || exit 2
+"$roam" cluster slurm "${scene[@]}" -o "$work/array" --shards "$tasks" --threads 1 --submit || exit 1
 running() { squeue --noheader --array --states=running --name=roam-read,roam-tasks --format=%i; }
 declare -A met=()
 for ((i = 0; i < troubles;)); do
@@ -66,7 +66,7 @@ said=$(cat slurm-*.out)
 if [[ ! -e array/CURRENT ]]; then
   missing=$(grep -o 'missing shards: .*, in tasks [0-9,.-]* of' <<< "$said" | tail -1)
   [[ $missing ]] && echo "$missing $tasks" || complain "the merge says nothing: $(tail -n 1 <<< "$said")"
-  "$roam" cluster slurm "${scene[@]}" -o "$work/array" --shards "$tasks" --threads 1 --submit || exit 2
+  "$roam" cluster slurm "${scene[@]}" -o "$work/array" --shards "$tasks" --threads 1 --submit || exit 1
   slurm_waits 7200 '[[ -z $(squeue --noheader) ]]' || complain "the jobs do not end the second time"
 fi
 expect_same "$work/array" "an array of $tasks tasks, $troubles troubles"

@@ -7,7 +7,7 @@ here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 roam=$(realpath "${ROAM:-$here/../../build-check/roam}")
 if [[ ! -x $roam ]]; then
   echo "There is no $roam: run ./check first, or name the program by ROAM." >&2
-  exit 2
+  exit 1
 fi
 work=$(mktemp -d)
 wrong=0
@@ -22,13 +22,13 @@ complain() {
 need_strace() {
   if ! strace -qq -e trace=none true 2> /dev/null; then
     echo "strace is not there or may not trace here; as root: apt-get install strace" >&2
-    exit 2
+    exit 77
   fi
 }
 
 # Makes $work/faults.so, which makes calls go wrong: see faults.c.
 need_faults() {
-  "${CC:-cc}" -O1 -Wall -Wextra -shared -fPIC -o "$work/faults.so" "$here/faults.c" || exit 2
+  "${CC:-cc}" -O1 -Wall -Wextra -shared -fPIC -o "$work/faults.so" "$here/faults.c" || exit 1
 }
 
 # content STORE: what a store consists of, without the lock and what is remembered of the dates of the scene's files.

@@ -5,7 +5,7 @@
 set -euo pipefail
 source_folder=$(realpath "$(dirname "$0")/../..")
 folder=$(realpath -m "${1:-$source_folder/build-coverage}")
-command -v gcovr > /dev/null || { echo "there is no gcovr; as root: apt-get install gcovr" >&2; exit 2; }
+command -v gcovr > /dev/null || { echo "there is no gcovr; as root: apt-get install gcovr" >&2; exit 77; }
 cmake -S "$source_folder" -B "$folder" -G Ninja -DCMAKE_BUILD_TYPE=Coverage -DCMAKE_CXX_FLAGS_COVERAGE='-O1 --coverage -fprofile-update=atomic' \
   -DROAM_TOOLS=OFF -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON > /dev/null
 cmake --build "$folder"

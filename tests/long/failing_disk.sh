@@ -13,10 +13,10 @@ trap '[[ -z $mounted ]] || umount "$mounted"; rm -rf "$work"' EXIT
 runs=${1:-100}
 need_faults
 
-"$roam" make gallery -o "$work/a.ply" --triangles 20k > /dev/null || exit 2
-"$roam" make terrain -o "$work/b.obj" --triangles 10k --seed 2 > /dev/null || exit 2
+"$roam" make gallery -o "$work/a.ply" --triangles 20k > /dev/null || exit 1
+"$roam" make terrain -o "$work/b.obj" --triangles 10k --seed 2 > /dev/null || exit 1
 scene=("$work/a.ply" "$work/b.obj")
-build "$work/whole" > "$work/said" 2>&1 || { cat "$work/said"; exit 2; }
+build "$work/whole" > "$work/said" 2>&1 || { cat "$work/said"; exit 1; }
 
 # judge STATUS OUTPUT WHAT [CAUSE]: what a build that met a fault has done, and that it can be gone on with.
 judge() {

@@ -13,9 +13,9 @@ trap 'rm -rf "$work"' EXIT
 copies=${1:-100}
 need_strace
 
-"$roam" make gallery -o "$work/a.ply" --triangles 300k > /dev/null || exit 2
+"$roam" make gallery -o "$work/a.ply" --triangles 300k > /dev/null || exit 1
 scene=("$work/a.ply")
-build "$work/whole" > "$work/said" 2>&1 || { cat "$work/said"; exit 2; }
+build "$work/whole" > "$work/said" 2>&1 || { cat "$work/said"; exit 1; }
 # 300 m of the first path of the paper, and where it meets the second.
 printf '%s\n' '-13739 253 182' '-13533.5 471.5 182' > "$work/way.path"
 RANDOM=1

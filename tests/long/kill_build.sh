@@ -10,11 +10,11 @@ kills=${1:-200}
 every=${2:-1}
 need_faults
 
-"$roam" make gallery -o "$work/a.ply" --triangles 700k > /dev/null || exit 2
-"$roam" make terrain -o "$work/b.ply" --triangles 500k --seed 2 > /dev/null || exit 2
-"$roam" make city -o "$work/c.ply" --triangles 50k --seed 3 > /dev/null || exit 2
+"$roam" make gallery -o "$work/a.ply" --triangles 700k > /dev/null || exit 1
+"$roam" make terrain -o "$work/b.ply" --triangles 500k --seed 2 > /dev/null || exit 1
+"$roam" make city -o "$work/c.ply" --triangles 50k --seed 3 > /dev/null || exit 1
 scene=("$work/a.ply" "$work/b.ply" "$work/c.ply")
-build "$work/whole" > "$work/said" 2>&1 || { cat "$work/said"; exit 2; }
+build "$work/whole" > "$work/said" 2>&1 || { cat "$work/said"; exit 1; }
 (($(find "$work/whole/packs" -type f | wc -l) > 1)) || complain "the scene is too small for several shards"
 RANDOM=1
 

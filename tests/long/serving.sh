@@ -14,9 +14,9 @@ unset http_proxy all_proxy
 store=${1:-$work/gallery.roam} path=${2:-$work/gallery-straight.path}
 if [[ ! -e $store/CURRENT ]]; then
   (cd "$work" && "$roam" make gallery -o gallery.ply --triangles 10M > /dev/null &&
-    "$roam" build gallery.ply -o gallery.roam > said 2>&1 && rm gallery.ply) || exit 2
+    "$roam" build gallery.ply -o gallery.roam > said 2>&1 && rm gallery.ply) || exit 1
 fi
-"$roam" publish "$store" "$work/www/x.roam" --nginx > "$work/location" || exit 2
+"$roam" publish "$store" "$work/www/x.roam" --nginx > "$work/location" || exit 1
 
 # flown STORE WHAT
 flown() {
@@ -30,7 +30,10 @@ flown "$store" disk
 mv "$work/places" "$work/right"
 exec {input}> >(exec /usr/bin/python3 -B "$here/../programs/misbehaving_web_server.py" "$work/www" > "$work/port")
 slow=$!
-until [[ -s $work/port ]]; do sleep 0.1; done
+until [[ -s $work/port ]]; do
+  kill -0 $slow 2> /dev/null || { echo "the slow web server does not start" >&2; exit 1; }
+  sleep 0.1
+done
 for mode in good late20 late100 late1000 rate1250; do
   flown "http://127.0.0.1:$(cat "$work/port")/$mode/x.roam" $mode
   cmp "$work/right" "$work/places" || complain "$mode: not the flight on the disk"
@@ -48,7 +51,10 @@ else
   for walkers in 10 100 1000; do
     "$bench" "http://127.0.0.1:$port/x.roam" --path "$path" --walkers $walkers > "$work/walked" &
     job=$!
-    until [[ -s $work/walked ]]; do sleep 0.1; done
+    until [[ -s $work/walked ]]; do
+      kill -0 $job 2> /dev/null || { complain "$walkers walkers do not start"; continue 2; }
+      sleep 0.1
+    done
     sleep 30
     before=$(clock) lines=$(wc -l < "$work/nginx/requests")
     sleep 59

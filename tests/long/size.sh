@@ -70,7 +70,7 @@ walked() {
 }
 
 big=${1:-$work/big.ply}
-[[ -e $big ]] || "$roam" make gallery -o "$big" --triangles 130000000 || exit 2
+[[ -e $big ]] || "$roam" make gallery -o "$big" --triangles 130000000 || exit 1
 store=${2:-$work/big.roam}
 [[ -e $store/CURRENT ]] || built "$big" "$store"
 
@@ -85,7 +85,7 @@ fly=(--path "$work/fly.path" --mode fly --speed 50)
 walk=(--path "$work/walk.path" --mode walk --speed 1.4 --height 1.8)
 walked "$store" "fly, 50 m/s" "${fly[@]}"
 walked "$store" "walk, 1.4 m/s" "${walk[@]}"
-"$roam" publish "$store" "$work/www/big.roam" --nginx > "$work/big.conf" || exit 2
+"$roam" publish "$store" "$work/www/big.roam" --nginx > "$work/big.conf" || exit 1
 if start_nginx "$work/nginx" "$work/big.conf"; then
   forget "$work/www"
   walked "http://127.0.0.1:$port/big.roam" "fly, 50 m/s, by HTTP" "${fly[@]}"
@@ -97,7 +97,7 @@ UNDER='' walked "$store" "fly, 50 m/s, against the scene" "${fly[@]}" --against 
 UNDER='' walked "$store" "walk, 1.4 m/s, against the scene" "${walk[@]}" --against "$big"
 
 for triangles in 100000 1000000 10000000; do
-  "$roam" make gallery -o "$work/g.ply" --triangles $triangles > /dev/null || exit 2
+  "$roam" make gallery -o "$work/g.ply" --triangles $triangles > /dev/null || exit 1
   "$roam" build "$work/g.ply" -o "$work/$triangles.roam" > /dev/null 2> "$work/said" || complain "$(tail -1 "$work/said")"
   rm "$work/g.ply"
 done
