@@ -65,7 +65,7 @@ void check_part(std::span<const std::byte> bytes) {
     std::uint64_t next = 0;
     for (const PartFile::Object& object : part.objects) {
       demand(object.first >= next && object.first < part.triangles, "objects in no order");
-      demand(object.name.size() <= longest_name, "a name that is too long");
+      demand(object.name.size() <= longest_part_name, "a name that is too long");
       next = object.first + 1;
     }
     demand(part.cells.size() <= most_cells, "too many cells");
