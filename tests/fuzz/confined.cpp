@@ -34,12 +34,6 @@
 #include "reading.h"
 #include "roam/import.h"
 
-extern "C" {
-// The counters of clang's coverage; null in programs without it.
-extern std::uint8_t __start___sancov_cntrs[] __attribute__((weak, visibility("hidden")));
-extern std::uint8_t __stop___sancov_cntrs[] __attribute__((weak, visibility("hidden")));
-}
-
 namespace fuzz {
 namespace {
 
@@ -48,11 +42,6 @@ using roam::reader::Rights;
 /// Seconds of processor time. The budget of a small file is 10 s; a fuzzer has better use for them.
 constexpr rlim_t most_seconds = 1;
 constexpr std::uint64_t most_memory = std::uint64_t{1} << 30;
-
-std::span<std::uint8_t> counters() {
-  if (__start___sancov_cntrs == nullptr) return {};
-  return {__start___sancov_cntrs, __stop___sancov_cntrs};
-}
 
 /// Memory that children share with this process.
 std::span<std::uint8_t> shared_counters() {

@@ -41,4 +41,7 @@ void read_to(
 /// protocol, unless it is `hostile`.
 Outcome taken(std::string_view stream, Wanted wanted, bool hostile = false);
 
+/// The counters of coverage of this process; none in programs without coverage.
+std::span<std::uint8_t> counters();
+
 }  // namespace fuzz

@@ -4,6 +4,7 @@
 #include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <sstream>
 
 #include "files/json_text.h"
@@ -143,11 +144,16 @@ void run_settings(Bytes input) {
   const std::string file = write("settings.json", text_of(input));
   roam::app::ViewSettings settings;
   if (!complaint([&] { settings = roam::app::read_settings(file); }).empty()) return;
-  for (const auto& value :
-       {settings.sensitivity, settings.radius, settings.height, settings.eye, settings.step, settings.slope,
-        settings.speed, settings.easing, settings.fov, settings.picture_scale, settings.tile_error}) {
-    demand(!value || (*value >= 0.0 && *value <= 1e4), "a setting out of range");
-  }
+  const auto within = [](const std::optional<double>& value, double most) {
+    demand(!value || (*value >= 0.0 && *value <= most), "a setting out of range");
+  };
+  for (const auto& metres : {settings.radius, settings.height, settings.eye, settings.step}) within(metres, 1000.0);
+  within(settings.sensitivity, 100.0);
+  within(settings.slope, 89.0);
+  within(settings.easing, 2.0);
+  within(settings.fov, roam::app::largest_fov);
+  within(settings.picture_scale, roam::app::largest_picture_scale);
+  for (const auto& value : {settings.speed, settings.tile_error}) within(value, roam::app::largest_tile_error);
 }
 
 std::vector<std::string> settings_seeds() {

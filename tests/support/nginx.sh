@@ -15,6 +15,7 @@ start_nginx() {
   [[ ! ${3:-} ]] || secure="listen 127.0.0.1:$((port + 1)) ssl http2; ssl_certificate $3; ssl_certificate_key $3;"
   cat > "$nginx_work/nginx.conf" << END
 pid $nginx_work/pid;
+user $(id -un) $(id -gn);
 worker_rlimit_nofile 8192;
 events { worker_connections 4096; }
 http {
