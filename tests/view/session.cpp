@@ -188,7 +188,10 @@ TEST(Session, CyclesTheDisplayAndShowsTheHelp) {
   Driven d(room_obj(), {10, 0, 0.95, 0});
   EXPECT_TRUE(contains(d.hud(), "feet"));
   EXPECT_FALSE(contains(d.hud(), "memory"));
+  d.session->stage().hint("walk this way");
+  EXPECT_TRUE(contains(d.hud(), "walk this way"));
   d.tap('h');
+  EXPECT_FALSE(contains(d.hud(), "walk this way")) << "it would lie over the help";
   EXPECT_TRUE(contains(d.hud(), "goes to the clicked place"));
   EXPECT_TRUE(contains(d.hud(), "keeps this place as a bookmark"));
   d.tap('h');

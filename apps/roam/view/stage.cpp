@@ -148,7 +148,10 @@ void Stage::set_hud(HudMode mode) {
 }
 
 void Stage::add_to(Commands& commands) {
-  commands.add("help", [this] { hud_->show_help(!hud_->help_shown()); });
+  commands.add("help", [this] {
+    hud_->show_help(!hud_->help_shown());
+    end_hint(0.0);  // it would lie over the help
+  });
   commands.add("hud", [this] { cycle_hud(); });
   commands.add("edges", [this] { frame_->set_edges(!frame_->edges()); });
   commands.add("fullscreen", [this] { toggle_fullscreen(); });
