@@ -28,15 +28,20 @@ run() {
   [[ ! -d tests/fuzz/regressions/$target ]] || inputs+=("tests/fuzz/regressions/$target")
   nice "$program" --target="$target" --seeds="$corpus.seeds" -dict="$corpus.seeds.words" -print_final_stats=1 \
     -max_total_time=$((60 * minutes)) -timeout=60 -report_slow_units=60 -rss_limit_mb=4096 -malloc_limit_mb=2048 \
-    -artifact_prefix="$found/" "${inputs[@]}" &> "$log" || true
-  local executions counters
+    -artifact_prefix="$found/" "${inputs[@]}" &> "$log"
+  local status=$? executions counters
   executions=$(sed -n 's/^stat::number_of_executed_units: *//p' "$log")
   counters=$(sed -n 's/.*cov: \([0-9]*\) ft: \([0-9]*\).*/\1 | \2/p' "$log" | tail -n 1)
   echo "| $target | ${executions:-0} | ${counters:-0 | 0} | $(find "$found" -type f | wc -l) |"
+  # libFuzzer fails by a finding, which is in its folder, or because it could not fuzz.
+  if ((${executions:-0} == 0 || status != 0)) && [[ -z $(find "$found" -type f) ]]; then
+    echo "$target: status $status, see $log" >&2
+    return 1
+  fi
 }
 export -f run
 export program minutes
 echo '| target | executions | edges | features | findings |'
 echo '|---|---|---|---|---|'
-printf '%s\n' "${targets[@]}" | xargs -P "${JOBS:-1}" -I{} bash -c 'run {}'
+printf '%s\n' "${targets[@]}" | xargs -P "${JOBS:-1}" -I{} bash -c 'run {}' || exit 1
 [[ -z $(find build-fuzz/found -type f) ]]
