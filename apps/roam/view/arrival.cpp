@@ -19,7 +19,7 @@ namespace roam::app {
 namespace {
 
 constexpr double ahead = 0.5;              // s: tiles that are waited for
-constexpr double least_reach = 4.0;        // m
+constexpr double least_reach = 30.0;       // m: walls and roofs that decide how light it is
 constexpr double failure_period = 10.0;    // s: minimum between two notes of failed tiles
 constexpr std::size_t most_failures = 20;  // named in the report
 
