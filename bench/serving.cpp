@@ -10,11 +10,15 @@
 #include <limits>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <thread>
 #include <vector>
 
+#include "charts.h"
+#include "draw/picture_file.h"
 #include "program.h"
+#include "roam/error.h"
 #include "roam/pager.h"
 #include "roam/path_file.h"
 #include "store/opened.h"
@@ -30,8 +34,8 @@ using roam::Vec3;
 using Clock = std::chrono::steady_clock;
 
 struct Options {
-  std::string store, path;
-  int walkers = 1000;
+  std::string store, path, picture;
+  std::vector<int> walkers{1000};
   double speed = 1.4, seconds = 60.0, ramp = 30.0;
 };
 
@@ -173,15 +177,14 @@ class Walker {
   std::shared_ptr<roam::store::StoreBytes> bytes_;
 };
 
-int run(const Options& options) {
-  const std::vector<Item> items = items_of(roam::Store::open(options.store)->state());
-  const std::vector<Vec3> way = roam::positions(roam::load_path(options.path));
+/// Prints what `count` walkers measure. Returns it as a bar; throws roam::Error if something did not come.
+Bar measure(const Options& options, const std::vector<Item>& items, const std::vector<Vec3>& way, int count) {
   double length = 0.0;
   for (std::size_t i = 1; i < way.size(); ++i) length += glm::distance(way[i - 1], way[i]);
   std::vector<std::unique_ptr<Walker>> walkers;
-  for (int i = 0; i < options.walkers; ++i) {
+  for (int i = 0; i < count; ++i) {
     // Spread over the way, in both directions.
-    walkers.push_back(std::make_unique<Walker>(items, way, 2.0 * length * i / options.walkers, options));
+    walkers.push_back(std::make_unique<Walker>(items, way, 2.0 * length * i / count, options));
   }
   Sums sums;
   const auto begin = Clock::now();
@@ -192,23 +195,37 @@ int run(const Options& options) {
   std::fflush(stdout);
   {
     std::vector<std::jthread> threads;
-    for (int i = 0; i < options.walkers; ++i) {
+    for (int i = 0; i < count; ++i) {
       threads.emplace_back([&, i] {
-        walkers[static_cast<std::size_t>(i)]->run(after(0.5 * options.ramp * i / options.walkers), after(options.ramp),
+        walkers[static_cast<std::size_t>(i)]->run(after(0.5 * options.ramp * i / count), after(options.ramp),
                                                   after(options.ramp + options.seconds), sums);
       });
     }
   }
   std::sort(sums.until_there.begin(), sums.until_there.end());
   const auto reads = static_cast<double>(sums.until_there.size());
+  const double p50 = quantile(sums.until_there, 0.5), p99 = quantile(sums.until_there, 0.99);
   std::printf(
       "%d walkers, %g m/s, %g s: %.0f m, %.0f tiles and pages, %.1f MB; a metre: %.0f bytes, %.3f reads; until a tile "
       "is there: median %.1f ms, p99 %.1f ms, worst %.1f ms; waiting %.3f %% of the time; %llu failures\n",
-      options.walkers, options.speed, options.seconds, sums.metres, reads, 1e-6 * static_cast<double>(sums.bytes),
-      static_cast<double>(sums.bytes) / sums.metres, reads / sums.metres, 1e3 * quantile(sums.until_there, 0.5),
-      1e3 * quantile(sums.until_there, 0.99), 1e3 * quantile(sums.until_there, 1.0),
-      100.0 * sums.waited / (options.walkers * options.seconds), static_cast<unsigned long long>(sums.failures));
-  return sums.failures == 0 ? 0 : 1;
+      count, options.speed, options.seconds, sums.metres, reads, 1e-6 * static_cast<double>(sums.bytes),
+      static_cast<double>(sums.bytes) / sums.metres, reads / sums.metres, 1e3 * p50, 1e3 * p99,
+      1e3 * quantile(sums.until_there, 1.0), 100.0 * sums.waited / (count * options.seconds),
+      static_cast<unsigned long long>(sums.failures));
+  std::fflush(stdout);
+  if (sums.failures != 0) throw roam::Error(options.store, std::to_string(sums.failures) + " tiles did not come");
+  return {std::to_string(count) + (count == 1 ? " walker" : " walkers"), 1e6 * p50, 1e6 * p99, "", false};
+}
+
+int run(const Options& options) {
+  std::optional<roam::draw::PictureFile> picture;
+  if (!options.picture.empty()) picture.emplace(options.picture);
+  const std::vector<Item> items = items_of(roam::Store::open(options.store)->state());
+  const std::vector<Vec3> way = roam::positions(roam::load_path(options.path));
+  std::vector<Bar> bars;
+  for (const int count : options.walkers) bars.push_back(measure(options, items, way, count));
+  if (picture) picture->write(bar_chart("Until a tile is there", {{"nginx, walkers at 1.4 m/s", std::move(bars)}}));
+  return 0;
 }
 
 }  // namespace
@@ -218,7 +235,10 @@ int main(int argc, char** argv) {
   CLI::App app{"Simulates walkers in a store on a web server"};
   app.add_option("STORE", options.store, "the store's address")->required();
   app.add_option("--path", options.path, "the way that they walk, to and fro")->required();
-  app.add_option("--walkers", options.walkers)->capture_default_str()->check(CLI::Range(1, 20000));
+  app.add_option("--walkers", options.walkers, "how many; several numbers: one after another")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 20000));
+  app.add_option("--picture", options.picture, "draw the times as bars (.svg or .png)")->type_name("FILE");
   app.add_option("--speed", options.speed, "metres per second")->capture_default_str()->check(CLI::Range(0.1, 100.0));
   app.add_option("--seconds", options.seconds, "measured")->capture_default_str()->check(CLI::PositiveNumber);
   app.add_option("--ramp", options.ramp, "seconds before, in which all of them start")->capture_default_str();
