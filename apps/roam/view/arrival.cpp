@@ -60,6 +60,8 @@ bool Arrival::receive(const Seen& seen) {
   if (failed) {
     place_ghost(seen, state.error);
     return true;
+  loaded_->world = Freeing::later(freeing_, std::move(loaded_->world));
+  loaded_->pager = Freeing::later(freeing_, std::move(loaded_->pager));
   }
   loaded_ = loader_.take();
   if (plan_.profile) {
@@ -124,19 +126,12 @@ void Arrival::tell_where_put() {
 void Arrival::change_to(std::shared_ptr<Pager> pager) {
   if (is_ghost_only()) roamer_.controls().rebind(std::exchange(collision_keys_, {}));
   around_.reset();
-  auto before = std::exchange(pager_, std::move(pager));
+  pager_ = Freeing::later(freeing_, std::move(pager));
   roamer_.setSpace(pager_);
   news_.tell(fmt::format("the walls come from {} now", pager_->store().name()));
-  std::shared_ptr<const World> world;
-  if (loaded_) {
-    loaded_->pager.reset();
-    world = std::exchange(loaded_->world, nullptr);
-  }
-  // Freeing gigabytes takes longer than a frame; so may a pager's last read.
-  freeing_ = std::async(std::launch::async, [world = std::move(world), before = std::move(before)]() mutable {
-    world.reset();
-    before.reset();
-  });
+  if (!loaded_) return;
+  loaded_->pager.reset();
+  loaded_->world.reset();
 }
 
 void Arrival::wait_for_tiles(double seconds) {
