@@ -18,8 +18,6 @@
 namespace roam::app {
 namespace {
 
-constexpr double ahead = 0.5;              // s: tiles that are waited for
-constexpr double least_reach = 4.0;        // m
 constexpr double failure_period = 10.0;    // s: minimum between two notes of failed tiles
 constexpr std::size_t most_failures = 20;  // named in the report
 
@@ -138,7 +136,8 @@ void Arrival::wait_for_tiles(double seconds) {
   const Walker& walker = *roamer_.walker();
   if (!pager_) return;
   if (!around_) around_.emplace(*pager_, [] { return !interrupted(); });
-  const double reach = std::max(least_reach, std::max(plan_.walker.speed, roamer_.speed()) * (ahead + seconds));
+  const double pace = std::max(plan_.walker.speed, roamer_.speed());
+  const double reach = std::max(TilesAround::least_reach, pace * (TilesAround::ahead + seconds));
   around_->wait(walker.body(), walker.position(), walker.velocity(), reach);
 }
 
