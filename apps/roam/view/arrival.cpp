@@ -58,10 +58,10 @@ bool Arrival::receive(const Seen& seen) {
   if (failed) {
     place_ghost(seen, state.error);
     return true;
-  loaded_->world = Freeing::later(freeing_, std::move(loaded_->world));
-  loaded_->pager = Freeing::later(freeing_, std::move(loaded_->pager));
   }
   loaded_ = loader_.take();
+  loaded_->world = Freeing::later(freeing_, std::move(loaded_->world));
+  loaded_->pager = Freeing::later(freeing_, std::move(loaded_->pager));
   if (plan_.profile) {
     demand_belongs(*plan_.profile, loaded_->identity, scene_names_);
     app::tell(describe(*plan_.profile));
@@ -189,8 +189,7 @@ void Arrival::fill(Status& status) const {
   if (pager_) {
     status.paging = pager_->stats();
     status.world_bytes = status.paging->memory;
-    const std::string_view host = web_host(pager_->store().name());
-    if (!host.empty()) status.coming = fmt::format("{} pages to come from {}", status.paging->wanted, host);
+    status.coming = coming_text(status.paging->wanted, web_host(pager_->store().name()));
   } else if (loaded_) {
     status.world_bytes = loaded_->world->stats().bytes;
   }
