@@ -133,6 +133,7 @@ ExitStatus view(ViewOptions options) {
     plan = make_plan(options, settings, std::nullopt, profile_for(options, std::nullopt));
     plan.note = note;
   }
+  hold.reset();  // Xlib ends a program whose server goes away
   for (const std::string& note : report.notes) tell("note: " + note);
   if (options.verify && report.roamed) {
     Progress progress("verifying", "pieces");

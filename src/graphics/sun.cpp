@@ -143,7 +143,10 @@ class Sun::Maps : public osg::Node {
     const bool shown = full && shown_;
     set_full(full);
     show(shown);
-    if (!shown) return;
+    if (!shown) {
+      paused_ = true;
+      return;
+    }
     aim(cull->getCurrentCamera()->getInverseViewMatrix().getTrans());
     for (const Level& level : drawn_) {
       if (level.is_due) level.camera->accept(*cull);
@@ -168,6 +171,7 @@ class Sun::Maps : public osg::Node {
   struct Level {
     Area area;
     bool is_due = false;
+    bool is_stale = false;  // a little has changed since it was drawn
     osg::ref_ptr<osg::Camera> camera;
   };
 
@@ -237,13 +241,15 @@ class Sun::Maps : public osg::Node {
     for (osg::Uniform* uniform : {to_map_.get(), tiles_.get()}) state.removeUniform(uniform);
   }
 
-  /// Puts the maps about the eye. Those that moved, and all if the scene has changed, are due.
+  /// Puts the maps about the eye. Those that moved are due; all if the scene has changed; one if a little of it has.
   void aim(const osg::Vec3d& eye) {
     const osg::BoundingSphered all(scene_->getBound().center(), scene_->getBound().radius());
     const osg::Uniform* const section = scene_->getStateSet()->getUniform("roam_section");
     const std::uint64_t version = watched_ ? watched_() : 0;
     const bool changed = all.center() != seen_.center() || all.radius() != seen_.radius() ||
-                         children_ != scene_->getNumChildren() || section != section_ || version != version_;
+                         children_ != scene_->getNumChildren() || section != section_;
+    const bool changed_a_little = version != version_;
+    const bool resumed = std::exchange(paused_, false);
     seen_ = all;
     children_ = scene_->getNumChildren();
     section_ = section;
@@ -259,9 +265,11 @@ class Sun::Maps : public osg::Node {
         const double step = moves * half;
         area = {{step * std::round(at.x() / step), step * std::round(at.y() / step)}, half};
       }
-      level.is_due = changed || !(area == level.area);
+      level.is_stale = level.is_stale || changed_a_little;
+      level.is_due = changed || !(area == level.area) || (resumed && level.is_stale);
+      level.is_stale = level.is_stale && !level.is_due;
       // A map of the whole scene needs none beyond it.
-      if (i > 0 && drawn_[i - 1].area.half == all.radius()) level.is_due = false;
+      if (i > 0 && drawn_[i - 1].area.half == all.radius()) level.is_due = level.is_stale = false;
       level.area = area;
       const osg::Vec2d& c = area.centre;
       level.camera->setProjectionMatrixAsOrtho(c.x() - area.half, c.x() + area.half, c.y() - area.half,
@@ -269,9 +277,21 @@ class Sun::Maps : public osg::Node {
       const osg::Vec4d shown(c.x(), c.y(), area.half, 2.0 * area.half / tile);
       tiles_->setElement(static_cast<unsigned>(i), osg::Vec4(shown));
     }
+    refresh_one();
     // Depth is 0 at the scene's end towards the sun and 1 at the other.
     const osg::Matrixd depth(1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1.0 / (far - near), 0, 0, 0, -near / (far - near), 1);
     to_map_->set(osg::Matrixf(to * depth));
+  }
+
+  /// Lets the next stale map be due, after the one that was the last.
+  void refresh_one() {
+    for (int i = 0; i < levels; ++i) {
+      last_ = (last_ + 1) % levels;
+      Level& level = drawn_[last_];
+      if (!std::exchange(level.is_stale, false)) continue;
+      level.is_due = true;
+      return;
+    }
   }
 
   Frame& frame_;
@@ -281,7 +301,9 @@ class Sun::Maps : public osg::Node {
   osg::ref_ptr<osg::Group> casters_;  // the scene, drawn as depths
   osg::ref_ptr<osg::Uniform> outdoors_, to_map_, tiles_;
   std::array<Level, levels> drawn_;
+  int last_ = levels - 1;  // of the maps that were drawn in turn
   bool shown_ = true;
+  bool paused_ = true;         // the frame before had no shadows
   osg::BoundingSphered seen_;  // the scene of which the maps are
   unsigned children_ = 0;
   std::uint64_t version_ = 0;

@@ -3,10 +3,11 @@
 /// The sun: its shadows, its glints, and how bright it is beside the lamp at the eye.
 ///
 /// Shadow maps lie in one texture, from fine about the eye to coarse for the whole scene, up to 512 m from the eye. A
-/// map moves by whole texels and is drawn only when it moves or the scene changes, so shadows do not tremble and a
-/// frame usually draws none. Its projection is parallel; nodes whose detail depends on the eye must draw there as they
-/// were drawn last. Surfaces without normals that are textured (photogrammetry) cast shadows and get none;
-/// blended surfaces cast none.
+/// map moves by whole texels and is drawn only when it moves or the scene changes, so shadows do not tremble. A drawn
+/// map draws the scene within it once more: none in most frames, one a frame while the detail follows the eye, up to
+/// four where the scene grows or is cut. Its projection is parallel; nodes whose detail depends on the eye must draw
+/// there as they were drawn last. Surfaces without normals that are textured (photogrammetry) cast shadows and get
+/// none; blended surfaces cast none.
 ///
 ///     roam::graphics::Sun sun(frame, *scene);
 ///     sun.set_outdoors(0.0);   // under a roof: between two frames
@@ -35,8 +36,10 @@ class Sun {
   /// Whether frames of Quality::full have shadows; true at first. With and without, surfaces are brighter where they
   /// face the sun, and smooth ones mirror it.
   void set_shadows(bool shown);
-  /// `version` is called in each frame with shadows. When it returns another number, the scene has changed. Without it,
-  /// only changes of the scene's bounds, direct children and section are seen.
+  /// `version` is called in each frame with shadows. When it returns another number, a little of the scene has changed:
+  /// each frame draws one map anew, in turn, until all have been. Without it, only changes of the scene's bounds,
+  /// direct children and section are seen, which draw all at once; so does the first frame with shadows after one
+  /// without.
   void watch(std::function<std::uint64_t()> version);
 
  private:

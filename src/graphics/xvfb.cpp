@@ -3,6 +3,7 @@
 #include <charconv>
 #include <chrono>
 #include <string>
+#include <vector>
 
 #include "process/find_program.h"
 #include "process/lines.h"
@@ -18,16 +19,16 @@ constexpr int display_descriptor = 3;
 
 }  // namespace
 
-Xvfb::Xvfb(int width, int height) {
+Xvfb::Xvfb(int width, int height, bool resets) {
   const std::filesystem::path program = process::find_program("Xvfb");
   if (program.empty()) throw Error("the program Xvfb is not on the PATH");
   process::Lines lines;
   const std::string size = std::to_string(width) + "x" + std::to_string(height) + "x24";
+  std::vector<std::string> arguments{
+      "-displayfd", std::to_string(display_descriptor), "-screen", "0", size, "-nolisten", "tcp", "+extension", "GLX"};
+  if (!resets) arguments.emplace_back("-noreset");
   process_ = std::make_unique<process::Child>(
-      program,
-      std::vector<std::string>{"-displayfd", std::to_string(display_descriptor), "-screen", "0", size, "-nolisten",
-                               "tcp", "-noreset", "+extension", "GLX"},
-      process::ChildSettings{.descriptors = {{lines.theirs(), display_descriptor}}});
+      program, arguments, process::ChildSettings{.descriptors = {{lines.theirs(), display_descriptor}}});
   lines.child_has_started();
 
   // Xvfb writes the line when it accepts connections.

@@ -13,7 +13,8 @@ namespace roam::graphics {
 class Xvfb : public osg::Referenced {
  public:
   /// A screen of `width` x `height` pixels. Throws roam::Error if Xvfb is not installed or does not start.
-  Xvfb(int width, int height);
+  /// `resets`: it begins anew when its last client leaves, as a person's own server may.
+  Xvfb(int width, int height, bool resets = false);
 
   [[nodiscard]] int display() const { return display_; }  ///< N of ":N"
   [[nodiscard]] pid_t pid() const { return process_->id(); }

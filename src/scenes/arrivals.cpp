@@ -19,10 +19,6 @@ constexpr double slice = 0.02;
 /// which a busy machine needs.
 constexpr double full_after = 0.1, idle_after = 5.0;
 
-/// Seconds in which a body would reach its surroundings. A pager loads all that is within six times this time ahead,
-/// and within this time behind.
-constexpr double ahead = 0.5;
-
 /// m/s. A pager counts on this speed at least.
 constexpr double least_pace = 4.0;
 

@@ -42,10 +42,16 @@ class Arrivals {
 /// Waits for the surroundings of places, as far as memory allows: for work that is not done in real time.
 class TilesAround {
  public:
+  /// Seconds in which a body would reach its surroundings. A pager loads all that is within six times this time ahead,
+  /// and within this time behind.
+  static constexpr double ahead = 0.5;
+  /// Metres that are worth waiting for around a body, however slow it is.
+  static constexpr double least_reach = 4.0;
+
   /// `goes_on`: waits end when it returns false. `stuck`: see Arrivals.
   TilesAround(Pager& pager, std::function<bool()> goes_on, double stuck = Arrivals::stuck_after);
 
-  /// Waits until everything readable within `reach` (m) of a body, and within half a second at `velocity`, is loaded;
+  /// Waits until everything readable within `reach` (m) of a body, and within `ahead` at `velocity`, is loaded;
   /// what lies in its direction comes first. If memory is too small for it, waits until nothing more arrives, and then
   /// for a smaller reach. If nothing arrives for `stuck` seconds, says so on standard error, and waits no more until
   /// something arrives.

@@ -127,9 +127,32 @@ TEST(GraphicsSun, DrawsTheMapsOnlyWhenTheyMoveOrTheSceneChanges) {
   std::uint64_t version = 0;
   yard.sun->watch([&] { return version; });
   EXPECT_EQ(drawn(), 1);
+  // A little has changed: one map a frame. The third holds all of the yard.
   ++version;
-  EXPECT_GT(drawn(), 1);
+  for (int map = 0; map < 3; ++map) EXPECT_EQ(drawn(), 2) << map;
   EXPECT_EQ(drawn(), 1);
+  yard.sun->set_shadows(false);
+  EXPECT_EQ(drawn(), 1);
+  ++version;
+  yard.sun->set_shadows(true);
+  EXPECT_EQ(drawn(), 4) << "all at once after a pause, as for a still";
+  EXPECT_EQ(drawn(), 1);
+}
+
+TEST(GraphicsSun, DrawsEachMapInTurnWhileTheSceneChangesInEachFrame) {
+  Yard yard;
+  std::uint64_t version = 0;
+  yard.sun->watch([&] { return ++version; });
+  (void)yard.stage.picture();
+  for (const double height : {30.0, 3.0}) {
+    // The board leaves its shadow's place, or comes back.
+    osg::Vec3Array& corners = dynamic_cast<osg::Vec3Array&>(*yard.board->getVertexArray());
+    for (osg::Vec3& corner : corners) corner.z() = static_cast<float>(height);
+    corners.dirty();
+    yard.board->dirtyGLObjects();
+    for (int map = 0; map < 3; ++map) (void)yard.stage.picture();
+    EXPECT_EQ(yard.share() < 80, height < 10.0) << height;
+  }
 }
 
 TEST(GraphicsSun, AShadowStaysWhereItIsWhenTheEyeMoves) {

@@ -12,14 +12,14 @@ namespace view_stores {
 /// A body in a room of 20 m x 4 m x 3 m, at (10, 0), looking along +x.
 class Tooled : public Driven {
  public:
-  explicit Tooled(bool has_store = false) { start(has_store); }
+  explicit Tooled(bool has_store = false) { start(has_store, room_obj()); }
   /// With options of its own, before begin().
-  explicit Tooled(const app::ViewOptions& with, bool has_store = false) {
+  explicit Tooled(const app::ViewOptions& with, bool has_store = false, const std::string& scene = room_obj()) {
     options.section = with.section;
     options.hide = with.hide;
     options.pass_hidden = with.pass_hidden;
     options.verify = with.verify;
-    start(has_store);
+    start(has_store, scene);
   }
   /// At a point of the picture, from -1 to 1.
   void click(double x, double y, int times = 1) {
@@ -70,8 +70,8 @@ class Tooled : public Driven {
     };
     return {place(x, now.getXmin(), now.getXmax()), place(upwards ? y : -y, now.getYmin(), now.getYmax())};
   }
-  void start(bool has_store) {
-    write_scene();
+  void start(bool has_store, const std::string& scene) {
+    write_scene(scene);
     options.size = "640x360";  // the panel of the status leaves room for the plan
     options.at = {10, 0, 0.95, 0};
     if (has_store) build();

@@ -88,7 +88,7 @@ TEST(Hold, TellsWhatASlowedBodyWaitsFor) {
   Hold hold;
   hold.take(walker, {1.4, 0, 0}, walker.step({.velocity = {1.4, 0, 0}}, 1.0 / 60.0).elapsed);
   EXPECT_EQ(hold.told().text, "slowed: loading ahead");
-  EXPECT_EQ(hold.told("3 pages to come from a.org").text, "slowed: 3 pages to come from a.org");
+  EXPECT_EQ(hold.told("3 tiles to come from a.org").text, "slowed: 3 tiles to come from a.org");
 }
 
 TEST(Hold, TellsOfABodyThatDoesNotFit) {

@@ -161,10 +161,11 @@ TEST(ViewPages, ShowTheObjectsThatAreNotHidden) {
   };
   EXPECT_EQ(indices(), (std::vector<unsigned>{2, 1, 0, 1, 0, 2})) << "hidden from the start";
   objects.set_hidden(0, true);
-  roam::app::show_objects(*node, *objects.flags());
+  EXPECT_TRUE(roam::app::show_objects(*node, *objects.flags()));
+  EXPECT_FALSE(roam::app::show_objects(*node, *objects.flags())) << "it shows that already";
   EXPECT_EQ(geometry.getNodeMask(), 0u);
   objects.show_all();
-  roam::app::show_objects(*node, *objects.flags());
+  EXPECT_TRUE(roam::app::show_objects(*node, *objects.flags()));
   EXPECT_NE(geometry.getNodeMask(), 0u);
   EXPECT_EQ(indices().size(), 9u);
 }

@@ -206,7 +206,8 @@ TEST(OpenSection, LetsTheBodyThroughWhatIsHiddenWhole) {
   const ViewReport report = open.session->finish();
   EXPECT_EQ(std::count(report.notes.begin(), report.notes.end(), "The body passes through what is hidden."), 1)
       << "it is said on the console";
-  EXPECT_EQ(json_report(report)["hidden"]["passed"], true);
+  EXPECT_EQ(json_report(report)["section_passed"], true);
+  EXPECT_EQ(json_report(shut.session->finish())["section_passed"], false);
 }
 
 TEST(OpenSection, LeavesWhatIsSeenInPartSolid) {
@@ -255,6 +256,15 @@ TEST(OpenSection, OfAStoreLetsTheBodyThroughToo) {
   d.session->hidden().pass_through(false);
   d.session->roamer().setPose({10, 0, 1.5}, 0.0, 0.0);
   EXPECT_NEAR(flies_to(d), 19.7, 0.02);
+}
+
+TEST(OpenSection, OfAStoreIsReportedApartFromItsObjects) {
+  ViewOptions options = with_section({"x<15"}, true);
+  options.hide = {"front"};
+  const Json json = json_report(Tooled(options, true).session->finish());
+  EXPECT_EQ(json["hidden"]["objects"], 1);
+  EXPECT_EQ(json["hidden"]["passed"], false);
+  EXPECT_EQ(json["section_passed"], true);
 }
 
 double pace(Tooled& d) { return glm::length(d.session->roamer().walker()->pace()); }
@@ -317,6 +327,22 @@ TEST(OpenSection, FreesTheBodyOfAWallThatIsSeenAgain) {
   EXPECT_FALSE(walker.held());
   EXPECT_NEAR(d.place().x, 19.7, 0.02) << "on the side of the wall where its centre was";
   EXPECT_TRUE(d.session->hidden().met().space->fits(walker.body(), walker.position()));
+}
+
+TEST(OpenSection, KeepsTheBodyBetweenTheFacesOfAThickWallUntilItIsOpenAgain) {
+  const std::string wall =
+      "v 12 -2 0\nv 12 2 0\nv 12 2 3\nv 12 -2 3\nv 16 -2 0\nv 16 2 0\nv 16 2 3\nv 16 -2 3\n"
+      "o wall\nf 9 10 11 12\nf 16 15 14 13\n";
+  Tooled d(with_section({"x<11"}, true), false, room_obj() + wall);
+  d.session->roamer().setMode(Mode::fly);
+  d.press('w');
+  ASSERT_TRUE(d.until([&] { return d.place().x > 13.5; }));
+  d.release('w');
+  d.session->hidden().pass_through(false);
+  EXPECT_NEAR(flies_to(d), 15.7, 0.02) << "no triangle cuts the body, so nothing frees it";
+  EXPECT_FALSE(d.session->roamer().walker()->held());
+  d.session->hidden().pass_through(true);
+  EXPECT_GT(flies_to(d), 20.3);
 }
 
 /// A picture of the room from above; with a section, its roof is not shown.

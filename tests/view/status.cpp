@@ -212,6 +212,13 @@ TEST(Stores, AreOfferedForLargeScenes) {
   EXPECT_TRUE(is_large(0, 21'000'000));
 }
 
+TEST(Status, SaysWhatIsToComeFromAServer) {
+  EXPECT_EQ(coming_text(12, "a.org"), "12 tiles to come from a.org");
+  EXPECT_EQ(coming_text(1, "a.org"), "1 tile to come from a.org");
+  EXPECT_EQ(coming_text(0, "a.org"), "");
+  EXPECT_EQ(coming_text(12, ""), "");
+}
+
 TEST(Status, SaysHowTheStoreIs) {
   Status status;
   status.mode = Mode::walk;

@@ -1,6 +1,11 @@
 // roam view builds the store of a scene while one roams in it, and changes to it.
+#include <chrono>
+#include <future>
 #include <glm/geometric.hpp>
+#include <memory>
+#include <thread>
 
+#include "view/freeing.h"
 #include "view_stores.h"
 
 namespace {
@@ -42,6 +47,33 @@ TEST(ViewStoreBuilding, BuildsAStoreMeanwhileAndChangesToIt) {
   const verification::Verification proof = verify(report.meshes, report.pieces);
   EXPECT_GT(proof.pieces, 300u);
   EXPECT_EQ(proof.violations, 0u);
+}
+
+TEST(Freeing, MakesNobodyWaitForWhatIsDropped) {
+  struct Slow {
+    std::shared_future<void> goes_on;
+    std::thread::id& freed_by;
+    ~Slow() {
+      goes_on.wait_for(std::chrono::seconds(20));
+      freed_by = std::this_thread::get_id();
+    }
+  };
+  std::promise<void> promise;
+  const std::shared_future<void> goes_on = promise.get_future().share();
+  std::thread::id freed_by[2];
+  auto freeing = std::make_shared<Freeing>();
+  for (std::thread::id& by : freed_by) {
+    std::shared_ptr<Slow> slow(new Slow{goes_on, by});
+    slow = Freeing::later(freeing, std::move(slow));
+    const std::shared_ptr<Slow> another_owner = slow;
+  }
+  EXPECT_EQ(freed_by[0], std::thread::id()) << "it waits elsewhere";
+  promise.set_value();
+  freeing.reset();
+  for (const std::thread::id by : freed_by) {
+    EXPECT_NE(by, std::thread::id()) << "all is freed at the end";
+    EXPECT_NE(by, std::this_thread::get_id());
+  }
 }
 
 TEST(ViewStoreBuilding, BringsAStaleStoreUpToDate) {

@@ -18,8 +18,7 @@
 namespace roam::app {
 namespace {
 
-constexpr double ahead = 0.5;              // s: tiles that are waited for
-constexpr double least_reach = 30.0;       // m: walls and roofs that decide how light it is
+constexpr double reach_of_light = 30.0;    // m: walls and roofs that decide how light a picture is
 constexpr double failure_period = 10.0;    // s: minimum between two notes of failed tiles
 constexpr std::size_t most_failures = 20;  // named in the report
 
@@ -62,6 +61,8 @@ bool Arrival::receive(const Seen& seen) {
     return true;
   }
   loaded_ = loader_.take();
+  loaded_->world = Freeing::later(freeing_, std::move(loaded_->world));
+  loaded_->pager = Freeing::later(freeing_, std::move(loaded_->pager));
   if (plan_.profile) {
     demand_belongs(*plan_.profile, loaded_->identity, scene_names_);
     app::tell(describe(*plan_.profile));
@@ -124,26 +125,20 @@ void Arrival::tell_where_put() {
 void Arrival::change_to(std::shared_ptr<Pager> pager) {
   if (is_ghost_only()) roamer_.controls().rebind(std::exchange(collision_keys_, {}));
   around_.reset();
-  auto before = std::exchange(pager_, std::move(pager));
+  pager_ = Freeing::later(freeing_, std::move(pager));
   roamer_.setSpace(pager_);
   news_.tell(fmt::format("the walls come from {} now", pager_->store().name()));
-  std::shared_ptr<const World> world;
-  if (loaded_) {
-    loaded_->pager.reset();
-    world = std::exchange(loaded_->world, nullptr);
-  }
-  // Freeing gigabytes takes longer than a frame; so may a pager's last read.
-  freeing_ = std::async(std::launch::async, [world = std::move(world), before = std::move(before)]() mutable {
-    world.reset();
-    before.reset();
-  });
+  if (!loaded_) return;
+  loaded_->pager.reset();
+  loaded_->world.reset();
 }
 
 void Arrival::wait_for_tiles(double seconds) {
   const Walker& walker = *roamer_.walker();
   if (!pager_) return;
   if (!around_) around_.emplace(*pager_, [] { return !interrupted(); });
-  const double reach = std::max(least_reach, std::max(plan_.walker.speed, roamer_.speed()) * (ahead + seconds));
+  const double pace = std::max(plan_.walker.speed, roamer_.speed());
+  const double reach = std::max(reach_of_light, pace * (TilesAround::ahead + seconds));
   around_->wait(walker.body(), walker.position(), walker.velocity(), reach);
 }
 
@@ -195,8 +190,7 @@ void Arrival::fill(Status& status) const {
   if (pager_) {
     status.paging = pager_->stats();
     status.world_bytes = status.paging->memory;
-    const std::string_view host = web_host(pager_->store().name());
-    if (!host.empty()) status.coming = fmt::format("{} pages to come from {}", status.paging->wanted, host);
+    status.coming = coming_text(status.paging->wanted, web_host(pager_->store().name()));
   } else if (loaded_) {
     status.world_bytes = loaded_->world->stats().bytes;
   }

@@ -2,7 +2,6 @@
 /// \file
 /// The body's arrival in the scene, and the collision that it uses there.
 
-#include <future>
 #include <memory>
 #include <optional>
 #include <string>
@@ -10,6 +9,7 @@
 #include "osgRoam/Manipulator.h"
 #include "scenes/arrivals.h"
 #include "view/collision_loader.h"
+#include "view/freeing.h"
 #include "view/news.h"
 #include "view/options.h"
 #include "view/pose.h"
@@ -62,7 +62,8 @@ class Arrival {
   /// The number of the collision's triangles; 0: not known.
   [[nodiscard]] std::uint64_t triangles() const;
 
-  /// Makes the body collide with a store. The body stays where it is. Another thread frees the previous collision.
+  /// Makes the body collide with a store. The body stays where it is. Another thread frees the previous collision,
+  /// whoever keeps it longest.
   void change_to(std::shared_ptr<Pager> pager);
 
   /// Waits for the tiles around the body that it may reach in `seconds`, as long as any are on their way; see
@@ -90,6 +91,7 @@ class Arrival {
   bool needs_collision_;  ///< a path or --verify: a ghost does not suffice
   osgRoam::Manipulator& roamer_;
   News& news_;
+  std::shared_ptr<Freeing> freeing_ = std::make_shared<Freeing>();
   std::optional<Collision> loaded_;
   std::shared_ptr<Pager> pager_;
   std::optional<TilesAround> around_;  ///< of a body that does not move in real time
@@ -100,7 +102,6 @@ class Arrival {
   std::string failure_told_;     ///< the store's failure noted last
   double failure_told_at_ = -1e9;
   CollisionLoader loader_;
-  std::future<void> freeing_;  ///< frees the collision that a store replaced
 };
 
 }  // namespace roam::app

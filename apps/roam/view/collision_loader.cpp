@@ -10,9 +10,8 @@
 namespace roam::app {
 namespace {
 
-constexpr double longest_wait = 5.0;       // s, for the tiles around the start
-constexpr double short_wait = 0.1;         // s
-constexpr double least_start_reach = 4.0;  // m
+constexpr double longest_wait = 5.0;  // s, for the tiles around the start
+constexpr double short_wait = 0.1;    // s
 
 }  // namespace
 
@@ -86,7 +85,8 @@ void CollisionLoader::load_store(std::shared_ptr<const Store> store) {
   place_is_known_ = true;
   if (wish_.patient) {
     const Body body = Body::capsule(wish_.walker.radius, wish_.walker.height);
-    TilesAround(*loaded.pager, goes_on).wait(body, place, Vec3(0.0), std::max(least_start_reach, wish_.walker.speed));
+    const double reach = std::max(TilesAround::least_reach, wish_.walker.speed);
+    TilesAround(*loaded.pager, goes_on).wait(body, place, Vec3(0.0), reach);
     if (!goes_on()) throw Cancelled();
   } else {
     wait_at(*loaded.pager, wish_.walker, place, goes_on);

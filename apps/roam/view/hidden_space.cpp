@@ -74,7 +74,6 @@ void HiddenSpace::use(std::shared_ptr<const World> world, std::shared_ptr<Pager>
   pager_ = std::move(pager);
   open_.reset();
   ids_.clear();
-  passes_ = passes_ && (world_ != nullptr || pager_ != nullptr);
   if (world_ == nullptr) return;
   const std::vector<std::string>& names = arrival_.object_names();
   for (ObjectId id = 0; id < names.size(); ++id) ids_.emplace(names[id], id);
@@ -165,7 +164,8 @@ void HiddenSpace::fill(Status& status) const {
 
 void HiddenSpace::fill(ViewReport& report) const {
   report.hidden_objects = scene_.objects().count().hidden;
-  report.passes_hidden = passes_ && !keeps_objects();
+  report.passes_objects = passes_ && pager_ == nullptr;
+  report.passes_section = is_section_open();
 }
 
 }  // namespace roam::app

@@ -74,7 +74,7 @@ void SceneGraph::hide_objects() {
   frames_until_check_ = check_frames;
   const bool unsettled = paged_ || !is_over(state_) || is_compiling();
   // Once more after the last piece: it may have come since the last check.
-  if (changed || unsettled || unsettled_) show_objects(*group_, *objects_->flags());
+  if ((changed || unsettled || unsettled_) && show_objects(*group_, *objects_->flags())) ++shown_;
   unsettled_ = unsettled;
 }
 

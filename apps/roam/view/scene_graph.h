@@ -48,7 +48,7 @@ class SceneGraph {
   /// Whether the detail of some piece depends on the eye.
   [[nodiscard]] bool is_paged() const { return paged_; }
   /// A number that changes with the drawn pages and objects.
-  [[nodiscard]] std::uint64_t version() const { return loader_->pages().changes() + objects_version_; }
+  [[nodiscard]] std::uint64_t version() const { return loader_->pages().changes() + shown_; }
   /// Whether everything visible from here is in the graph. Call it once a frame: with pages, it is true after some
   /// frames without a new one.
   [[nodiscard]] bool is_complete();
@@ -80,6 +80,7 @@ class SceneGraph {
   std::optional<DisplayReport> report_;
   std::shared_ptr<SceneObjects> objects_;
   std::uint64_t objects_version_ = 0;  ///< that the graph shows
+  std::uint64_t shown_ = 0;            ///< how often objects were hidden or shown in the graph
   int frames_until_check_ = 0;
   bool unsettled_ = false;  ///< pieces could still arrive at the last check of what is hidden
   std::unique_ptr<DisplayLoader> loader_;

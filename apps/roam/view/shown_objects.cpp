@@ -12,14 +12,17 @@ class Kept : public osg::Referenced {
  public:
   Kept(std::vector<DisplayRun> runs, osg::DrawElementsUShort* all) : runs_(std::move(runs)), all_(all) {}
 
-  void show(osg::Geometry& geometry, const SceneObjects::Flags& flags) {
-    if (std::exchange(version_, flags.version) == flags.version) return;
+  /// Returns whether it changed anything.
+  bool show(osg::Geometry& geometry, const SceneObjects::Flags& flags) {
+    if (std::exchange(version_, flags.version) == flags.version) return false;
     const auto hides = [&](const DisplayRun& run) { return flags.hides(run.object); };
     const bool some = std::any_of(runs_.begin(), runs_.end(), hides);
     const bool all = some && std::all_of(runs_.begin(), runs_.end(), hides);
+    const bool was_shown = geometry.getNodeMask() != 0u;
     geometry.setNodeMask(all ? 0u : ~0u);
-    if (all || (!some && geometry.getPrimitiveSet(0) == all_.get())) return;
+    if (all || (!some && geometry.getPrimitiveSet(0) == all_.get())) return was_shown == all;
     geometry.setPrimitiveSet(0, some ? part(flags).get() : all_.get());
+    return true;
   }
 
  private:
@@ -45,11 +48,13 @@ class Show : public osg::NodeVisitor {
     setNodeMaskOverride(~0u);  // what is hidden may be shown again
   }
   void apply(osg::Geometry& geometry) override {
-    if (auto* const kept = dynamic_cast<Kept*>(geometry.getUserData())) kept->show(geometry, flags_);
+    if (auto* const kept = dynamic_cast<Kept*>(geometry.getUserData())) has_changed_ |= kept->show(geometry, flags_);
   }
+  [[nodiscard]] bool has_changed() const { return has_changed_; }
 
  private:
   const SceneObjects::Flags& flags_;
+  bool has_changed_ = false;
 };
 
 }  // namespace
@@ -63,9 +68,10 @@ void keep_objects(osg::Geometry& geometry, std::vector<DisplayRun> runs, const S
   geometry.setUserData(kept);
 }
 
-void show_objects(osg::Node& node, const SceneObjects::Flags& flags) {
+bool show_objects(osg::Node& node, const SceneObjects::Flags& flags) {
   Show show(flags);
   node.accept(show);
+  return show.has_changed();
 }
 
 }  // namespace roam::app

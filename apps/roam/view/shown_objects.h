@@ -15,7 +15,8 @@ namespace roam::app {
 /// with numbers of SceneObjects. The geometry must have one primitive set of indices, and is not in use yet.
 void keep_objects(osg::Geometry& geometry, std::vector<DisplayRun> runs, const SceneObjects::Flags& flags);
 
-/// Draws only what is not hidden in all such geometries below `node`. Call it between two frames.
-void show_objects(osg::Node& node, const SceneObjects::Flags& flags);
+/// Draws only what is not hidden in all such geometries below `node`. Call it between two frames. Returns whether it
+/// changed any.
+bool show_objects(osg::Node& node, const SceneObjects::Flags& flags);
 
 }  // namespace roam::app

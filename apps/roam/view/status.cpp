@@ -186,6 +186,11 @@ Told status_message(const Status& status) {
   return message;
 }
 
+std::string coming_text(std::uint64_t tiles, std::string_view server) {
+  if (tiles == 0 || server.empty()) return {};
+  return fmt::format("{} {} to come from {}", tiles, tiles == 1 ? "tile" : "tiles", server);
+}
+
 std::string byte_text(std::uint64_t bytes) {
   constexpr double mega = 1e6;
   const double count = static_cast<double>(bytes) / mega;

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -68,7 +69,7 @@ struct Status {
   std::string section;                ///< what hides a part of the scene, and whether it stops the body; may be empty
   std::vector<Told> news;             ///< at this moment
   Told hold;
-  std::string coming;  ///< the tiles on their way from a web server; empty: none
+  std::string coming;  ///< see coming_text
 };
 
 /// The lines from top to bottom. The first alone is the minimal display.
@@ -79,6 +80,9 @@ struct Status {
 
 /// "collision 43 %: 1.2 M triangles, 8 s left"; empty when it is done.
 [[nodiscard]] std::string load_text(const char* what, const LoadState& state);
+
+/// "12 tiles to come from example.org"; empty if there are none, or no web server.
+[[nodiscard]] std::string coming_text(std::uint64_t tiles, std::string_view server);
 
 /// The finished share of the loading, in [0, 1]; negative if all of it is finished.
 [[nodiscard]] double load_share(const LoadState& display, const LoadState& collision);

@@ -109,11 +109,12 @@ Json json_report(const ViewReport& report) {
   for (const Measurement& measurement : report.measurements) json["measurements"].push_back(to_json(measurement));
   json["probes"] = Json::array();
   for (const ProbeReply& reply : report.probes) json["probes"].push_back(to_json(reply));
-  json["hidden"] = {{"objects", report.hidden_objects}, {"passed", report.passes_hidden}};
+  json["hidden"] = {{"objects", report.hidden_objects}, {"passed", report.passes_objects}};
   json["section"] = Json::array();
   for (const auto& [normal, distance] : report.section.planes) {
     json["section"].push_back(Json::object({{"normal", to_json(normal)}, {"distance_m", distance}}));
   }
+  json["section_passed"] = report.passes_section;
   json["section_box"] = nullptr;
   if (const auto& box = report.section.box) {
     json["section_box"] = Json::object({{"lower", to_json(box->lower)}, {"upper", to_json(box->upper)}});

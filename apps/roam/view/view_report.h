@@ -68,7 +68,8 @@ struct ViewReport {
   std::vector<ProbeReply> probes;
   SectionShape section;              ///< at the end
   std::size_t hidden_objects = 0;    ///< at the end
-  bool passes_hidden = false;        ///< the body passes through what is hidden
+  bool passes_objects = false;       ///< the body passes through hidden objects, if there are any
+  bool passes_section = false;       ///< the body passes through what the section hides
   std::vector<std::string> written;  ///< files
   std::vector<Mesh> meshes;          ///< for --verify; none if the session began with a store
   verification::PieceLog pieces;     ///< for --verify
