@@ -137,7 +137,7 @@ typedef struct roam_store_options {
   int32_t loaders;  /**< loading threads, 1 to 16; 0: 1 for a folder, up to 8 for a web server */
   int32_t reserved; /**< 0 */
   double horizon;   /**< seconds of motion ahead that are loaded; 0: 3 */
-  /* Since interface 2; for a store on a web server, see roam::WebAccess in roam/store.h. */
+  /* Since interface 2; only for a store on a web server, a folder needs none: see roam::WebAccess in roam/store.h. */
   const char* cache;    /**< file for a cache, which processes may share; NULL: none */
   uint64_t cache_bytes; /**< size of that file, >= 4 MiB; 0: 1 GiB */
   double patience;      /**< seconds that a failing request is tried again; 0: 20 */

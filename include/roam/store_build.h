@@ -99,17 +99,18 @@ class NothingPlanned : public Error {
 /// Runs plan_store, build_task for each task, and merge_store. Throws as they do.
 StoreBuildReport build_store(const StoreBuildOptions& options);
 
-/// Reads share `i` of the changed parts of the scene, 0 <= i < `options.tasks`. The shares take about equally long.
-/// Like build_task it may run several times, also at once, on any machines. Nothing depends on it: plan_store reads
-/// each part of which the files here are missing, damaged, or older than the scene. A part is never divided. Throws as
-/// plan_store, except for other builds; NoSuchTask.
+/// Reads the changed parts of share `i` of the scene, 0 <= i < `options.tasks`. To read all of each share takes about
+/// equally long; a part is never divided. Like build_task it may run several times, also at once, on any machines, and
+/// beside other builds of the store. Nothing depends on it: plan_store reads each part of which the files here are
+/// missing, damaged, or older than the scene. Throws NoSuchTask, and as plan_store.
 void read_share(const StoreBuildOptions& options, std::uint64_t i, StoreBuildReport& report);
 
-/// Reads changed parts, divides the scene into shards, and shares those that must be built out among tasks, about
-/// equally long. Returns the number of tasks; 0 if `unchanged`. Planning again gives the same plan, and keeps shards
-/// that are built; another number of tasks only shares them out anew. Throws roam::Error if the scene cannot be read,
-/// the folder is neither empty nor a store, another build is at work on it (the message names its process), or memory
-/// or disk are too small, or the store in `output` has no code of the key; roam::Cancelled.
+/// Reads changed parts, and those that share a shard with them, divides the scene into shards, and shares those that
+/// must be built out among tasks, about equally long. Returns the number of tasks; 0 if `unchanged`. Planning again
+/// gives the same plan, and keeps shards that are built; another number of tasks only shares them out anew. Throws
+/// roam::Error if the scene cannot be read, the folder is neither empty nor a store, another build is at work on it
+/// (the message names its process), or memory or disk are too small, or the store in `output` has no code of the key;
+/// roam::Cancelled.
 std::uint64_t plan_store(const StoreBuildOptions& options, StoreBuildReport& report);
 
 /// Builds the shards of task `i` of the plan in `options.output`, 0 <= i < plan_store(). Uses `key`, `memory`,

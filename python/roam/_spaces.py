@@ -213,10 +213,12 @@ class Store(Space):
     @classmethod
     def open(cls, path: Path, memory: Union[int, str] = "64M", *, loaders: int = 0,
              patience: float = 10.0, cache: Optional[Path] = None, cache_size: Union[int, str] = "1G",
-             redirects: bool = False) -> "Store":
+             redirects: bool = False, web_patience: float = 20.0) -> "Store":
         """Opens a store. `memory`: bytes, or a text such as "64M", at least 8M. `loaders`: loading threads, 1 to 16; 0:
-        1 for a folder, up to 8 for a web server. `path` may be an address; then `cache` is a file of `cache_size` for
-        what is read, and `redirects` follows the server to other hosts and folders."""
+        1 for a folder, up to 8 for a web server. `patience`: seconds that a query waits for what it needs. `path` may
+        be an address; only then `cache` is a file of `cache_size` for what is read, `redirects` follows the server to
+        other hosts and folders, and `web_patience` is the time in seconds, 0.1 to 3600, for which a failing request is
+        tried again."""
         patience = _arrays.number(patience, "patience")
         if not 0.0 <= patience < float("inf"):
             raise ValueError(f"patience must be at least 0 seconds; it is {patience}")
@@ -224,6 +226,7 @@ class Store(Space):
                                         loaders=_arrays.whole(loaders, "loaders", 0, 16),
                                         cache=None if cache is None else _arrays.path_text(cache),
                                         cache_bytes=_arrays.memory_bytes(cache_size, "cache_size"),
+                                        patience=_arrays.number(web_patience, "web_patience"),
                                         redirects=bool(redirects))
         text, made = _arrays.path_text(path), SpaceHandle(threading.Lock(), patience)
         run(None, lambda note: call("roam_store_open", text, ctypes.byref(options), made.handle.address))

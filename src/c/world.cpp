@@ -11,6 +11,7 @@
 #include "c/structs.h"
 #include "c/walker.h"
 #include "roam/version.h"
+#include "store/web_files.h"
 
 namespace roam::c {
 namespace {
@@ -74,6 +75,7 @@ roam_status roam_store_open(const char* path, const roam_store_options* options,
     if (how.cache_bytes != 0) web.cache_bytes = how.cache_bytes;
     if (how.patience != 0.0) web.patience = how.patience;
     web.redirects = how.redirects != 0;
+    about_arguments([&] { roam::store::check(web); });
     auto opened = roam::Store::open(path, roam::Store::usual_memory, web);
     auto space = about_arguments([&] { return std::make_shared<StoreSpace>(std::move(opened), pager); });
     auto handle = std::make_unique<roam_space>();

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "cli/tell.h"
+#include "store/read_ahead.h"
 
 namespace roam::app {
 namespace {
@@ -48,24 +49,38 @@ double Arrivals::silence() const { return seconds_since(last_); }
 TilesAround::TilesAround(Pager& pager, std::function<bool()> goes_on, double stuck)
     : pager_(pager), goes_on_(std::move(goes_on)), stuck_(stuck) {}
 
+/// Whether tiles have failed that a web server may still send: the pager tries them again.
+bool TilesAround::failed_may_come() {
+  const PagerStats now = pager_.stats();
+  lost_ = std::min(lost_, now.failed);
+  return now.failed > lost_ && Store::is_address(pager_.store().name()) &&
+         now.last_failure.find(store::wrong_checksum) == std::string::npos;
+}
+
 void TilesAround::wait(const Body& body, const Vec3& place, const Vec3& velocity, double reach) {
   const double speed = glm::length(velocity), within = std::min(std::max(reach, ahead * speed), fits_);
   const double pace = std::max({speed, within / ahead, least_pace});
   const Vec3 heading = speed > 0.0 ? velocity / speed : Vec3(1.0, 0.0, 0.0);
-  if (pager_.wait(body, place, pace * heading, slice, within / pace)) {
+  if (pager_.wait(body, place, pace * heading, slice, within / pace) && !failed_may_come()) {
     fits_ *= recovery;
     return;
   }
   if (pager_.stats().loads == stuck_at_) return;
   Arrivals arrivals(pager_, stuck_);
-  while (goes_on_() && arrivals.wait(body, place, pace * heading, within / pace)) {
+  const auto more_may_come = [&] {
+    return arrivals.wait(body, place, pace * heading, within / pace) ||
+           (arrivals.settled() && failed_may_come() && !arrivals.stuck());
+  };
+  while (goes_on_() && more_may_come()) {
   }
-  if (arrivals.settled() || !goes_on_()) return;
+  if (!goes_on_() || (arrivals.settled() && !failed_may_come())) return;
+  const PagerStats now = pager_.stats();
   if (!arrivals.stuck()) {
-    fits_ = 0.5 * within;
+    if (now.full) fits_ = 0.5 * within;
     return;
   }
-  stuck_at_ = pager_.stats().loads;
+  stuck_at_ = now.loads;
+  lost_ = now.failed;
   tell(fmt::format("note: nothing has come from {} for {:g} s; it is no longer waited for, and stays solid",
                    pager_.store().name(), stuck_));
 }

@@ -52,17 +52,21 @@ class TilesAround {
   TilesAround(Pager& pager, std::function<bool()> goes_on, double stuck = Arrivals::stuck_after);
 
   /// Waits until everything readable within `reach` (m) of a body, and within `ahead` at `velocity`, is loaded;
-  /// what lies in its direction comes first. If memory is too small for it, waits until nothing more arrives, and then
-  /// for a smaller reach. If nothing arrives for `stuck` seconds, says so on standard error, and waits no more until
-  /// something arrives.
+  /// what lies in its direction comes first. Tiles that a web server did not send are readable until nothing else has
+  /// come for `stuck` seconds: the pager tries them again. If memory is too small for it, waits until nothing more
+  /// arrives, and then for a smaller reach. If nothing arrives for `stuck` seconds, says so on standard error, and
+  /// waits no more until something arrives.
   void wait(const Body& body, const Vec3& place, const Vec3& velocity, double reach);
 
  private:
+  [[nodiscard]] bool failed_may_come();
+
   Pager& pager_;
   std::function<bool()> goes_on_;
   double stuck_;
   double fits_ = std::numeric_limits<double>::infinity();               ///< metres, as far as known
   std::uint64_t stuck_at_ = std::numeric_limits<std::uint64_t>::max();  ///< loads when nothing more arrived
+  std::uint64_t lost_ = 0;                                              ///< failed tiles that are no longer waited for
 };
 
 }  // namespace roam::app

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cstring>
+#include <string_view>
 
 #include "index/grid.h"
 #include "store/files.h"
@@ -49,7 +50,8 @@ void TileReader::expect(std::uint64_t page, const TileEntry& entry) { ahead_.beg
 std::vector<std::byte> TileReader::read(const CheckedRange& range, const std::string& what) {
   ReadAhead::Result result = ahead_.take(range);
   if (result.problem) {
-    throw Unusable(store_.name, what + " in " + range.file, result.problem, result.problem != wrong_checksum);
+    throw Unusable(store_.name, what + " in " + range.file, result.problem,
+                   std::string_view(result.problem) != wrong_checksum);
   }
   return std::move(result.bytes);
 }

@@ -104,10 +104,17 @@ class WebFiles : public StoreBytes {
 
 }  // namespace
 
-WebStore web_store(const std::string& text, const WebAccess& access) {
+void check(const WebAccess& access) {
   if (!(access.patience >= 0.1 && access.patience <= 3600.0)) {
     throw Error(fmt::format("a patience of {} s with a web server: 0.1 to 3600 are possible", access.patience));
   }
+  if (!access.cache.empty() && access.cache_bytes < web::DiskCache::least_bytes) {
+    throw Error(access.cache.string(), fmt::format("a cache has {} MiB at least", web::DiskCache::least_bytes >> 20));
+  }
+}
+
+WebStore web_store(const std::string& text, const WebAccess& access) {
+  check(access);
   web::Address address(text);
   if (!access.query.empty()) {
     if (!address.query().empty()) throw Error(address.shown(), "the address has a query already; give it one");

@@ -15,6 +15,9 @@ struct WebStore {
   std::string name;  ///< the address without its query
 };
 
+/// Throws roam::Error for values out of range.
+void check(const WebAccess& access);
+
 /// Requests nothing yet. Throws roam::Error for addresses and caches that cannot be used.
 [[nodiscard]] WebStore web_store(const std::string& address, const WebAccess& access);
 

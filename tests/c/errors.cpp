@@ -54,11 +54,11 @@ TEST(CErrors, ACacheIsForWebServersAndHasASize) {
   options.cache = "web.cache";
   options.cache_bytes = 1;
   roam_space* store = nullptr;
-  EXPECT_EQ(roam_store_open("http://127.0.0.1:1/x.roam", &options, &store), ROAM_UNREADABLE);
+  EXPECT_EQ(roam_store_open("http://127.0.0.1:1/x.roam", &options, &store), ROAM_INVALID);
   EXPECT_NE(std::string(roam_error()).find("4 MiB"), std::string::npos) << roam_error();
   options.cache = nullptr;
   options.patience = -1.0;
-  EXPECT_EQ(roam_store_open("http://127.0.0.1:1/x.roam", &options, &store), ROAM_UNREADABLE);
+  EXPECT_EQ(roam_store_open("http://127.0.0.1:1/x.roam", &options, &store), ROAM_INVALID);
   EXPECT_NE(std::string(roam_error()).find("patience"), std::string::npos) << roam_error();
 }
 

@@ -123,8 +123,14 @@ def test_a_store_answers_as_its_scene(room, store, tmp_path):
         roam.Store.open(store, memory="1M")
     with raises(ValueError, "cache_size"):
         roam.Store.open(store, cache_size="much")
-    with raises(OSError, "4 MiB"):
+    with raises(ValueError, "4 MiB"):
         roam.Store.open("http://127.0.0.1:1/x.roam", cache=tmp_path / "web.cache", cache_size="1M")
+    with raises(ValueError, "patience"):
+        roam.Store.open("http://127.0.0.1:1/x.roam", web_patience=-1)
+    begin = time.monotonic()
+    with raises(OSError, "no connection"):
+        roam.Store.open("http://127.0.0.1:1/x.roam", web_patience=0.1)
+    assert time.monotonic() - begin < 10
 
 
 def test_a_store_whose_files_are_cut_off(store):

@@ -3,11 +3,16 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
+#include <cstring>
+#include <fstream>
 #include <functional>
 #include <thread>
 #include <utility>
 
 #include "store/build/layout.h"
+#include "store/build/run.h"
+#include "store/files.h"
 #include "store_builds.h"
 
 namespace {
@@ -103,14 +108,66 @@ TEST_F(StoreShares, MayRunTwiceAtOnceAndBesideOtherNumbers) {
 }
 
 TEST_F(StoreShares, MayRunWhileThePlanReads) {
+  StoreBuildReport report;
+  const auto o = in("steps", 2);
   {
     const std::jthread share([this] { read(0, 1); });
-    StoreBuildReport report;
-    roam::plan_store(in("steps", 2), report);
+    roam::plan_store(o, report);
   }
-  EXPECT_EQ(plan_and_build(), 0U);
+  for (std::uint64_t i = 0; i < report.tasks; ++i) roam::build_task(o, i, report);
+  roam::merge_store(o, report);
   expect_the_same();
 }
+
+TEST_F(StoreShares, LoseNothingToAPlanThatFails) {
+  auto o = in("steps", 2);
+  const std::string run = folder_.file("steps/scratch/runs/of_a_share.run");
+  bool read = false;
+  o.progress = [&](const auto&) {
+    // A share reads while the plan has the lock.
+    if (!read && fs::exists(fs::path(run).parent_path())) {
+      std::ofstream(run) << 'x';
+      for (const std::string& file : scene_) std::ofstream(file, std::ios::trunc) << "no ply";
+      read = true;
+    }
+    return true;
+  };
+  StoreBuildReport report;
+  EXPECT_NE(refusal([&] { roam::plan_store(o, report); }), "");
+  EXPECT_TRUE(read);
+  EXPECT_TRUE(fs::exists(run));
+}
+
+TEST_F(StoreShares, AreReadForAStoreOfWhichTheRootIsDamaged) {
+  for (const char* damage : {"", "no name of a manifest\n"}) {
+    fs::remove_all(folder_.file("steps"));
+    plan_and_build();
+    std::ofstream(folder_.file("steps/CURRENT"), std::ios::trunc) << damage;
+    write_ply(scene_[1], field(20, 0.5, {30.0, 0.0, 1.0 + std::string(damage).size()}));
+    read(0, 2);
+    read(1, 2);
+    EXPECT_EQ(plan_and_build(), 0U) << damage;
+    roam::build_store(in("whole", 0));
+    expect_the_same();
+  }
+}
+
+TEST_F(StoreShares, TakeNoLongerToReadThanAllTheyDo) {
+  StoreBuildReport report;
+  const auto begin = std::chrono::steady_clock::now();
+  roam::read_share(in("steps", 1), 0, report);
+  EXPECT_GT(report.read_seconds, 0.0);
+  EXPECT_LE(report.read_seconds, std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
+}
+
+TEST_F(StoreShares, OfWhichARecordIsTooLargeAreReadAgain) {
+  read(0, 1);
+  fs::resize_file(scratch("scratch/parts")[1], std::uintmax_t{65} << 20);
+  EXPECT_EQ(plan_and_build(), 1U);
+  expect_the_same();
+}
+
+TEST_F(StoreShares, AreSharedOutInAnyNumber) { EXPECT_LE(read(0, std::uint64_t{1} << 62).parts_read, 1U); }
 
 TEST_F(StoreShares, OfWhichFilesAreDamagedOrForeignAreReadAgain) {
   const auto flip = [](const fs::path& path, std::uintmax_t at) {
@@ -174,6 +231,30 @@ TEST_F(StoreShares, WithADamagedBlockAreRefusedByATaskAndReadAgainByTheNextPlan)
   expect_the_same();
 }
 
+TEST_F(StoreShares, ThatOneMachineReadsWronglyStay) {
+  read(0, 1);
+  const auto o = in("steps", 1);
+  StoreBuildReport report;
+  roam::plan_store(o, report);
+  const fs::path run = scratch("scratch/runs")[1];
+  const roam::store::Folder store = roam::store::Folder::held(folder_.file("steps"), true);
+  const auto bytes = roam::store::read_file(store, "scratch/runs/" + run.filename().string(), 1 << 26);
+  std::uint64_t hash = 0;
+  std::memcpy(&hash, bytes.data() + bytes.size() - sizeof hash, sizeof hash);
+  const roam::store::RunReader reader(store, "scratch/runs/" + run.filename().string(), hash);
+  // What it has open is damaged; another file has the name.
+  std::fstream(run, std::ios::in | std::ios::out | std::ios::binary).seekp(100).put('?');
+  fs::rename(run, folder_.file("old"));
+  std::ofstream(run, std::ios::binary)
+      .write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+  roam::store::RunBlock block;
+  const std::string said = refusal([&] { reader.read(0, block); });
+  EXPECT_NE(said.find("is right when read again"), std::string::npos) << said;
+  roam::build_task(o, 0, report);
+  roam::merge_store(o, report);
+  expect_the_same();
+}
+
 TEST_F(StoreShares, OfAnOlderSceneAreReadAgain) {
   read(0, 1);
   write_ply(scene_[2], field(21, 0.5, {60.0, 0.0, 1.0}));
@@ -183,7 +264,7 @@ TEST_F(StoreShares, OfAnOlderSceneAreReadAgain) {
   // Of an update, only what has changed.
   write_ply(scene_[1], field(22, 0.5, {30.0, 0.0, 1.0}));
   EXPECT_EQ(read(0, 2).parts_read + read(1, 2).parts_read, 1U);
-  plan_and_build();
+  EXPECT_EQ(plan_and_build(), parts - 1U) << "those that lie in shards with it";
   roam::build_store(in("whole", 0));
   expect_the_same();
 }

@@ -118,6 +118,16 @@ std::optional<std::string> demand_authentic(const Work& work) {
   return there->info().hash;
 }
 
+/// The manifest in force, as far as it can be read: the plan mends a damaged root, or builds all of it again.
+std::optional<Manifest> readable_in_force(const Work& work) {
+  try {
+    demand_authentic(work);
+    return manifest_in_force(work.store);
+  } catch (const RootDamage&) {
+    return {};
+  }
+}
+
 void adopt_or_demand_authentic(const Work& work) {
   if (const auto hash = demand_authentic(work)) add_code(work.store, *hash, *work.options.key);
 }
@@ -249,11 +259,9 @@ void read_share(const StoreBuildOptions& options, std::uint64_t i, StoreBuildRep
     throw NoSuchTask(options.output.string(),
                      fmt::format("there is no share {} of {}: they are counted from 0", i, options.tasks));
   }
-  const Timer timer(report.read_seconds);
   std::vector<ScenePart> parts = listed_parts(work);  // before anything is written
   work.store = shared_output(options.output, options.through_link);
-  demand_authentic(work);
-  const std::optional<Manifest> in_force = manifest_in_force(work.store);
+  const std::optional<Manifest> in_force = readable_in_force(work);
   const bool all_anew = in_force && (in_force->lossless != options.lossless || in_force->format != format_version);
   const std::set<std::string> none_damaged;
   std::vector<PartRecord> records;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <future>
+#include <mutex>
 #include <utility>
 
 #include "store/authentic.h"
@@ -16,8 +17,13 @@ namespace roam::store {
 namespace {
 
 namespace fs = std::filesystem;
-/// Bytes. A record has a line for each half a million triangles.
+/// Bytes for what is made of the text of a record, which has a quarter of them at most. A larger record is ignored.
 constexpr std::uint64_t record_memory = 64u << 20;
+/// Bytes of a text of which the record fits into the memory that Work counts for each thread, together with it. Larger
+/// ones are read one by one.
+constexpr std::uint64_t small_record = 1u << 20;
+/// Files in a record at most. Those of a part with more are hashed again by whoever takes the record.
+constexpr std::size_t most_files = 20'000;
 /// Names are kept in a list that grows by doubling, and then in the bytes of the part file.
 constexpr std::uint64_t share_for_names = 4;
 
@@ -137,6 +143,23 @@ std::string valid(const std::string& text) {
   return Json::parse(Json(text).dump(-1, ' ', false, Json::error_handler_t::replace)).get<std::string>();
 }
 
+/// What a record file says; nothing if it is damaged or too large, or of another key or version.
+std::optional<RecordOfFiles> published_record(Work& work, const std::string& file) {
+  const std::uint64_t size = size_of(work.store, file).value_or(0);
+  if (size > record_memory / 4) return {};
+  std::unique_lock<std::mutex> alone(work.large_records, std::defer_lock);
+  if (size > small_record) alone.lock();
+  const std::optional<std::string> text = read_coded(work.store, file, record_memory, work.options.key);
+  if (!text) return {};
+  try {
+    const Json json = parse_json(*text, file, record_memory);
+    if (json.at("scratch_version").get<int>() != scratch_version) return {};
+    return RecordOfFiles{record_of(json), scene_files_of(json.at("files"))};
+  } catch (const std::exception&) {
+    return {};
+  }
+}
+
 }  // namespace
 
 std::string key_text(CurveKey key) {
@@ -191,27 +214,16 @@ std::string record_id(const std::string& name, const std::string& fingerprint) {
 void publish_record(const Work& work, const PartRecord& record, const SceneFiles& files) {
   Json json = json_of(record);
   json["scratch_version"] = scratch_version;
-  json["files"] = json_of(files);
+  json["files"] = files.size() <= most_files ? json_of(files) : Json::object();
   write_coded(work.store, record_file(record_id(record.info.name, "")),
               json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n", work.options.key);
 }
 
-std::optional<RecordOfFiles> find_record(const Work& work, const std::string& name) {
+std::optional<RecordOfFiles> find_record(Work& work, const std::string& name) {
   const Folder& store = work.store;
-  const std::string file = record_file(record_id(name, ""));
-  const std::optional<std::string> text = read_coded(store, file, record_memory, work.options.key);
-  if (!text) return {};
-  RecordOfFiles found;
-  try {
-    const Json json = parse_json(*text, file, record_memory);
-    if (json.at("scratch_version").get<int>() != scratch_version) return {};
-    found.record = record_of(json);
-    found.files = scene_files_of(json.at("files"));
-  } catch (const std::exception&) {
-    return {};  // the part is read again
-  }
-  PartRecord& record = found.record;
-  if (record.info.name != name) return {};
+  std::optional<RecordOfFiles> found = published_record(work, record_file(record_id(name, "")));
+  if (!found || found->record.info.name != name) return {};
+  PartRecord& record = found->record;
   for (std::size_t i = 0; i < record.runs.size(); ++i) {
     if (!is_run(store, run_file(record.id, i), record.runs[i].hash)) return {};
   }

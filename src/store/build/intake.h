@@ -44,8 +44,8 @@ struct RecordOfFiles {
   SceneFiles files;
 };
 /// What publish_record left in the scratch folder with the same key, perhaps on another machine. None if the part file
-/// is not there to the last byte, or a run is missing or has another end.
-[[nodiscard]] std::optional<RecordOfFiles> find_record(const Work& work, const std::string& name);
+/// is not there to the last byte, a run is missing or has another end, or the record is larger than any of its kind.
+[[nodiscard]] std::optional<RecordOfFiles> find_record(Work& work, const std::string& name);
 void publish_record(const Work& work, const PartRecord& record, const SceneFiles& files);
 
 /// Reads the part, as one of `readers` that run at once. Publishes its runs and its part file. The record lacks

@@ -82,7 +82,8 @@ void check_output(const StoreBuildOptions& options) {
 bool holds_results(const Folder& store) {
   const std::vector<std::string> names = names_in(store, "");
   if (std::count(names.begin(), names.end(), current_file) > 0 || is_file(store, plan_file)) return true;
-  for (const char* folder : {"packs", "parts", "manifests", "spare", "scratch/parts", "scratch/shards"}) {
+  for (const char* folder :
+       {"packs", "parts", "manifests", "spare", "scratch/runs", "scratch/parts", "scratch/shards"}) {
     for (const std::string& name : names_in(store, folder)) {
       if (!name.ends_with(files::temporary_suffix)) return true;
     }

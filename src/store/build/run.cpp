@@ -7,6 +7,7 @@
 #include <tbb/parallel_sort.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstddef>
 #include <cstring>
@@ -21,6 +22,8 @@ namespace {
 constexpr char run_magic[8] = {'r', 'o', 'a', 'm', 'r', 'u', 'n', '1'};
 /// Blocks encoded in parallel before they are written.
 constexpr std::size_t blocks_at_once = 32;
+
+constexpr const char* too_short = "it is too short";
 
 /// The head of a block. The vertices follow, then three 16-bit corners of each triangle, then a 32-bit number of each.
 struct BlockHeader {
@@ -190,28 +193,33 @@ bool is_run(const Folder& store, const std::string& name, std::uint64_t hash) {
 }
 
 RunReader::RunReader(const Folder& store, const std::string& name, std::uint64_t hash)
-    : store_(store), name_(name), descriptor_(open_file(store, name, O_RDONLY)) {
+    : store_(store), name_(name), hash_(hash), descriptor_(open_file(store, name, O_RDONLY)) {
   if (!descriptor_.is_open()) fail_to_read();
+  if (const char* const damage = load()) refuse(damage);
+}
+
+const char* RunReader::load() {
   struct stat status {};
   Footer footer{};
   if (::fstat(descriptor_.number(), &status) != 0) fail_to_read();
+  number_ = {status.st_dev, status.st_ino};
   const auto size = static_cast<std::uint64_t>(status.st_size);
-  if (size < sizeof footer) refuse("it is too short");
-  get(size - sizeof footer, std::as_writable_bytes(std::span(&footer, 1)));
-  if (!footer.is_right(size)) refuse("its end is damaged");
-  if (footer.hash != hash) {
-    const std::string file = (store / name).string();
+  if (size < sizeof footer || !get(size - sizeof footer, std::as_writable_bytes(std::span(&footer, 1)))) {
+    return too_short;
+  }
+  if (!footer.is_right(size)) return "its end is damaged";
+  if (footer.hash != hash_) {
+    const std::string file = (store_ / name_).string();
     throw Error::at(file,
                     fmt::format("{} is not the one of the plan: its part was read again since; plan again", file));
   }
   first_number_ = footer.first_number;
   index_.resize(static_cast<std::size_t>(footer.blocks));
   const auto bytes = std::as_writable_bytes(std::span(index_));
-  get(footer.index_offset, bytes);
-  if (xxh3(bytes) != footer.index_hash) refuse("its index is damaged");
-  for (const Entry& entry : index_) {
-    if (entry.bytes > most_block_bytes) refuse("its index is damaged");
-  }
+  if (!get(footer.index_offset, bytes)) return too_short;
+  const bool fits =
+      std::all_of(index_.begin(), index_.end(), [](const Entry& e) { return e.bytes <= most_block_bytes; });
+  return fits && xxh3(bytes) == footer.index_hash ? nullptr : "its index is damaged";
 }
 
 RunReader::Range RunReader::blocks(CurveKey first, CurveKey last) const {
@@ -225,21 +233,24 @@ RunReader::Range RunReader::blocks(CurveKey first, CurveKey last) const {
 }
 
 void RunReader::read(std::size_t block, RunBlock& out) const {
+  if (!decode(block, out)) refuse("a block of it is damaged");
+}
+
+bool RunReader::decode(std::size_t block, RunBlock& out) const {
   const Entry& entry = index_[block];
   out.bytes.resize(entry.bytes);
-  get(entry.offset, out.bytes);
-  if (xxh3(out.bytes) != entry.hash) refuse("a block of it is damaged");
+  if (!get(entry.offset, out.bytes) || xxh3(out.bytes) != entry.hash) return false;
   const std::byte* at = out.bytes.data();
   const auto take = [&at](void* to, std::size_t size) {
     std::memcpy(to, at, size);
     at += size;
   };
   BlockHeader header{};
-  if (out.bytes.size() < sizeof header) refuse("a block of it is damaged");
+  if (out.bytes.size() < sizeof header) return false;
   take(&header, sizeof header);
   if (header.triangles > block_triangles || header.vertices > 3 * block_triangles ||
       out.bytes.size() != block_bytes(header)) {
-    refuse("a block of it is damaged");
+    return false;
   }
   out.vertices.resize(header.vertices);
   for (Vec3& v : out.vertices) {
@@ -258,7 +269,7 @@ void RunReader::read(std::size_t block, RunBlock& out) const {
     std::uint16_t corners[3];
     take(corners, sizeof corners);
     for (int c = 0; c < 3; ++c) {
-      if (corners[c] >= out.vertices.size()) refuse("a block of it is damaged");
+      if (corners[c] >= out.vertices.size()) return false;
       t[c] = out.vertices[corners[c]];
     }
   }
@@ -268,12 +279,14 @@ void RunReader::read(std::size_t block, RunBlock& out) const {
     take(&number, sizeof number);
     n = first_number_ + number;
   }
+  return true;
 }
 
-void RunReader::get(std::uint64_t offset, std::span<std::byte> out) const {
-  if (files::read_fully(descriptor_.number(), offset, out) == out.size()) return;
+/// False at the end of the file.
+bool RunReader::get(std::uint64_t offset, std::span<std::byte> out) const {
+  if (files::read_fully(descriptor_.number(), offset, out) == out.size()) return true;
   if (errno != 0) fail_to_read();
-  refuse("it is too short");
+  return false;
 }
 
 void RunReader::fail_to_read() const {
@@ -282,9 +295,27 @@ void RunReader::fail_to_read() const {
   throw Error::at(file, fmt::format("{} is gone: plan or build again, and its part is read again", file));
 }
 
+/// Whether the file of this name still is this one, and damaged: not only in what this machine remembers of it.
+bool RunReader::is_still_damaged() const {
+  RunReader anew(store_, name_, hash_, open_file(store_, name_, O_RDONLY));
+  if (!anew.descriptor_.is_open()) anew.fail_to_read();
+  ::posix_fadvise(anew.descriptor_.number(), 0, 0, POSIX_FADV_DONTNEED);
+  const bool ends_right = anew.load() == nullptr;
+  if (anew.number_ != number_) return false;
+  RunBlock block;
+  bool right = ends_right;
+  for (std::size_t i = 0; right && i < anew.index_.size(); ++i) right = anew.decode(i, block);
+  return !right;
+}
+
 void RunReader::refuse(const char* why) const {
-  remove_file(store_, name_);
   const std::string file = (store_ / name_).string();
+  if (!is_still_damaged()) {
+    throw Error::at(file, fmt::format("{} was read wrongly ({}), and is right when read again: build again; if that "
+                                      "happens on one machine only, check its memory and its network",
+                                      file, why));
+  }
+  remove_file(store_, name_);
   throw Error::at(
       file,
       fmt::format("{} was damaged ({}), and is removed: plan or build again, and its part is read again", file, why));

@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "roam/mesh.h"
@@ -51,7 +52,8 @@ struct RunBlock {
 };
 
 /// A run, open for reading by any number of threads. Throws roam::Error for a file that has changed since it was
-/// written, and removes it, so that the next plan reads its part again.
+/// written. Removes it, so that the next plan reads its part again, if it is damaged when it is opened and read anew,
+/// too, and no other file has taken its place.
 class RunReader {
  public:
   /// `hash`: of write_run.
@@ -77,14 +79,23 @@ class RunReader {
   friend std::uint64_t write_run(const Folder&, const std::string&, const RunContent&, std::span<const RunItem>);
   friend bool is_run(const Folder&, const std::string&, std::uint64_t);
 
-  void get(std::uint64_t offset, std::span<std::byte> out) const;
+  RunReader(const Folder& store, const std::string& name, std::uint64_t hash, Descriptor&& descriptor)
+      : store_(store), name_(name), hash_(hash), descriptor_(std::move(descriptor)) {}
+  /// Reads all but the blocks. Returns what is damaged, or null.
+  [[nodiscard]] const char* load();
+  /// False: it is damaged.
+  [[nodiscard]] bool decode(std::size_t block, RunBlock& out) const;
+  [[nodiscard]] bool get(std::uint64_t offset, std::span<std::byte> out) const;
+  [[nodiscard]] bool is_still_damaged() const;
   [[noreturn]] void refuse(const char* why) const;
 
   [[noreturn]] void fail_to_read() const;
 
   Folder store_;
   std::string name_;
+  std::uint64_t hash_;
   Descriptor descriptor_;
+  std::pair<std::uint64_t, std::uint64_t> number_;  ///< device and inode
   std::uint64_t first_number_ = 0;
   std::vector<Entry> index_;
 };

@@ -7,6 +7,7 @@
 #include <atomic>
 #include <exception>
 #include <map>
+#include <mutex>
 #include <numeric>
 #include <thread>
 #include <utility>
@@ -97,10 +98,15 @@ std::vector<SceneReader::Earlier> SceneReader::earlier_parts(const std::optional
     for (const PartInfo& part : in_force->parts) references += references_cost(part.references);
     notes = notes_by_part(*in_force);
   }
-  std::vector<std::optional<RecordOfFiles>> found(numbers.size());
+  std::vector<std::optional<PartRecord>> found(numbers.size());
+  std::mutex known;
   work_.arena.execute([&] {
     tbb::parallel_for(std::size_t{0}, numbers.size(), [&](std::size_t n) {
-      found[n] = find_record(work_, parts_[numbers[n]].name);
+      if (std::optional<RecordOfFiles> record = find_record(work_, parts_[numbers[n]].name)) {
+        found[n] = std::move(record->record);
+        const std::lock_guard lock(known);
+        sources_.know(std::move(record->files));  // most files are those of many parts
+      }
       work_.tick();
     });
   });
@@ -112,10 +118,7 @@ std::vector<SceneReader::Earlier> SceneReader::earlier_parts(const std::optional
   };
   for (std::size_t n = 0; n < numbers.size(); ++n) {
     const std::size_t i = numbers[n];
-    if (found[n]) {
-      sources_.know(std::move(found[n]->files));
-      add(i, std::move(found[n]->record));
-    }
+    if (found[n]) add(i, std::move(*found[n]));
     const auto old = before.find(parts_[i].name);
     if (old == before.end() || references > most_reference_bytes) continue;
     add(i, {in_force->parts[old->second], "", {}, false, notes[old->second]});

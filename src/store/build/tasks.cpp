@@ -18,7 +18,8 @@ std::vector<std::uint64_t> share_out(std::span<const std::uint64_t> loads, std::
   // possible one (Graham 1969).
   using Load = std::pair<std::uint64_t, std::uint64_t>;  // with the task
   std::priority_queue<Load, std::vector<Load>, std::greater<>> least;
-  for (std::uint64_t t = 0; t < tasks; ++t) least.push({0, t});
+  const std::uint64_t used = std::min<std::uint64_t>(tasks, loads.size());
+  for (std::uint64_t t = 0; t < used; ++t) least.push({0, t});
   std::vector<std::uint64_t> task_of(loads.size());
   for (const std::size_t i : order) {
     const auto [load, task] = least.top();

@@ -53,6 +53,8 @@ class Work {
   void add_written(std::uint64_t bytes) { written_ += bytes; }
   void tick();
 
+  std::mutex large_records;  ///< held by the thread that reads one
+
  private:
   using Clock = std::chrono::steady_clock;
 
