@@ -131,22 +131,6 @@ class Recorder {
   double reach_ = 0.0;  ///< m: measuring distance around the body
 };
 
-/// m: all that a step, its measurements and a look around query is nearer to the body.
-double reach_of_steps(const WalkOptions& options, const Space& space) {
-  constexpr double ahead = 0.5;   // s
-  constexpr double strides = 12;  // m, in which a wanderer looks around
-  const WalkerSettings& body = options.settings;
-  const measure::Room room(space, body, options.walker_mode());
-  return std::max({options.route.speed * std::max(ahead, 2.0 * options.route.dt), body.radius + room.reach(),
-                   (1.0 + measure::height_reach) * body.height, options.wander ? strides : 0.0});
-}
-
-double path_length(std::span<const Vec3> points) {
-  double sum = 0.0;
-  for (std::size_t i = 1; i < points.size(); ++i) sum += glm::distance(points[i - 1], points[i]);
-  return sum;
-}
-
 /// Moves along the waypoints without collision, to show where a path leads.
 RouteResult haunt(Walker& walker, std::span<const Vec3> waypoints, const RouteOptions& options, Recorder& recorder) {
   RouteResult result;

@@ -61,6 +61,9 @@ struct WanderOptions {
 /// One walk without a goal, step by step.
 class Wander {
  public:
+  /// Metres in which it looks around: the next few corners of a corridor.
+  static constexpr double look_around = 12.0;
+
   /// Begins at the walker's position. The walker must outlive it and must not be moved by others meanwhile; its space
   /// is never updated here. Throws roam::Error for options out of range and for a walker in ghost mode.
   Wander(Walker& walker, const WanderOptions& options = {});

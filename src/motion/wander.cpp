@@ -32,8 +32,8 @@ constexpr int room_strides = 20;          // 10 m: farther is free enough
 constexpr double fly_height = 2.0;        // m above the floor, where there is no ceiling to stay under
 
 constexpr int headings = 16;
-constexpr double stride = 0.5;     // m of one probe of the look ahead
-constexpr int most_strides = 24;   // 12 m: the next few corners of a corridor
+constexpr double stride = 0.5;  // m of one probe of the look ahead
+constexpr int most_strides = static_cast<int>(Wander::look_around / stride);
 constexpr double cell_side = 1.0;  // m, a place that was visited
 // A body that moves by less than this share of free motion in this time is stuck.
 constexpr double stuck_share = 0.2;

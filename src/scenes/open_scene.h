@@ -39,7 +39,8 @@ class OpenScene {
   /// Call it after the last step: frees a pager's memory for later work. space() is invalid then.
   void leave();
   /// Waits until everything readable within `reach` (m) of a body is loaded, if it must be loaded; see TilesAround.
-  /// Call it before and between the steps of a walk: then no step depends on the time that loading takes.
+  /// Call it before and between the steps of a walk: then no step depends on the time that loading takes, as long as
+  /// memory holds that reach, no read fails for good, and loading does not pause for long (see Arrivals).
   void wait_around(const Body& body, const Vec3& place, const Vec3& velocity, double reach);
   /// The pager of a store; null if the scene was read whole.
   [[nodiscard]] Pager* pager() { return pager_.get(); }

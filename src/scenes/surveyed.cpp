@@ -14,6 +14,7 @@
 #include "process/free_memory.h"
 #include "scenes/web_options.h"
 #include "store/meshes.h"
+#include "store/read_ahead.h"
 
 namespace roam::app {
 namespace {
@@ -21,6 +22,16 @@ namespace {
 /// Bytes for each triangle of a store here, at most: its corners, the same again for floor, both indexes and their
 /// construction.
 constexpr std::uint64_t bytes_a_triangle = 400;
+
+/// What to do if a part of a store could not be read.
+std::string help_against(const std::string& what, const std::string& store) {
+  if (!Store::is_address(store)) {
+    return fmt::format("name the scene itself, or mend the store by `roam verify {} --repair SCENE`", store);
+  }
+  const bool is_damage = what.find(store::wrong_checksum) != std::string::npos;
+  return is_damage ? "verify the published folder, remove its damaged files, and publish again"
+                   : "try again when the web server answers";
+}
 
 std::vector<Mesh> read_store(const Store& store, std::vector<TriangleId>& numbers) {
   const StoreInfo& info = store.info();
@@ -45,9 +56,7 @@ std::vector<Mesh> read_store(const Store& store, std::vector<TriangleId>& number
   };
   store.for_each_triangle(info.bounds, take, [&](const std::string& what) {
     // An unknown part would look like a hole in the floor, or like a missing door.
-    throw Error::at(store.name(),
-                    fmt::format("{}; name the scene itself, or mend the store by `roam verify {} --repair SCENE`", what,
-                                store.name()));
+    throw Error::at(store.name(), fmt::format("{}; {}", what, help_against(what, store.name())));
   });
   std::vector<Mesh> meshes;
   meshes.push_back(std::move(mesh));

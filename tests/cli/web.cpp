@@ -69,4 +69,14 @@ TEST_F(WebVerbs, ProbeAndSweepAsOnTheDisk) {
   EXPECT_GE(server.most_at_once(), 2);
 }
 
+TEST_F(WebVerbs, CallAFailureOfTheServerNoDamage) {
+  const support::Misbehaving server(store_verbs::fs::path(store()).parent_path());
+  const std::string name = store_verbs::fs::path(store()).filename().string();
+  const auto said = [&](const char* mode) {
+    return run({"probe", server.address(mode, name), "--from=-13739,253,182", "--to=-13719,274,182"}).err;
+  };
+  EXPECT_TRUE(contains(said("403"), "try again when the web server answers")) << said("403");
+  EXPECT_TRUE(contains(said("bits"), "publish again")) << said("bits");
+}
+
 }  // namespace

@@ -3,7 +3,8 @@
 
 The first part of a path says how: /MODE/dam.roam/packs/... A mode "current-404" concerns CURRENT alone, one without such
 a beginning only packs. GET /log answers with all requests so far, one a line, and forgets them; GET /most with the
-largest number of requests that were under way at once.
+largest number of requests that were under way at once. GET /release/first lets go the requests of the file ffff...,
+which wait for it, and GET /release/rest all of mode "gated" but the first kB, which they send at once.
 """
 import http.server
 import os
@@ -17,8 +18,9 @@ import time
 
 root = sys.argv[1]
 log, tries, lock = [], {}, threading.Lock()
-line = threading.Lock()  # that all answers share
+line, line_free = threading.Lock(), 0.0  # that all answers share, and when it is free
 under_way = most = 0
+released = {"first": threading.Event(), "rest": threading.Event()}
 
 
 class Handler(http.server.BaseHTTPRequestHandler):
@@ -59,10 +61,15 @@ class Handler(http.server.BaseHTTPRequestHandler):
             with lock:
                 found, most = most, 0
             return self.answer(200, str(found).encode())
+        if path.startswith("/release/"):
+            released[path[9:]].set()
+            return self.answer(200)
         wanted = self.headers.get("Range", "")
         with lock:
             log.append(f"{path} {wanted or '-'} {query or '-'} {self.headers.get('Authorization', '-')}")
             tries[self.path, wanted] = turn = tries.get((self.path, wanted), 0) + 1
+        if "f" * 64 in path:
+            released["first"].wait()
         _, mode, name = path.split("/", 2)
         concerns_current = mode.startswith("current-")
         if name.endswith("/CURRENT") != concerns_current and not (mode.startswith("all-")):
@@ -78,6 +85,7 @@ class Handler(http.server.BaseHTTPRequestHandler):
         self.respond(mode, body, re.fullmatch(r"bytes=(\d+)-(\d+)", wanted), turn, path, query)
 
     def respond(self, mode, body, wanted, turn, path, query):
+        global line_free
         if mode.isdigit():
             return self.answer(int(mode), b"an error", Retry_After=1 if mode == "429" else None)
         if mode in ("503once", "429once"):
@@ -119,7 +127,9 @@ class Handler(http.server.BaseHTTPRequestHandler):
             return self.answer(416, Content_Range=f"bytes */{len(body)}")
         part = body[first:last + 1]
         said, length = f"bytes {first}-{last}/{len(body)}", len(part)
-        if mode == "reset" or (mode == "resetonce" and turn == 1):
+        rate, _, reset = mode[4:].partition("reset") if mode.startswith("rate") else ("0", "", "")
+        rate = int(rate)  # "rate20reset655360": the first try of a range from there on is reset
+        if mode == "reset" or (turn == 1 and (mode == "resetonce" or (reset and first >= int(reset)))):
             self.send_response(206)
             self.send_header("Content-Range", said)
             self.send_header("Content-Length", str(length))
@@ -135,15 +145,28 @@ class Handler(http.server.BaseHTTPRequestHandler):
         if mode == "cut":  # the connection ends early
             self.close_connection = True
             part = part[:length // 2]
+        if mode == "gated":
+            self.send_response(206)
+            self.send_header("Content-Range", said)
+            self.send_header("Content-Length", str(length))
+            self.end_headers()
+            self.wfile.write(part[:1000])
+            if length > 1000:
+                released["rest"].wait()
+                self.wfile.write(part[1000:])
+            return None
         if mode.startswith("rate"):  # "rate1250": 1250 kB a second for all answers together, 10 Mbit a second
             self.send_response(206)
             self.send_header("Content-Range", said)
             self.send_header("Content-Length", str(length))
             self.end_headers()
-            for at in range(0, length, 4096):
-                with line:
-                    time.sleep(len(part[at:at + 4096]) / (1000 * int(mode[4:])))
-                self.wfile.write(part[at:at + 4096])
+            step = max(512, min(4096, 25 * rate))
+            for at in range(0, length, step):
+                with line:  # takes its turn
+                    line_free = max(line_free, time.monotonic()) + len(part[at:at + step]) / (1000 * rate)
+                    until = line_free
+                time.sleep(max(0.0, until - time.monotonic()))
+                self.wfile.write(part[at:at + step])
             return None
         if mode == "long":
             part = part + bytes(1000)
@@ -163,6 +186,7 @@ class Handler(http.server.BaseHTTPRequestHandler):
 
 class Server(http.server.ThreadingHTTPServer):
     daemon_threads = True
+    request_queue_size = 64
 
     def handle_error(self, *_):
         pass

@@ -119,7 +119,7 @@ TEST(PagerFailures, WaitingForNoTimeAheadWaitsForWhatTheBodyIsIn) {
   EXPECT_FALSE(pager.clearance(body, place, 1e-3).unknown);
 }
 
-TEST(PagerFailures, WhoHasWaitedIsNotSlowedByTheLatency) {
+TEST(PagerFailures, ABodyThatHasWaitedIsNotSlowedByTheLatency) {
   const Yard yard("pager_waited");
   yard.bytes->delay_us = 60'000;
   Pager pager(yard.store);

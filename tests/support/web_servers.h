@@ -117,6 +117,8 @@ class Misbehaving {
     return fmt::format("{}://127.0.0.1:{}/{}/{}", secure_ ? "https" : "http", port_, mode, store);
   }
   [[nodiscard]] int port() const { return port_; }
+  /// Lets go what waits; see there.
+  void release(const std::string& what) const { static_cast<void>(got(port_, "/release/" + what)); }
   /// The largest number of requests at once since the last call.
   [[nodiscard]] int most_at_once() const {
     const std::string all = got(port_, "/most");

@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "graphics/shading.h"
+#include "roam/patchwork.h"
 #include "roam/world.h"
 #include "tileset_made.h"
 #include "view_program.h"
@@ -35,6 +36,16 @@ TEST(Daylight, IsTheShareOfTheSkyThatIsOpen) {
   EXPECT_GT(below_the_edge, 0.4);
   EXPECT_LT(below_the_edge, 0.8);
   EXPECT_EQ(open_sky(World(), {0, 0, 0}), 1.0);
+}
+
+TEST(Daylight, IsNotThatOfSpaceThatIsStillToCome) {
+  const Vec3 eye(0.1, 0, 1.6);
+  Patchwork part(PatchworkOptions{.patches = 2});
+  part.deliver(part.expect({{-30, -30, 0}, {0, 30, 3}}), yard());
+  part.expect({{0.5, -30, -1}, {30, 30, 40}});
+  part.update(Body::sphere(0.3), eye, Vec3(0.0));
+  EXPECT_EQ(open_sky(part, {-15, 0, 1.6}), 0.0) << "what is to come lies beyond the roof";
+  EXPECT_LT(open_sky(part, eye), open_sky(yard(), eye)) << "the sky over what is to come does not count";
 }
 
 TEST(Daylight, ChangesAtOnceTheFirstTimeAndThenSmoothly) {

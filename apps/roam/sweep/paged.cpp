@@ -1,5 +1,7 @@
 #include "sweep/paged.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <glm/geometric.hpp>
 #include <limits>
@@ -18,6 +20,9 @@ constexpr double broken_after = 3.0;
 
 }  // namespace
 
+/// Whether nothing has come since a wait for it was given up.
+bool PagedSweep::is_stuck() const { return scene_.pager()->stats().loads == stuck_at_; }
+
 /// Nothing if memory cannot hold the surroundings and `may_part` allows shorter parts. Tiles of an unknown hit are
 /// unreadable.
 std::optional<Impact> PagedSweep::sweep(const SweepQuery& part, bool may_part) {
@@ -25,7 +30,7 @@ std::optional<Impact> PagedSweep::sweep(const SweepQuery& part, bool may_part) {
   for (;;) {
     stop_if_interrupted();
     const Impact answer = scene_.space().sweep(part.body, part.from, part.motion);
-    if (!answer.unknown) return answer;
+    if (!answer.unknown || is_stuck()) return answer;
     const bool more = arrivals.wait(part.body, part.from, part.motion);
     if (arrivals.settled()) {
       const std::string why = scene_.space().object_name(answer.triangle);
@@ -34,7 +39,8 @@ std::optional<Impact> PagedSweep::sweep(const SweepQuery& part, bool may_part) {
       return answer;
     }
     if (arrivals.stuck()) {
-      throw Error("what lies along this way does not come; give --memory more, or wait for the disk or the network");
+      stuck_at_ = scene_.pager()->stats().loads;
+      return answer;
     }
     if (may_part && !more) return std::nullopt;
   }
@@ -47,11 +53,12 @@ double PagedSweep::gap(const SweepQuery& part) {
   for (const double reach : gap_reaches) {
     Arrivals arrivals(*scene_.pager());
     Clearance nearest = scene_.space().clearance(part.body, part.from, part.motion, reach);
-    for (bool more = true; nearest.unknown && more;) {
+    for (bool more = !is_stuck(); nearest.unknown && more;) {
       more = arrivals.wait(part.body, part.from, ahead * (length + reach));
       stop_if_interrupted();
       nearest = scene_.space().clearance(part.body, part.from, part.motion, reach);
     }
+    if (arrivals.stuck()) stuck_at_ = scene_.pager()->stats().loads;
     // The sweep has certified at least 0, even if the grid subtracts more here. Unknown space only makes the gap
     // smaller.
     distance = std::max(distance, nearest.distance);
@@ -76,6 +83,11 @@ SweepAnswer PagedSweep::operator()(const SweepQuery& query) {
     answer = *found;
     if (answer.hit) {
       answer.time = begin + answer.time * (end - begin);
+      if (answer.unknown && is_stuck()) {
+        return {answer, fmt::format("nothing has come from {} for {:g} s; give --memory more, or sweep again when the "
+                                    "disk or the server answers",
+                                    scene_.pager()->store().name(), Arrivals::stuck_after)};
+      }
       if (answer.unknown) return {answer, scene_.space().object_name(answer.triangle)};
       try {
         answer.triangle = scene_.scene_triangle(answer.triangle);

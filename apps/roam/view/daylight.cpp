@@ -11,15 +11,15 @@ double open_sky(const Space& space, const Vec3& eye) {
   constexpr int around = 8;
   constexpr double steep = 0.96, flat = 0.61;  // radians above the horizon, in turns: 55 and 35 degrees
   const double reach = sight(space, eye);
-  const auto is_open = [&](const Vec3& direction) {
+  int open = 0, known = 0;
+  const auto look = [&](const Vec3& direction) {
     const Impact hit = space.ray(eye, reach * direction);
-    return !hit.hit || hit.unknown;
+    open += hit.hit ? 0 : 1;
+    known += hit.unknown ? 0 : 1;
   };
-  int open = is_open({0.0, 0.0, 1.0}) ? 1 : 0;
-  for (int i = 0; i < around; ++i) {
-    open += is_open(gaze(2.0 * std::numbers::pi * i / around, i % 2 == 0 ? steep : flat)) ? 1 : 0;
-  }
-  return static_cast<double>(open) / (around + 1);
+  look({0.0, 0.0, 1.0});
+  for (int i = 0; i < around; ++i) look(gaze(2.0 * std::numbers::pi * i / around, i % 2 == 0 ? steep : flat));
+  return known == 0 ? 1.0 : static_cast<double>(open) / known;
 }
 
 double Daylight::follow(double sky, double seconds) {

@@ -7,7 +7,7 @@
 namespace roam::app {
 
 /// The share of the sky that is not behind a surface at `eye`, in [0, 1]: nine directions within 55 degrees of the
-/// zenith. Unknown space hides nothing.
+/// zenith. Directions that end in unknown space do not count; 1 if all do.
 [[nodiscard]] double open_sky(const Space& space, const Vec3& eye);
 
 /// The same over time: it follows the eye within a second or two, as an eye gets used to light.

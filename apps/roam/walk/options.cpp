@@ -3,12 +3,15 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
 
 #include "cli/exit_status.h"
 #include "cli/output_file.h"
 #include "cli/standard_streams.h"
 #include "cli/values.h"
+#include "measure/room.h"
 #include "roam/error.h"
+#include "roam/wander.h"
 #include "scenes/web_options.h"
 
 namespace roam::app {
@@ -51,6 +54,20 @@ WalkerSettings walker_settings(const WalkOptions& options) {
     throw UsageError(error);
   }
   return settings;
+}
+
+double path_length(std::span<const Vec3> points) {
+  double sum = 0.0;
+  for (std::size_t i = 1; i < points.size(); ++i) sum += glm::distance(points[i - 1], points[i]);
+  return sum;
+}
+
+double reach_of_steps(const WalkOptions& options, const Space& space) {
+  constexpr double ahead = 0.5;  // s
+  const WalkerSettings& body = options.settings;
+  const measure::Room room(space, body, options.walker_mode());
+  return std::max({options.route.speed * std::max(ahead, 2.0 * options.route.dt), body.radius + room.reach(),
+                   (1.0 + measure::height_reach) * body.height, options.wander ? Wander::look_around : 0.0});
 }
 
 void check_way(const WalkOptions& options) {

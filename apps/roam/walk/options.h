@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -56,6 +57,12 @@ void take_profile(WalkOptions& options);
 
 /// The settings that the options stand for; see body_of. Throws UsageError for invalid ones.
 [[nodiscard]] WalkerSettings walker_settings(const WalkOptions& options);
+
+/// Metres.
+[[nodiscard]] double path_length(std::span<const Vec3> points);
+
+/// Metres around the body of this walk that its next steps, measurements and looks around can query.
+[[nodiscard]] double reach_of_steps(const WalkOptions& options, const Space& space);
 
 /// Throws UsageError if the options name no path to follow.
 void check_way(const WalkOptions& options);

@@ -102,6 +102,7 @@ void Server::run() noexcept {
       curl.multi_perform(multi_, &running);
       end_complete();
       collect();
+      drop_ended();
     } catch (const std::exception&) {
       const Answer none{no_memory};
       for (Job* job : waiting_) end(*job, none);
@@ -143,12 +144,19 @@ void Server::drop_stopped() {
     for (Job* job : transfer->jobs) {
       if (is_stopped(job)) {
         end(*job, {stopped});
-      } else if (transfer->has_all(*job)) {
-        end(*job, {});
       } else {
         waiting_.push_back(job);
       }
     }
+    return true;
+  });
+}
+
+/// Transfers of which nothing more is wanted.
+void Server::drop_ended() {
+  active_.remove_if([&](const std::unique_ptr<Transfer>& transfer) {
+    if (!transfer->jobs.empty()) return false;
+    Curl::library().multi_remove_handle(multi_, transfer->handle);
     return true;
   });
 }
@@ -248,7 +256,7 @@ bool Server::settle(Transfer& transfer, int code) {
   const Answer answer = transfer.answer(result);
   const auto now = Clock::now();
   for (Job* job : transfer.jobs) {
-    if (transfer.has_all(*job) || !answer.problem) {
+    if (!answer.problem) {
       end(*job, {});
       continue;
     }
@@ -256,8 +264,8 @@ bool Server::settle(Transfer& transfer, int code) {
     const double own = std::min(longest_pause, first_pause * static_cast<double>(1U << std::min(job->tries, 10)));
     job->wished = std::max(job->wished, now + seconds(transfer.wished_pause()));
     job->next = std::max(now + seconds(share * own), job->wished);
-    ++job->tries;
-    if (!transfer.may_pass(result) || job->next > job->begin + seconds(manners_.patience)) {
+    if (job->tries++ == 0) job->failing = transfer.alive;
+    if (!transfer.may_pass(result) || job->next > job->failing + seconds(manners_.patience)) {
       end(*job, answer);
     } else {
       waiting_.push_back(job);

@@ -25,7 +25,7 @@ using Clock = std::chrono::steady_clock;
 
 struct Manners {
   bool redirects = false;  ///< follow them to other hosts and folders
-  double patience = 20.0;  ///< s: how long a request is tried
+  double patience = 20.0;  ///< s: how long a request is tried again, since it last brought anything
 };
 
 /// The end of a request.
@@ -55,6 +55,7 @@ struct Job {
   const std::stop_token& stop;
   Clock::time_point begin = Clock::now(), next = begin;  ///< of the next try
   Clock::time_point wished{};                            ///< by the server: no try before
+  Clock::time_point failing{};                           ///< the begin of patience, once a try has failed
   int tries = 0;
   Answer answer{};
   bool done = false;
@@ -87,6 +88,7 @@ class Server {
   /// The end of a transfer; false: it goes on at another address.
   [[nodiscard]] bool settle(Transfer& transfer, int result);
   void drop_stopped();
+  void drop_ended();
   void end(Job& job, const Answer& answer);
   [[nodiscard]] int pause() const;
 

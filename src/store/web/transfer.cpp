@@ -259,6 +259,7 @@ bool Transfer::body(std::span<const std::byte> bytes) {
   }
   const std::uint64_t begin = first_ + received_, end = begin + bytes.size();
   received_ += bytes.size();
+  alive = Clock::now();
   if (is_whole_) {
     const Wanted& wanted = jobs.front()->wanted;
     too_large_ = received_ > wanted.limit;

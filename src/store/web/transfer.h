@@ -22,8 +22,9 @@ class Transfer {
 
   std::vector<Job*> jobs;  ///< that have not ended
   CURL* handle;
-  std::string address;  ///< of the request
-  int hops = 0;         ///< redirects followed
+  std::string address;                     ///< of the request
+  int hops = 0;                            ///< redirects followed
+  Clock::time_point alive = Clock::now();  ///< the start, or when bytes of the file came last
 
   /// Another address, to be requested next.
   void redirect(const std::string& to);
