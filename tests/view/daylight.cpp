@@ -40,10 +40,10 @@ TEST(Daylight, IsTheShareOfTheSkyThatIsOpen) {
 
 TEST(Daylight, IsNotThatOfSpaceThatIsStillToCome) {
   const Vec3 eye(0.1, 0, 1.6);
-  Patchwork part(PatchworkOptions{.patches = 2});
+  Patchwork part;
   part.deliver(part.expect({{-30, -30, 0}, {0, 30, 3}}), yard());
   part.expect({{0.5, -30, -1}, {30, 30, 40}});
-  part.update(Body::sphere(0.3), eye, Vec3(0.0));
+  part.update({0.3, 0.0}, eye, Vec3(0.0));
   EXPECT_EQ(open_sky(part, {-15, 0, 1.6}), 0.0) << "what is to come lies beyond the roof";
   EXPECT_LT(open_sky(part, eye), open_sky(yard(), eye)) << "the sky over what is to come does not count";
 }
