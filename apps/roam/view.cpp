@@ -91,7 +91,7 @@ std::string go_on(ViewOptions& options, const NextSession& next, const std::vect
   if (next.frame) {
     options.scene.up = to_string(next.frame->up);
     options.scene.unit = to_string(next.frame->unit);
-    return fmt::format("read with {}", options_of(*next.frame));
+    return fmt::format("read with {}{}{}", options_of(*next.frame), next.note.empty() ? "" : "; ", next.note);
   }
   const Vec3& place = next.at.position;
   options.at = {place.x, place.y, place.z, next.at.yaw, next.at.pitch};
@@ -128,12 +128,16 @@ ExitStatus view(ViewOptions options) {
   const std::vector<std::string> given = options.scene.ignore;
   std::optional<graphics::DisplayHold> hold;
   if (!options.headless) hold.emplace();
+  std::vector<std::string> notes;  // of all sessions
   while (const std::optional<NextSession> next = run_session(options, plan, settings, report, cancelled)) {
+    notes.insert(notes.end(), report.notes.begin(), report.notes.end());
+    if (!next->note.empty()) notes.push_back(next->note);
     const std::string note = go_on(options, *next, given);
     plan = make_plan(options, settings, std::nullopt, profile_for(options, std::nullopt));
     plan.note = note;
   }
   hold.reset();  // Xlib ends a program whose server goes away
+  report.notes.insert(report.notes.begin(), notes.begin(), notes.end());
   for (const std::string& note : report.notes) tell("note: " + note);
   if (options.verify && report.roamed) {
     Progress progress("verifying", "pieces");

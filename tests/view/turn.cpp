@@ -61,6 +61,17 @@ TEST(Turn, EndsTheSessionAndIsKept) {
   EXPECT_FALSE(find_profile(d.options.scene.scenes));
 }
 
+TEST(Turn, SaysWhyItIsNotKept) {
+  DrivenSession d;
+  const std::string scene = d.write_scene();
+  std::filesystem::create_directory(scene + ".roam.json");  // where the profile would be
+  d.begin();
+  d.session->run("turn");
+  ASSERT_TRUE(d.session->next());
+  EXPECT_NE(d.session->next()->note.find("the frame is not kept: "), std::string::npos) << d.session->next()->note;
+  EXPECT_NE(d.session->next()->note.find(scene), std::string::npos);
+}
+
 TEST(Turn, IsNotKeptWithoutAProfile) {
   DrivenSession d;
   const std::string scene = d.write_scene();

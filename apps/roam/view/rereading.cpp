@@ -41,14 +41,15 @@ void Rereading::read_with(const std::function<SceneFrame(const SceneFrame&)>& ch
   if (!what_.store.empty() || !frame) {
     news_.tell("a store keeps the frame in which it was built: change that of its scene, and build it again");
   } else if (is_possible()) {
-    next_ = NextSession{changed(*frame), {}, {}, Mode::walk};
+    next_ = NextSession{changed(*frame), {}, {}, Mode::walk, {}};
     if (what_.scene.no_profile) return;
     try {
       const std::filesystem::path file = profile_path(what_.scene.scenes);
-      if (save_frame(*next_->frame, file))
-        news_.note(file.string() + " had a body for the scene as it was: train again");
+      if (save_frame(*next_->frame, file)) {
+        next_->note = file.string() + " had a body for the scene as it was: train again";
+      }
     } catch (const Error& error) {
-      news_.note(fmt::format("the frame is not kept: {}", error.what()));
+      next_->note = fmt::format("the frame is not kept: {}", error.what());
     }
   }
 }
@@ -71,7 +72,7 @@ void Rereading::show_all() {
 }
 
 void Rereading::leave_out(const std::string& pattern) {
-  next_ = NextSession{std::nullopt, pattern, standing_pose_of(roamer_), roamer_.mode()};
+  next_ = NextSession{std::nullopt, pattern, standing_pose_of(roamer_), roamer_.mode(), {}};
 }
 
 }  // namespace roam::app
