@@ -268,8 +268,8 @@ ExitStatus build(BuildVerb verb) {
   try {
     return run_steps(verb);
   } catch (const NoSuchTask& none) {
-    if (!verb.array) throw;
-    return nothing_to_do(verb, fmt::format("{} ({})", none.what(), verb.array->variable));
+    // A plan may have fewer tasks than were wished for.
+    return nothing_to_do(verb, verb.array ? fmt::format("{} ({})", none.what(), verb.array->variable) : none.what());
   } catch (const NothingPlanned&) {
     if (!Store::is_store(verb.output)) throw;
     return nothing_to_do(verb, fmt::format("{} is complete, and no build of it is planned", verb.output.string()));

@@ -38,7 +38,7 @@ Error incomplete(const Work& work, const Plan& plan, const std::vector<std::size
       work.store.string(),
       fmt::format(
           "cannot merge {}: missing shards: {}, damaged shards: {}, in tasks {} of {}; build these tasks again, "
-          "each with --shard and its number, and merge again",
+          "each with --shard and its number, and merge again; if one says that its run is gone, plan first",
           work.store.string(), missing.size(), damaged.size(), ranges_text(numbers, named), plan.tasks));
 }
 
