@@ -11,8 +11,8 @@ namespace {
 /// step by step. Frontal contacts need one; two also serve contacts at 30 degrees.
 constexpr double look_ahead = 2.0;
 
-/// Ways. If nothing is within clearance_reach, the next query reaches farther by this many ways, so that its free ball
-/// lasts for that many steps.
+/// Ways. A query looks at most so many ways ahead. If nothing is within clearance_reach, it also reaches farther by
+/// this many ways. So what it finds lasts for that many steps.
 constexpr double ways_ahead = 8.0;
 
 /// Skins. Least reach of a query, however short clearance_reach is.
@@ -23,13 +23,20 @@ constexpr double least_look = 4.0;
 constexpr double gap_part = 7.0 / 8.0;
 constexpr double gap_tolerance = 2e-3;
 
-/// A free ball is used as long as its bound is at least three quarters of the true gap. Let T be the true gap over the
-/// way, which ends at most `away` from the ball's centre. The gap at the centre is at least T - away. Over the ball's
-/// own way it is at least T - away - way, and the gap found is at least gap_part (T - away - way). From that, `away` is
-/// subtracted. The sum of all losses must be at most an eighth of T, and T is at least gap - away.
+/// A free way is used as long as its bound is at least three quarters of the true gap T over the new way. Let the free
+/// way be `length` long, G the true gap over it, and `away` the greatest distance of the new way from it. Where the
+/// body is nearest on the free way, it is at most away + length from any place of the new one, so T <= G + away +
+/// length. The gap found is at least gap_part G. From that, `away` is subtracted. So the bound is at least
+/// reported_part T if gap (1 - q) >= (1 + reported_part) away + reported_part length, where q = reported_part /
+/// gap_part.
 constexpr double reported_part = 3.0 / 4.0;
-constexpr double away_weight = (1.0 + gap_part) / (gap_part - reported_part) + 1.0;  // 16
-constexpr double way_weight = gap_part / (gap_part - reported_part);                 // 7
+constexpr double away_weight = (1.0 + reported_part) / (1.0 - reported_part / gap_part);  // 12.25
+constexpr double length_weight = reported_part / (1.0 - reported_part / gap_part);        // 5.25
+
+/// Part of the known gap by which a query looks ahead. The gap over that way is at least 7/8 of the known one, the gap
+/// found at least 7/8 of that, and length_weight / 8 < 49/64.
+constexpr double part_ahead = 1.0 / 8.0;
+static_assert(length_weight * part_ahead <= gap_part * (1.0 - part_ahead));
 
 /// Each merge of two pieces in one direction may shift the straight line by a rounding of the coordinates, 1e-9 m at
 /// 6.4e6 m. This many merges stay far below world_tolerance.
@@ -90,7 +97,7 @@ Advance Move::advance(const Vec3& motion, double seconds) {
     known.fit = Fit::known;
     if (space.clearance(body(), place, 0.0).distance < -world_tolerance) {
       known.fit = Fit::came_upon;
-      known.ball = {};
+      known.free = {};
       return {.fraction = 0.0, .touched = true, .embedded = true, .contact = {}, .gap = 0.0};
     }
   }
@@ -102,22 +109,25 @@ Advance Move::advance(const Vec3& motion, double seconds) {
 
 double Move::look_along(const Vec3& motion) {
   const double reach = std::max(settings.clearance_reach, least_look * skin), length = glm::length(motion);
-  FreeBall& ball = known.ball;
-  const bool same_body = ball.radius == settings.radius && ball.height == height;
-  if (same_body && ball.gap > 0.0) {
-    const double away = std::max(glm::length(place - ball.centre), glm::length(place + motion - ball.centre));
-    const double rest = ball.gap - away;
-    if (rest >= reach || away_weight * away + way_weight * ball.way <= ball.gap) return rest;
+  FreeWay& free = known.free;
+  double rest = 0.0;
+  bool in_the_open = false;
+  if (free.gap > 0.0 && free.radius == settings.radius && free.height == height) {
+    const double away = std::max(free.distance(place), free.distance(place + motion));
+    rest = free.gap - away;
+    if (rest >= reach || away_weight * away + length_weight * glm::length(free.motion) <= free.gap) return rest;
+    in_the_open = free.gap >= reach;
   }
-  const bool in_the_open = same_body && ball.gap >= reach;
+  const double ahead = std::min(part_ahead * rest, ways_ahead * length);
+  const Vec3 way = ahead > length ? motion * (ahead / length) : motion;
   const double look = std::min({in_the_open ? reach + ways_ahead * length : reach, known.nearest, Space::reach_limit});
-  const double gap = Nearby::gap_bound(space, vicinity, {body(), place, motion}, look);
+  const double gap = Nearby::gap_bound(space, vicinity, {body(), place, way}, look);
   if (gap > free_gap) {
-    ball = {place + motion, gap, length, settings.radius, height};
+    free = {place, way, gap, settings.radius, height};
     // The near object may be near only at the far end of the way.
-    if (gap < look) known.nearest = std::min(known.nearest, gap / gap_part + gap_tolerance + length);
+    if (gap < look) known.nearest = std::min(known.nearest, gap / gap_part + gap_tolerance + glm::length(way));
   } else {
-    ball = {};
+    free = {};
   }
   return gap;
 }

@@ -21,6 +21,21 @@ TEST(WalkerFree, FliesFarFromWallsForManyStepsOnOneAnswer) {
   EXPECT_LT(room.asked() - before, 60);
 }
 
+TEST(WalkerFree, FliesAlongAWallForThreeStepsOnOneAnswer) {
+  for (const double turn : {0.0, 0.05}) {
+    ChangingRoom room(walled_hall(1.0), true);
+    const Judge judge = room.judge();
+    Walker w(room, ball(0.3), Mode::fly, {0.1, -4.0, 0.0});
+    const int before = room.asked();
+    for (int i = 0; i < 300; ++i) {
+      const StepReport& r = w.step({{1.4 * turn * std::sin(0.1 * i), 1.4, 0.0}}, frame);
+      ASSERT_GE(margin(judge, r, 0.3), 0.0);
+      ASSERT_GE(r.axis_clearance, 0.3 + 0.75 * (1.0 - r.to.x - 0.3) - 0.004);
+    }
+    EXPECT_LE(room.asked() - before, 100) << turn;
+  }
+}
+
 TEST(WalkerFree, AsksNothingWhereItRests) {
   ChangingRoom room(walled_hall(1.0), true);
   Walker w(room, ball(0.3), Mode::fly, {0.0, 0.0, 0.0});
