@@ -69,7 +69,7 @@ double seconds_between(Clock::time_point from, Clock::time_point to) {
   return std::chrono::duration<double>(to - from).count();
 }
 
-/// What all walkers together measure, after the start.
+/// The measurements of all walkers, without those of the start.
 struct Sums {
   std::mutex mutex;
   std::vector<double> until_there;  ///< s, from the moment at which a tile comes within the horizon

@@ -153,7 +153,7 @@ void tell_store(const BuildVerb& verb, const StoreBuildReport& report, double se
   }
 }
 
-/// Of --shard, with or without --plan.
+/// The report of --shard, with or without --plan.
 void tell_task(const BuildVerb& verb, const StoreBuildReport& report, double seconds) {
   if (verb.json) {
     Json json = json_report(verb, report, seconds);

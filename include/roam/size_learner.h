@@ -17,7 +17,7 @@
 /// smaller body has a certified way through the opening, or a Walker with the larger disc is carried where the body
 /// fell.
 ///
-/// For the thread that moves the body. watch() allocates only with a lesson. Target roam::profile.
+/// Call it from the thread that moves the body. watch() allocates only with a lesson. Target roam::profile.
 
 #include <cstdint>
 #include <optional>

@@ -93,7 +93,7 @@ class Frame {
   void set_edges(bool shown);
   /// The frames from the next one on are timed: they wait until all is drawn, so they take a little longer.
   void set_timed(bool timed);
-  /// Of the last timed frame. Only if the thread that calls viewer.frame() draws.
+  /// The times of the last timed frame. They are known only if the thread that calls viewer.frame() also draws.
   [[nodiscard]] const FrameTimes& times() const;
   [[nodiscard]] Quality quality() const;
   /// The quality of the next frame, which is full if a full picture of it is requested.

@@ -47,7 +47,7 @@ class Frame::Pipeline : public osg::Referenced {
   [[nodiscard]] Quality quality() const { return quality_; }
   [[nodiscard]] bool edges() const { return edges_; }
   void set_timed(bool timed) { timed_ = timed; }
-  /// Of the last timed frame. For the thread that draws.
+  /// The times of the last timed frame. Call it from the drawing thread.
   [[nodiscard]] const FrameTimes& times() const { return times_; }
   /// The quality of the next frame: full if a full picture is requested. Any thread.
   [[nodiscard]] Quality next_quality();

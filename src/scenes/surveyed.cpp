@@ -23,7 +23,7 @@ namespace {
 /// construction.
 constexpr std::uint64_t bytes_a_triangle = 400;
 
-/// What to do if a part of a store could not be read.
+/// The remedy if a part of a store cannot be read.
 std::string help_against(const std::string& what, const std::string& store) {
   if (!Store::is_address(store)) {
     return fmt::format("name the scene itself, or mend the store by `roam verify {} --repair SCENE`", store);

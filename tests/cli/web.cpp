@@ -12,7 +12,8 @@ using store_verbs::run;
 
 class WebVerbs : public store_verbs::StoreVerbs {};
 
-/// What is certified of the clearance may be a little less if a far tile comes: the body then forgets what it measured.
+/// The trace without its clearances. When a far tile arrives, the body measures again, and may certify a slightly lower
+/// clearance.
 std::string without_clearances(const std::string& trace) {
   std::string kept;
   std::istringstream lines(trace);

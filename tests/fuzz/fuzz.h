@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What the fuzz targets share. Each target tries to break one promise about one kind of input.
+/// Common parts of the fuzz targets. Each target tries to break one promise about one kind of input.
 ///
 ///     test_fuzz --target=obj --seeds=FOLDER [LIBFUZZER OPTIONS] FOLDER...
 ///

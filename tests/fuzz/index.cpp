@@ -99,7 +99,7 @@ std::vector<std::string> part_seeds() {
       unpacked(1, 1, 1, number(0) + number(300) + std::string(300, 'n') + number(1) + number(1))};
 }
 
-/// What is accepted gives a text that is accepted, too, and means the same.
+/// An accepted manifest is written to a text that is also accepted and means the same.
 void run_manifest(Bytes input) {
   constexpr std::uint64_t memory = 16 << 20;
   std::string text;

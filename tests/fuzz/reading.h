@@ -12,7 +12,7 @@ namespace fuzz {
 
 enum class Wanted { meshes, pieces, display };
 
-/// What a reading gave.
+/// The result of a reading.
 struct Outcome {
   std::string error;  ///< of roam::Error; empty: a scene
   std::uint64_t triangles = 0;

@@ -68,7 +68,7 @@ WalkerSettings settings_of(Values& values) {
 
 void judge(const scenes::Judge& triangles, const roam::Walker& walker, const roam::StepReport& report) {
   for (int k = 0; k < 3; ++k) demand(std::isfinite(walker.position()[k]), "the body is nowhere");
-  // What is in the way of a body that does not fit is no promise.
+  // Nothing is promised about a body that does not fit where it is.
   if (walker.mode() == Mode::ghost || report.held) return;
   if (const double margin = scenes::margin(triangles, report); margin < 0.0) {
     fail("a step through a triangle, by " + std::to_string(margin) + " m");

@@ -8,13 +8,13 @@ set -euo pipefail
 cd "$(dirname "$(realpath "$0")")/../.."
 source cmake/packages.sh
 minutes=${1:-60}
-shift || true
+shift $(($# ? 1 : 0))
 # The compiler's cache then serves other copies of the source, too (fuzz_faults.sh).
 export CCACHE_BASEDIR=$PWD CCACHE_NOHASHDIR=1
 configure fuzz
 nice cmake --build build-fuzz --target test_fuzz -j "${JOBS:-1}" < /dev/null
 program=$PWD/build-fuzz/test_fuzz
-mapfile -t all < <("$program" || true)
+mapfile -t all < <("$program")
 targets=("$@")
 ((${#targets[@]})) || targets=("${all[@]}")
 export ASAN_OPTIONS=detect_leaks=0:allocator_may_return_null=1  # foreign libraries leak

@@ -45,7 +45,7 @@ inline DisplayPart full_part() {
   return part;
 }
 
-/// What a viewer may rely on, said again in other words.
+/// Whether the part is as DisplayPart promises, checked by other code.
 inline bool is_valid(const DisplayPart& part) {
   bool valid = part.groups > 0;
   for (const DisplayTexture& t : part.textures) {

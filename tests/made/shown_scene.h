@@ -222,4 +222,17 @@ inline std::string bmp(const std::vector<std::array<std::uint8_t, 3>>& row) {
          u32(0) + u32(texels.size()) + u32(2835) + u32(2835) + u32(0) + u32(0) + texels;
 }
 
+using Row = std::vector<std::array<std::uint8_t, 3>>;
+inline const Row two_texels{{255, 0, 0}, {0, 0, 255}};
+
+/// The colours of the lowest row of an image.
+inline Row row_of(const DisplayTexture& image) {
+  EXPECT_EQ(image.texels, DisplayTexels::rgb);
+  Row row;
+  for (std::uint32_t s = 0; s < image.width; ++s) {
+    row.push_back({image.bytes.at(3 * s), image.bytes.at(3 * s + 1), image.bytes.at(3 * s + 2)});
+  }
+  return row;
+}
+
 }  // namespace roam::test

@@ -53,6 +53,13 @@ class StoreShares : public testing::Test {
     roam::merge_store(o, report);
     return parts_read;
   }
+  /// Reads and plans the build. Returns one of its runs.
+  fs::path planned_run(const roam::StoreBuildOptions& planned) const {
+    read(0, 1);
+    StoreBuildReport report;
+    roam::plan_store(planned, report);
+    return scratch("scratch/runs")[1];
+  }
   void expect_the_same() const { expect_same(folder_.file("whole"), folder_.file("steps")); }
   /// The files of a folder of the scratch.
   std::vector<fs::path> scratch(const std::string& of) const {
@@ -218,11 +225,9 @@ TEST_F(StoreShares, OfWhichFilesAreDamagedOrForeignAreReadAgain) {
 }
 
 TEST_F(StoreShares, WithADamagedBlockAreRefusedByATaskAndReadAgainByTheNextPlan) {
-  read(0, 1);
   const auto o = in("steps", 1);
+  const fs::path run = planned_run(o);
   StoreBuildReport report;
-  roam::plan_store(o, report);
-  const fs::path run = scratch("scratch/runs")[1];
   std::fstream(run, std::ios::in | std::ios::out | std::ios::binary).seekp(100).put('?');
   const std::string said = refusal([&] { roam::build_task(o, 0, report); });
   EXPECT_NE(said.find(run.string() + " was damaged (a block of it is damaged)"), std::string::npos) << said;
@@ -232,17 +237,15 @@ TEST_F(StoreShares, WithADamagedBlockAreRefusedByATaskAndReadAgainByTheNextPlan)
 }
 
 TEST_F(StoreShares, ThatOneMachineReadsWronglyStay) {
-  read(0, 1);
   const auto o = in("steps", 1);
+  const fs::path run = planned_run(o);
   StoreBuildReport report;
-  roam::plan_store(o, report);
-  const fs::path run = scratch("scratch/runs")[1];
   const roam::store::Folder store = roam::store::Folder::held(folder_.file("steps"), true);
   const auto bytes = roam::store::read_file(store, "scratch/runs/" + run.filename().string(), 1 << 26);
   std::uint64_t hash = 0;
   std::memcpy(&hash, bytes.data() + bytes.size() - sizeof hash, sizeof hash);
   const roam::store::RunReader reader(store, "scratch/runs/" + run.filename().string(), hash);
-  // What it has open is damaged; another file has the name.
+  // The open file is damaged, and another file has taken its name.
   std::fstream(run, std::ios::in | std::ios::out | std::ios::binary).seekp(100).put('?');
   fs::rename(run, folder_.file("old"));
   std::ofstream(run, std::ios::binary)
@@ -261,7 +264,7 @@ TEST_F(StoreShares, OfAnOlderSceneAreReadAgain) {
   EXPECT_EQ(plan_and_build(), 1U);
   roam::build_store(in("whole", 0));
   expect_the_same();
-  // Of an update, only what has changed.
+  // An update reads only the changed part.
   write_ply(scene_[1], field(22, 0.5, {30.0, 0.0, 1.0}));
   EXPECT_EQ(read(0, 2).parts_read + read(1, 2).parts_read, 1U);
   EXPECT_EQ(plan_and_build(), parts - 1U) << "those that lie in shards with it";

@@ -250,7 +250,7 @@ TEST(OpenSection, OfAStoreLetsTheBodyThroughToo) {
   EXPECT_TRUE(contains(d.hud(), "section: 2 planes; the body passes through what is hidden whole")) << d.hud();
   EXPECT_FALSE(contains(d.notes(), "With a store"));
   EXPECT_GT(flies_to(d), 20.3);
-  // Of the wall behind a part is seen.
+  // A part of the wall behind is still drawn.
   d.session->roamer().setPose({10, 0, 1.5}, std::numbers::pi, 0.0);
   EXPECT_NEAR(flies_to(d), 0.3, 0.02);
   d.session->hidden().pass_through(false);

@@ -46,7 +46,7 @@ class PageSource : public osgDB::ReadFileCallback {
   [[nodiscard]] std::uint64_t bytes() const { return *memory_; }
   /// Whether an error chooses the levels of some pages.
   [[nodiscard]] bool by_error() const { return by_error_; }
-  /// A number that changes when other levels are drawn. For the thread that draws.
+  /// A number that changes when other levels are drawn. Call it from the drawing thread.
   [[nodiscard]] std::uint64_t changes() const { return rules_->changes; }
   /// Whether they are as many as make unseen ones go.
   [[nodiscard]] bool is_full() const;

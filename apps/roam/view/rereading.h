@@ -23,7 +23,7 @@ struct NextSession {
   std::string leave_out;            ///< without `frame`: pattern of an object to leave out too; empty: show all again
   Pose at;                          ///< the body at the end
   Mode mode = Mode::walk;
-  std::string note;  ///< what the person must know of it; empty: nothing
+  std::string note;  ///< a message for the person; empty: none
 };
 
 /// The same axis, and the next unit of m, cm, mm, ft, in, in a circle.

@@ -29,7 +29,7 @@ namespace roam::store {
 /// The reverse: sets `options` from the text. Throws roam::Error for a text that text_of did not write.
 void read_as(const std::string& text, ImportOptions& options);
 
-/// What a builder remembers of a file of the scene.
+/// The state of a file of the scene, by which a builder sees that it has changed.
 struct SceneFile {
   std::uint64_t size = 0;
   std::int64_t changed_ns = 0;  ///< ctime: no program can set it back

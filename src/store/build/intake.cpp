@@ -143,7 +143,7 @@ std::string valid(const std::string& text) {
   return Json::parse(Json(text).dump(-1, ' ', false, Json::error_handler_t::replace)).get<std::string>();
 }
 
-/// What a record file says; nothing if it is damaged or too large, or of another key or version.
+/// Reads a record file. Returns nothing if it is damaged, too large, or has another key or version.
 std::optional<RecordOfFiles> published_record(Work& work, const std::string& file) {
   const std::uint64_t size = size_of(work.store, file).value_or(0);
   if (size > record_memory / 4) return {};

@@ -43,8 +43,8 @@ struct RecordOfFiles {
   PartRecord record;
   SceneFiles files;
 };
-/// What publish_record left in the scratch folder with the same key, perhaps on another machine. None if the part file
-/// is not there to the last byte, a run is missing or has another end, or the record is larger than any of its kind.
+/// Reads the record that publish_record, perhaps on another machine, wrote with the same key. Returns nothing if the
+/// part file is incomplete, if a run is missing or has another end, or if the record is too large for one.
 [[nodiscard]] std::optional<RecordOfFiles> find_record(Work& work, const std::string& name);
 void publish_record(const Work& work, const PartRecord& record, const SceneFiles& files);
 

@@ -125,7 +125,7 @@ struct RunReader::Footer {
   std::uint64_t zero;
   std::uint64_t hash;  ///< of all members before it
 
-  /// Of a file of so many bytes.
+  /// Whether this is the end of a whole run file of so many bytes.
   [[nodiscard]] bool is_right(std::uint64_t bytes) const {
     return std::memcmp(magic, run_magic, sizeof run_magic) == 0 && hash == hash_of_members() && index_offset <= bytes &&
            blocks <= bytes / sizeof(Entry) && index_offset + blocks * sizeof(Entry) + sizeof(Footer) == bytes;

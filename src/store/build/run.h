@@ -52,8 +52,8 @@ struct RunBlock {
 };
 
 /// A run, open for reading by any number of threads. Throws roam::Error for a file that has changed since it was
-/// written. Removes it, so that the next plan reads its part again, if it is damaged when it is opened and read anew,
-/// too, and no other file has taken its place.
+/// written. It opens and reads a damaged file a second time. If that is damaged too, and no other file has taken its
+/// place, it removes the file, so that the next plan reads that part of the scene again.
 class RunReader {
  public:
   /// `hash`: of write_run.

@@ -32,7 +32,7 @@ class FileHash {
   /// Device and inode.
   [[nodiscard]] std::pair<std::uint64_t, std::uint64_t> number() const { return {status_.st_dev, status_.st_ino}; }
 
-  /// Of the file, or of an entry of it.
+  /// The digest of the file, or of one entry of it.
   [[nodiscard]] std::string digits(const ArchiveEntry& entry);
 
  private:
