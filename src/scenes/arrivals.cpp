@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "cli/tell.h"
-#include "store/read_ahead.h"
+#include "store/web/server.h"
 
 namespace roam::app {
 namespace {
@@ -53,8 +53,7 @@ TilesAround::TilesAround(Pager& pager, std::function<bool()> goes_on, double stu
 bool TilesAround::failed_may_come() {
   const PagerStats now = pager_.stats();
   lost_ = std::min(lost_, now.failed);
-  return now.failed > lost_ && Store::is_address(pager_.store().name()) &&
-         now.last_failure.find(store::wrong_checksum) == std::string::npos;
+  return now.failed > lost_ && web::may_pass(now.last_failure);
 }
 
 void TilesAround::wait(const Body& body, const Vec3& place, const Vec3& velocity, double reach) {

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <ranges>
 
 #include "files/escaped.h"
 #include "text/printable.h"
@@ -30,8 +29,8 @@ fs::path below(const fs::path& file, const fs::path& folder) {
 
 bool is_allowed(const fs::path& file, const reader::SceneScope& scope) {
   // The first folder is that of the scene.
-  return std::ranges::any_of(scope.folders | std::views::drop(1),
-                             [&](const fs::path& folder) { return !below(file, folder).empty(); });
+  return std::any_of(scope.folders.begin() + (scope.folders.empty() ? 0 : 1), scope.folders.end(),
+                     [&](const fs::path& folder) { return !below(file, folder).empty(); });
 }
 
 }  // namespace

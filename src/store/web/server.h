@@ -14,6 +14,7 @@
 #include <span>
 #include <stop_token>
 #include <string>
+#include <string_view>
 #include <thread>
 #include <vector>
 
@@ -38,6 +39,13 @@ struct Answer {
 
 /// The problem of a range beyond the file's end.
 inline constexpr const char* too_short = "the file is shorter than the manifest says";
+
+/// The problem of a server that cannot serve a store.
+inline constexpr const char* no_ranges =
+    "the web server ignores ranges and sends the whole file; use one that serves ranges, as nginx does";
+
+/// Whether a message names a problem that may pass, such as a broken connection.
+[[nodiscard]] bool may_pass(std::string_view message);
 
 /// A file to get, or a range of one.
 struct Wanted {

@@ -6,6 +6,7 @@
 #include <charconv>
 #include <cstdlib>
 #include <cstring>
+#include <iterator>
 #include <new>
 #include <string_view>
 
@@ -24,12 +25,13 @@ constexpr long least_speed = 1000;
 /// Bytes of an error's page that are read, so that the connection can be used again.
 constexpr std::uint64_t most_ignored = 64 << 10;
 
-constexpr const char* no_ranges =
-    "the web server ignores ranges and sends the whole file; use one that serves ranges, as nginx does";
 constexpr const char* wrong_range = "the web server sends another range than requested";
 constexpr const char* too_much = "the web server sends more bytes than it says";
 constexpr const char* larger = "it is larger than any file of its kind";
 constexpr const char* broken = "the connection to the web server broke";
+
+/// Statuses of failures that may pass.
+constexpr long passing[] = {408, 429, 500, 502, 503, 504};
 
 bool is_redirect(long status) {
   return status == 301 || status == 302 || status == 303 || status == 307 || status == 308;
@@ -100,6 +102,8 @@ Failure failure_of(CURLcode code) {
   return {code, "the web server's answer is no HTTP", false};
 }
 
+bool has(std::string_view message, std::string_view text) { return message.find(text) != std::string_view::npos; }
+
 bool same_name(std::string_view a, std::string_view lower) {
   return a.size() == lower.size() && std::equal(a.begin(), a.end(), lower.begin(), [](char x, char y) {
            return (x >= 'A' && x <= 'Z' ? static_cast<char>(x - 'A' + 'a') : x) == y;
@@ -121,6 +125,13 @@ bool number(std::string_view& text, std::uint64_t& value) {
 }
 
 }  // namespace
+
+bool may_pass(std::string_view message) {
+  return std::any_of(std::begin(passing), std::end(passing),
+                     [&](long status) { return has(message, meaning(status, false)); }) ||
+         std::any_of(std::begin(failures), std::end(failures),
+                     [&](const Failure& f) { return f.may_pass && has(message, f.meaning); });
+}
 
 Transfer::Transfer(std::vector<Job*>&& of, std::string where, const Manners& manners)
     : jobs(std::move(of)),
@@ -309,19 +320,8 @@ Answer Transfer::answer(CURLcode result) const {
 
 bool Transfer::may_pass(CURLcode result) const {
   if (problem_) return false;
-  if (is_cut()) return true;
-  switch (status_) {
-    case 408:
-    case 429:
-    case 500:
-    case 502:
-    case 503:
-    case 504:
-      return true;
-    default:
-      break;
-  }
-  return failure_of(result).may_pass;
+  return is_cut() || std::find(std::begin(passing), std::end(passing), status_) != std::end(passing) ||
+         failure_of(result).may_pass;
 }
 
 double Transfer::wished_pause() const {
