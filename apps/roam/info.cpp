@@ -16,6 +16,7 @@
 #include "scenes/frame.h"
 #include "scenes/scene_options.h"
 #include "scenes/web_options.h"
+#include "store/tile_reader.h"
 #include "verbs.h"
 #include "words/lines.h"
 #include "words/measures.h"
@@ -82,8 +83,8 @@ Json json_report(const SceneOptions& options, const LoadedScene& scene, const me
 /// "47.9 x 102.3 x 12.0 m, 499,936 triangles in 1 object".
 std::string size_words(const Box& bounds, std::uint64_t triangles, std::uint64_t objects) {
   const Vec3 size = bounds.size();
-  return fmt::format("{:.2f} x {:.2f} x {:.2f} m, {} triangles in {} object{}", size.x, size.y, size.z,
-                     words::grouped(triangles), words::grouped(objects), objects == 1 ? "" : "s");
+  return fmt::format("{:.2f} x {:.2f} x {:.2f} m, {} in {}", size.x, size.y, size.z,
+                     words::counted(triangles, "triangle"), words::counted(objects, "object"));
 }
 
 std::string up_words(const SceneOptions& options) {
@@ -174,12 +175,26 @@ Json json_report(const Store& store) {
           {"geometry_hash", i.geometry_hash}};
 }
 
+/// The reason why the first page of a store on a web server cannot be read; empty if there is none.
+std::string reading_problem(const Store& store) {
+  if (!Store::is_address(store.name()) || store.state().pages.empty()) return {};
+  try {
+    (void)store::TileReader(store.state()).page(0);
+    return {};
+  } catch (const Error& error) {
+    return error.what();
+  }
+}
+
 std::string text_report(const Store& store) {
   const StoreInfo& i = store.info();
   words::Lines lines(printable_part(store.name()) + ": a store, " + size_words(i.bounds, i.triangles, i.objects));
   lines.add("from", words::exactly_at(i.bounds.lower));
   lines.add("to", words::exactly_at(i.bounds.upper));
   lines.add("on disk", short_count(static_cast<double>(i.bytes)) + "B");
+  if (const std::string problem = reading_problem(store); !problem.empty()) {
+    lines.add("not read", printable_part(problem));
+  }
   return lines.text();
 }
 
@@ -190,7 +205,8 @@ std::string stats_report(const Store& store) {
   const auto line = [&](const char* what, const std::string& value) {
     text += fmt::format("  {:<16}{}\n", what, value);
   };
-  line("store", fmt::format("format {}, {} tiles on {} pages in {} packs", i.format, i.tiles, i.pages, i.packs));
+  line("store", fmt::format("format {}, {} on {} in {}", i.format, words::counted(i.tiles, "tile"),
+                            words::counted(i.pages, "page"), words::counted(i.packs, "pack")));
   line("on disk",
        fmt::format("{:.2f} bytes a triangle: {:.2f} of geometry, {:.2f} of source numbers",
                    static_cast<double>(i.bytes) / triangles, static_cast<double>(i.geometry_bytes) / triangles,

@@ -77,8 +77,8 @@ void demand_plain_name(const std::filesystem::path& folder) {
 std::string text_report(const PublishOptions& options, const StorePublication& published) {
   const std::string store = printable_part(options.store.string()), folder = printable_part(options.folder.string());
   if (published.unchanged) return fmt::format("{}: {} is published there already\n", folder, store);
-  return fmt::format("{}: {} is published: {} files copied, {}B; {} were there\n", folder, store,
-                     words::grouped(published.files), short_count(static_cast<double>(published.bytes)),
+  return fmt::format("{}: {} is published: {} copied, {}B; {} there already\n", folder, store,
+                     words::counted(published.files, "file"), short_count(static_cast<double>(published.bytes)),
                      words::grouped(published.present));
 }
 

@@ -19,6 +19,7 @@
 #include "scenes/web_options.h"
 #include "store/held.h"
 #include "verbs.h"
+#include "words/measures.h"
 
 namespace roam::app {
 namespace {
@@ -87,8 +88,8 @@ std::string text_report(const VerifyOptions& options, const StoreVerification& f
         store);
   }
   if (found.damage.empty()) {
-    return fmt::format("{}: whole; {}B and {} tiles are what was written{}\n", store,
-                       short_count(static_cast<double>(found.bytes)), found.tiles,
+    return fmt::format("{}: whole; {}B and {} are as they were written{}\n", store,
+                       short_count(static_cast<double>(found.bytes)), words::counted(found.tiles, "tile"),
                        origin.yours ? " by you" : "; by whom is not known: " + printable_part(origin.why_not));
   }
   const std::string text = damage_text(options, found);

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "cli/tell.h"
+#include "words/measures.h"
 
 namespace roam::app {
 
@@ -56,7 +57,7 @@ std::string describe(const SceneProfile& profile) {
     text += fmt::format(", slope {:.3g} degrees", p.slope_degrees);
   }
   if (!p.regions.empty()) {
-    text += fmt::format(", other sizes in {} region{}", p.regions.size(), p.regions.size() == 1 ? "" : "s");
+    text += ", other sizes in " + words::counted(p.regions.size(), "region");
   }
   if (!p.complete) text += "; its training was interrupted";
   return text;

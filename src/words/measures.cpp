@@ -9,6 +9,10 @@ std::string grouped(std::uint64_t number) {
   return grouped(number / 1000) + fmt::format(",{:03}", number % 1000);
 }
 
+std::string counted(std::uint64_t count, std::string_view noun) {
+  return fmt::format("{} {}{}", grouped(count), noun, count == 1 ? "" : "s");
+}
+
 std::string times(std::uint64_t count) {
   return count == 1 ? "once" : count == 2 ? "twice" : fmt::format("{} times", grouped(count));
 }

@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <string>
+#include <string_view>
 
 #include "roam/math.h"
 #include "roam/walker_settings.h"
@@ -29,6 +30,8 @@ namespace roam::words {
 
 /// "499,936".
 [[nodiscard]] std::string grouped(std::uint64_t number);
+/// "1 tile", "2,000 tiles".
+[[nodiscard]] std::string counted(std::uint64_t count, std::string_view noun);
 /// "once", "twice", "3 times".
 [[nodiscard]] std::string times(std::uint64_t count);
 /// "75 mm to spare on each side".

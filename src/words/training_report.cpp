@@ -16,7 +16,7 @@ std::string body_of(const Training& t) {
   return (t.mode == Mode::fly ? "a flying body " : "a body ") + size_of(t.radius, t.height);
 }
 
-std::string routes(std::size_t count) { return count == 1 ? "1 route" : fmt::format("{} routes", count); }
+std::string routes(std::size_t count) { return counted(count, "route"); }
 
 std::size_t served(const Training& t) {
   return static_cast<std::size_t>(std::count_if(t.paths.begin(), t.paths.end(), [&](const TrainedPath& path) {
@@ -64,7 +64,7 @@ std::string gaps(const Training& t) {
   std::string text = widest == nullptr
                          ? t.all_cracks ? "none" : "none found; not all were looked for"
                          : fmt::format("{}; widest {:.2f} m at {}", cracks, 2.0 * widest->radius, at(widest->point));
-  if (drops > 0) text += fmt::format("; besides {} open drop{}", drops, drops == 1 ? "" : "s");
+  if (drops > 0) text += "; besides " + counted(drops, "open drop");
   if (t.support_radius > t.radius)
     text += fmt::format(". A support disc {:.2f} m wide carries the body over them", 2.0 * t.support_radius);
   return text;
@@ -100,7 +100,7 @@ std::string left_out(const Training& t) {
     reasons.insert(why(part.left_out));
   }
   if (count == 0) return {};
-  std::string text = fmt::format("{} part{}", grouped(count), count == 1 ? "" : "s");
+  std::string text = counted(count, "part");
   if (area > 0.0) text += fmt::format(" with {} m2 of floor", grouped(static_cast<std::uint64_t>(area + 0.5)));
   text += ":";
   for (const std::string& reason : reasons) text += (reason == *reasons.begin() ? " " : "; ") + reason;

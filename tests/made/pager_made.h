@@ -45,6 +45,8 @@ class TroubledBytes : public roam::store::StoreBytes {
   std::atomic<int> errors{0}, short_reads{0}, flips{0};
   std::atomic<int> delay_us{0};
   std::atomic<std::uint64_t> reads{0};
+  /// The reason of errors.
+  const char* reason = "the disk reports an input/output error";
   /// Offsets of reads without faults. Set it before the first read.
   std::set<std::uint64_t> spared;
 
@@ -79,7 +81,7 @@ class TroubledBytes : public roam::store::StoreBytes {
       return static_cast<int>((chance >> 33) % 1000) < of_thousand;
     };
     if (spared.contains(offset)) return files_->read(file, offset, out);
-    if (strikes(errors)) return "the disk reports an input/output error";
+    if (strikes(errors)) return reason;
     if (const char* problem = files_->read(file, offset, out)) return problem;
     if (strikes(short_reads)) std::memset(out.data() + out.size() / 2, 0, out.size() - out.size() / 2);
     if (strikes(flips)) out[(chance >> 7) % out.size()] ^= std::byte{1} << (chance % 8);

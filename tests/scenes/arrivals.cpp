@@ -9,6 +9,10 @@
 #include "pager_made.h"
 #include "roam/route.h"
 #include "roam/walker.h"
+#include "store/read_ahead.h"
+#include "store/web/server.h"
+#include "store/read_ahead.h"
+#include "store/web/server.h"
 #include "walker_judged.h"
 
 namespace {
@@ -71,7 +75,22 @@ TEST(TilesAround, ThatAWebServerFailsToSendAreWaitedFor) {
   const Alley alley("around_failing");
   const std::string right = walked(alley.bytes, 1);
   alley.bytes->errors = 300;
+  alley.bytes->reason = "the connection to the web server broke";
   EXPECT_EQ(walked(alley.bytes, 4, "http://alley"), right);
+}
+
+TEST(TilesAround, ThatAWebServerCannotSendAreNotWaitedFor) {
+  for (const char* reason : {roam::web::no_ranges, roam::web::too_short, roam::store::wrong_checksum,
+                             "the web server has no such file (status 404 or 410)"}) {
+    const Alley alley("around_impossible");
+    alley.bytes->errors = 1000;
+    alley.bytes->reason = reason;
+    Pager pager(roam::store::open_store(alley.bytes, "http://alley"), {.memory = Pager::least_memory});
+    int asked = 0;  // every 20 ms
+    TilesAround(pager, [&] { return ++asked < 1000; }).wait(person, begin, Vec3(0.0), 5.0);
+    EXPECT_LT(asked, 500) << reason;
+    EXPECT_NE(pager.stats().last_failure.find(reason), std::string::npos);
+  }
 }
 
 TEST(TilesAround, ThatNeverComeAreGivenUpOnceAndSaidSo) {

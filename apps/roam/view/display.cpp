@@ -14,6 +14,7 @@
 #include "view/body.h"
 #include "view/learning.h"
 #include "view/start.h"
+#include "words/measures.h"
 
 namespace roam::app {
 namespace {
@@ -71,8 +72,8 @@ void Display::tell_news() {
   }
   if (scene_.missing_pages() > pages_told_) {
     pages_told_ = scene_.missing_pages();
-    news_.note(fmt::format("{} page{} of the scene could not be read: coarser ones are shown there ({})", pages_told_,
-                           pages_told_ == 1 ? "" : "s", scene_.page_problem()));
+    news_.note(fmt::format("{} of the scene could not be read: coarser ones are shown there ({})",
+                           words::counted(pages_told_, "page"), scene_.page_problem()));
   }
   tell_of_pages();
   for (const Picture& picture : stage_.poll_pictures()) {

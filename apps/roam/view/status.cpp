@@ -10,6 +10,7 @@
 
 #include "cli/progress.h"
 #include "text/printable.h"
+#include "words/measures.h"
 
 namespace roam::app {
 namespace {
@@ -188,7 +189,7 @@ Told status_message(const Status& status) {
 
 std::string coming_text(std::uint64_t tiles, std::string_view server) {
   if (tiles == 0 || server.empty()) return {};
-  return fmt::format("{} {} to come from {}", tiles, tiles == 1 ? "tile" : "tiles", server);
+  return fmt::format("{} to come from {}", words::counted(tiles, "tile"), server);
 }
 
 std::string byte_text(std::uint64_t bytes) {

@@ -132,7 +132,10 @@ std::string text_report(const WalkReport& report) {
   }
   lines.add("body", body_line(report));
   if (report.paging && report.paging->failed > 0) {
-    lines.add("not read", fmt::format("{} tiles or pages of the store are solid: {}", report.paging->failed,
+    lines.add("not read", fmt::format("{} solid: {}",
+                                      report.paging->failed == 1
+                                          ? "1 tile or page of the store is"
+                                          : fmt::format("{} tiles or pages of the store are", report.paging->failed),
                                       printable_part(report.paging->last_failure)));
   }
   if (report.verified) {
