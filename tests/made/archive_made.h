@@ -70,7 +70,7 @@ inline std::string local_entry(const MadeEntry& entry) {
 inline std::string made_archive(const std::vector<MadeEntry>& entries) {
   std::string bytes, directory;
   for (const MadeEntry& entry : entries) {
-    directory += "PK\1\2" + number_bytes(20, 2) + header_of(entry) + number_bytes(0, 10) +
+    directory += "PK\1\2" + number_bytes(20, 2) + header_of(entry) + std::string(10, '\0') +
                  number_bytes(entry.place.value_or(bytes.size()), 4) + entry.name;
     if (!entry.place) bytes += local_entry(entry);
   }
