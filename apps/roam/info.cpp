@@ -186,15 +186,13 @@ std::string reading_problem(const Store& store) {
   }
 }
 
-std::string text_report(const Store& store) {
+std::string text_report(const Store& store, const std::string& problem) {
   const StoreInfo& i = store.info();
   words::Lines lines(printable_part(store.name()) + ": a store, " + size_words(i.bounds, i.triangles, i.objects));
   lines.add("from", words::exactly_at(i.bounds.lower));
   lines.add("to", words::exactly_at(i.bounds.upper));
   lines.add("on disk", short_count(static_cast<double>(i.bytes)) + "B");
-  if (const std::string problem = reading_problem(store); !problem.empty()) {
-    lines.add("not read", printable_part(problem));
-  }
+  if (!problem.empty()) lines.add("not read", printable_part(problem));
   return lines.text();
 }
 
@@ -223,7 +221,10 @@ ExitStatus store_info(const SceneOptions& options, bool json, bool stats) {
     throw UsageError("a store is a scene of its own, and was read when it was built: name it alone");
   }
   const auto store = Store::open(options.scenes.front(), Store::usual_memory, options.web);
-  print_report(json, json_report(*store), text_report(*store) + (stats ? stats_report(*store) : ""));
+  const std::string problem = reading_problem(*store);
+  Json report = json_report(*store);
+  if (!problem.empty()) report["not_read"] = problem;
+  print_report(json, report, text_report(*store, problem) + (stats ? stats_report(*store) : ""));
   return done;
 }
 

@@ -52,7 +52,7 @@ class TilesAround {
   TilesAround(Pager& pager, std::function<bool()> goes_on, double stuck = Arrivals::stuck_after);
 
   /// Waits until everything readable within `reach` (m) of a body, and within `ahead` at `velocity`, is loaded;
-  /// what lies in its direction comes first. Tiles that a web server did not send are readable until nothing else has
+  /// what lies in its direction comes first. Tiles that a web server may still send count as readable until nothing has
   /// come for `stuck` seconds: the pager tries them again. If memory is too small for it, waits until nothing more
   /// arrives, and then for a smaller reach. If nothing arrives for `stuck` seconds, says so on standard error, and
   /// waits no more until something arrives.

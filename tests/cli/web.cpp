@@ -70,6 +70,17 @@ TEST_F(WebVerbs, ProbeAndSweepAsOnTheDisk) {
   EXPECT_GE(server.most_at_once(), 2);
 }
 
+TEST_F(WebVerbs, InfoNamesWhatKeepsAStoreFromBeingRead) {
+  const support::Misbehaving server(store_verbs::fs::path(store()).parent_path());
+  const std::string name = store_verbs::fs::path(store()).filename().string();
+  const auto said = [&](const char* mode) { return run({"info", server.address(mode, name)}).out; };
+  EXPECT_TRUE(contains(said("endless"), "not read    http://")) << said("endless");
+  EXPECT_TRUE(contains(said("endless"), "ignores ranges")) << said("endless");
+  EXPECT_FALSE(contains(said("right"), "not read")) << said("right");
+  EXPECT_TRUE(contains(json::parse(run({"info", server.address("endless", name), "--json"}).out)["not_read"],
+                       "ignores ranges"));
+}
+
 TEST_F(WebVerbs, CallAFailureOfTheServerNoDamage) {
   const support::Misbehaving server(store_verbs::fs::path(store()).parent_path());
   const std::string name = store_verbs::fs::path(store()).filename().string();
