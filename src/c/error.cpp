@@ -14,7 +14,7 @@ thread_local const char* shown = "";
 
 roam_status failed(roam_status status, const char* why) noexcept {
   try {
-    text = why;
+    text = without_secrets(why);
     shown = text.c_str();
   } catch (...) {
     shown = "the machine has too little free memory";

@@ -8,6 +8,7 @@
 
 #include "import/find_reader.h"
 #include "import/report_notes.h"
+#include "text/web_address.h"
 
 namespace roam::reader {
 namespace {
@@ -94,7 +95,8 @@ void check(std::span<const Source> sources, const ImportOptions& options) {
     const fs::file_status status = fs::status(path, why);
     if (!fs::exists(status)) {
       const std::string reason = why && status.type() == fs::file_type::none ? " (" + why.message() + ")" : "";
-      throw Error(path.string(), fmt::format("there is no such file or folder{}. Check the spelling.", reason));
+      throw Error(path.string(),
+                  fmt::format("there is no such file or folder{}. {}", reason, help_for_missing(path.native())));
     }
     if (!fs::is_directory(status) && !fs::is_regular_file(status)) {
       throw Error(path.string(), "this is neither a file nor a folder; a scene is read from one of these.");

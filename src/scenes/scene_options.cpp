@@ -15,6 +15,7 @@
 #include "math/boxes.h"
 #include "roam/error.h"
 #include "roam/wander.h"
+#include "text/web_address.h"
 #include "words/frame.h"
 
 namespace roam::app {
@@ -135,13 +136,15 @@ void SceneOptions::check_there() const {
   std::error_code none;
   for (const auto& scene : scenes) {
     if (Store::is_address(scene.native())) continue;
+    if (scene.empty()) throw Error("the name of a scene is empty; name a file or a folder");
     if (!std::filesystem::exists(scene, none)) {
       if (none && none != std::errc::no_such_file_or_directory && none != std::errc::not_a_directory) {
         throw Error(scene.string(), "cannot be looked at: " + none.message());
       }
       const std::filesystem::path target = std::filesystem::read_symlink(scene, none);
-      throw Error(scene.string(), target.empty() ? "there is no such file or folder. Check the spelling."
-                                                 : "is a link to " + target.string() + ", which is not there.");
+      throw Error(scene.string(), target.empty()
+                                      ? "there is no such file or folder. " + help_for_missing(scene.native())
+                                      : "is a link to " + target.string() + ", which is not there.");
     }
     // An incomplete store, or one without CURRENT, is no folder of photogrammetry. Opening it gives the reason.
     int folders_of_stores = 0;

@@ -9,6 +9,7 @@
 
 #include "store/files.h"
 #include "store/json_reader.h"
+#include "text/web_address.h"
 
 namespace roam::store {
 namespace {
@@ -64,6 +65,8 @@ void refuse_to_open(const Folder& store) {
   const std::string name = store.string();
   std::error_code none;
   if (!store.open().is_open() && !fs::exists(store.path(), none)) {
+    if (name.empty()) throw Error("the name of a store is empty; name its folder or its address");
+    if (!scheme_name(name).empty()) throw Error(name, "there is no such folder. " + help_for_missing(name));
     throw Error::at(name, fmt::format("{} is not there{}; make a store with roam build", name,
                                       fs::is_symlink(store.path(), none) ? ": it is a link that leads nowhere" : ""));
   }

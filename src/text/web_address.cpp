@@ -45,6 +45,20 @@ std::size_t scheme_size(std::string_view text) {
   return size > 0 && text.substr(size).starts_with("//") ? size + 2 : 0;
 }
 
+std::string_view scheme_name(std::string_view text) {
+  const std::string_view name = text.substr(0, std::min(text.find("://"), text.size()));
+  const auto is_of_name = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '+' || c == '-';
+  };
+  return name.size() < text.size() && std::all_of(name.begin(), name.end(), is_of_name) ? name : std::string_view();
+}
+
+std::string help_for_missing(std::string_view name) {
+  if (scheme_size(name) > 0) return "A store at this address is opened as a store; a scene is downloaded first.";
+  if (!scheme_name(name).empty()) return "Stores are read by http:// and https://; all else is copied here first.";
+  return "Check the spelling.";
+}
+
 std::string_view web_host(std::string_view address) {
   const std::size_t scheme = scheme_size(address);
   if (scheme == 0) return {};

@@ -11,6 +11,12 @@ namespace roam {
 /// The size of "http://" or "https://" at the start of a text, in any case; 0: none.
 [[nodiscard]] std::size_t scheme_size(std::string_view text);
 
+/// The name before "://" at the start of a text, such as "ftp"; empty: there is none.
+[[nodiscard]] std::string_view scheme_name(std::string_view text);
+
+/// What to do if there is no file or folder of this name, which may be an address.
+[[nodiscard]] std::string help_for_missing(std::string_view name);
+
 /// The size of a name and a password, with the @, at the start of an address behind its scheme; 0: none.
 [[nodiscard]] std::size_t login_size(std::string_view address);
 

@@ -62,6 +62,17 @@ TEST(CErrors, ACacheIsForWebServersAndHasASize) {
   EXPECT_NE(std::string(roam_error()).find("patience"), std::string::npos) << roam_error();
 }
 
+TEST(CErrors, AddressesOfTheWrongKind) {
+  roam_space* space = nullptr;
+  EXPECT_NE(roam_world_open("http://127.0.0.1:1/x.roam?sig=SECRET", nullptr, &space), ROAM_OK);
+  EXPECT_NE(std::string(roam_error()).find("opened as a store"), std::string::npos) << roam_error();
+  EXPECT_EQ(std::string(roam_error()).find("SECRET"), std::string::npos) << roam_error();
+  EXPECT_EQ(roam_store_open("ftp://127.0.0.1:1/x.roam", nullptr, &space), ROAM_NOT_FOUND);
+  EXPECT_NE(std::string(roam_error()).find("read by http:// and https://"), std::string::npos) << roam_error();
+  EXPECT_EQ(roam_store_open("", nullptr, &space), ROAM_NOT_FOUND);
+  EXPECT_NE(std::string(roam_error()).find("the name of a store is empty"), std::string::npos) << roam_error();
+}
+
 TEST(CErrors, StructsOfOtherVersions) {
   const c_rig::Room room;
   roam_impact impact{};

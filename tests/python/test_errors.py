@@ -99,6 +99,8 @@ def test_files(tmp_path, room_file):
         roam.World.open("a\0b")
     with pytest.raises(TypeError):
         roam.World.open(5)
+    with raises(OSError, "opened as a store"):
+        roam.World.open("http://127.0.0.1:1/x.roam")
     with raises(FileNotFoundError, "none.roam"):
         roam.Store.open(tmp_path / "none.roam")
     with raises(FileNotFoundError):

@@ -36,6 +36,14 @@ TEST(WebAddress, ASchemeHasAnyCase) {
   }
 }
 
+TEST(WebAddress, WhatIsMissingIsHelpedByItsKind) {
+  EXPECT_EQ(roam::scheme_name("ftp://a/b"), "ftp");
+  for (const char* none : {"", "a", "a/b://c", "://a", "s3:/a"}) EXPECT_EQ(roam::scheme_name(none), "") << none;
+  EXPECT_EQ(roam::help_for_missing("house.obj"), "Check the spelling.");
+  EXPECT_NE(roam::help_for_missing("HTTP://a/b").find("opened as a store"), std::string::npos);
+  EXPECT_NE(roam::help_for_missing("s3://a/b").find("copied here"), std::string::npos);
+}
+
 TEST(WebAddress, AHostIsNamedWithItsPort) {
   EXPECT_EQ(roam::web_host("https://a.org:81/b?c"), "a.org:81");
   EXPECT_EQ(roam::web_host("HTTP://a?b"), "a");
