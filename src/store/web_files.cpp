@@ -17,7 +17,8 @@ namespace {
 constexpr int requests_at_once = 8;
 
 constexpr const char* gone =
-    "the web server has it no longer (status 404 or 410): the store was replaced or removed; open it anew";
+    "the web server does not have it (status 404 or 410): the store was replaced or removed: open it anew; or "
+    "not all of it is served: publish it again";
 
 /// Whether a store has a file of this name. Only such files are requested from a web server, for manifests come from
 /// strangers.

@@ -41,6 +41,7 @@ TEST(WebStore, BadAnswersAreSolidAndNamed) {
       {"whole", "ignores ranges"},
       {"page", "ignores ranges"},
       {"short", "shorter than the manifest says"},
+      {"truncated", "shorter than the manifest says; publish the store again"},
       {"cut", "connection to the web server broke"},
       {"reset", "connection to the web server broke"},
       {"long", "its checksum is wrong"},

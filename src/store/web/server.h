@@ -38,7 +38,7 @@ struct Answer {
 };
 
 /// The problem of a range beyond the file's end.
-inline constexpr const char* too_short = "the file is shorter than the manifest says";
+inline constexpr const char* too_short = "the file is shorter than the manifest says; publish the store again";
 
 /// The problem of a server that cannot serve a store.
 inline constexpr const char* no_ranges =

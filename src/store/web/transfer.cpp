@@ -213,7 +213,7 @@ void Transfer::header(std::string_view line) {
   if (line.starts_with("HTTP/")) {  // of this answer, or of one before it, such as 100
     status_ = 0;
     has_range_ = false;
-    length_ = received_ = ignored_ = 0;
+    range_of_ = length_ = received_ = ignored_ = 0;
     std::string_view rest = line.substr(std::min(line.find(' '), line.size()));
     while (rest.starts_with(' ')) rest.remove_prefix(1);
     std::uint64_t status = 0;
@@ -231,6 +231,8 @@ void Transfer::header(std::string_view line) {
     has_range_ = number(value, range_first_) && value.starts_with('-');
     if (has_range_) value.remove_prefix(1);
     has_range_ = has_range_ && number(value, range_last_) && value.starts_with('/');
+    if (has_range_) value.remove_prefix(1);
+    if (!has_range_ || !number(value, range_of_)) range_of_ = 0;
   }
 }
 
@@ -253,7 +255,7 @@ bool Transfer::headers_end() {
     problem_ = no_ranges;
   } else if (status_ != 206 || !has_range_ || range_first_ != first_ || range_last_ < first_ ||
              range_last_ - first_ >= size_) {
-    problem_ = wrong_range;
+    problem_ = range_of_ > 0 && range_of_ < first_ + size_ ? too_short : wrong_range;
   }
   return problem_ == nullptr;
 }

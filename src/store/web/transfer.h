@@ -64,6 +64,7 @@ class Transfer {
   long status_ = 0;
   bool has_range_ = false;
   std::uint64_t range_first_ = 0, range_last_ = 0;
+  std::uint64_t range_of_ = 0;  ///< size of the whole file; 0: not said
   std::uint64_t length_ = 0;    ///< Content-Length; 0: not said
   std::uint64_t received_ = 0;  ///< bytes of the file
   std::uint64_t ignored_ = 0;   ///< bytes of an answer that is none
