@@ -146,7 +146,7 @@ class Walker {
     while (used_ + items_[item].resident > memory) drop_farthest();
     const Item& wanted = items_[item];
     buffer_.resize(wanted.range.bytes);
-    const bool failed = bytes_->read_checked(wanted.range.file, wanted.range.offset, buffer_, wanted.range.hash, {});
+    const bool failed = bytes_->read_checked(wanted.range.file, wanted.range.offset, buffer_, *wanted.range.hash, {});
     const double took = seconds_between(states_[item].wanted, Clock::now());
     states_[item] = {!failed, {}};
     if (!failed) used_ += wanted.resident;

@@ -48,8 +48,9 @@ ReadAhead::Result ReadAhead::take(const CheckedRange& range) {
 void ReadAhead::read(Read& one) const {
   try {
     one.result.bytes.resize(static_cast<std::size_t>(one.range.bytes));
-    one.result.problem =
-        bytes_.read_checked(one.range.file, one.range.offset, one.result.bytes, one.range.hash, ending_.get_token());
+    const CheckedRange& r = one.range;
+    one.result.problem = r.hash ? bytes_.read_checked(r.file, r.offset, one.result.bytes, *r.hash, ending_.get_token())
+                                : bytes_.read(r.file, r.offset, one.result.bytes, ending_.get_token());
   } catch (...) {
     one.thrown = std::current_exception();
   }

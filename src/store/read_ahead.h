@@ -8,6 +8,7 @@
 #include <exception>
 #include <list>
 #include <mutex>
+#include <optional>
 #include <stop_token>
 #include <string>
 #include <thread>
@@ -20,10 +21,11 @@ namespace roam::store {
 /// The failure of bytes that came, and are not those that were written.
 inline constexpr const char* wrong_checksum = "its checksum is wrong";
 
-/// A range of a file, and its XXH3.
+/// A range of a file, and its XXH3. Without that it is neither checked nor taken from caches.
 struct CheckedRange {
   std::string file;
-  std::uint64_t offset = 0, bytes = 0, hash = 0;
+  std::uint64_t offset = 0, bytes = 0;
+  std::optional<std::uint64_t> hash{};
   bool operator==(const CheckedRange&) const = default;
 };
 

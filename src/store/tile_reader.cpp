@@ -44,8 +44,15 @@ CheckedRange TileReader::range_of(std::uint64_t page, const TileEntry& entry) co
   return {store_.packs[store_.pages[page].shard], entry.offset, entry.bytes, entry.hash};
 }
 
+CheckedRange TileReader::range_of_numbers(std::uint64_t page, const TileEntry& entry) const {
+  return {store_.packs[store_.pages[page].shard], entry.offset + entry.bytes, entry.number_bytes, entry.number_hash};
+}
+
 void TileReader::expect(std::uint64_t page) { ahead_.begin(range_of(page)); }
 void TileReader::expect(std::uint64_t page, const TileEntry& entry) { ahead_.begin(range_of(page, entry)); }
+void TileReader::expect_numbers(std::uint64_t page, const TileEntry& entry) {
+  ahead_.begin(range_of_numbers(page, entry));
+}
 
 std::vector<std::byte> TileReader::read(const CheckedRange& range, const std::string& what) {
   ReadAhead::Result result = ahead_.take(range);
@@ -96,9 +103,7 @@ LoadedTile TileReader::tile(std::uint64_t page, const TileEntry& entry, std::uin
 
 std::vector<SourceNumber> TileReader::numbers(std::uint64_t page, const TileEntry& entry, std::uint32_t number) {
   const std::string what = "the source numbers of " + name_of(page, number, box_of(entry));
-  const CheckedRange range{store_.packs[store_.pages[page].shard], entry.offset + entry.bytes, entry.number_bytes,
-                           entry.number_hash};
-  return decode_numbers(read(range, what), entry.triangles);
+  return decode_numbers(read(range_of_numbers(page, entry), what), entry.triangles);
 }
 
 Triangle stored_triangle(const index::Tile& tile, const index::Leaf& leaf, const index::FineLeaf* fine, int triangle) {

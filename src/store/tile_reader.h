@@ -44,9 +44,11 @@ class TileReader {
  public:
   explicit TileReader(const Store::State& store) : store_(store), ahead_(*store.bytes) {}
 
-  /// Begins to read what page() or tile() will soon read, if the store is far away. For as many as expects_more().
+  /// Begins to read what page(), tile() or numbers() will soon read, if the store is far away. For as many as
+  /// expects_more(). All that was expected must be read.
   void expect(std::uint64_t page);
   void expect(std::uint64_t page, const TileEntry& entry);
+  void expect_numbers(std::uint64_t page, const TileEntry& entry);
   [[nodiscard]] bool expects_more() const { return ahead_.has_room(); }
 
   // All throw Unusable, or roam::Error that names the page or tile, its position and the cause.
@@ -57,6 +59,7 @@ class TileReader {
  private:
   [[nodiscard]] CheckedRange range_of(std::uint64_t page) const;
   [[nodiscard]] CheckedRange range_of(std::uint64_t page, const TileEntry& entry) const;
+  [[nodiscard]] CheckedRange range_of_numbers(std::uint64_t page, const TileEntry& entry) const;
   [[nodiscard]] std::vector<std::byte> read(const CheckedRange& range, const std::string& what);
 
   const Store::State& store_;

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <atomic>
@@ -21,6 +22,9 @@
 namespace roam {
 namespace store {
 namespace {
+
+/// Of a file on a web server, of which a few dozen pieces are read at once.
+constexpr std::uint64_t piece_bytes = 256 << 10;
 
 /// A failure of the network or the server: nothing is known of the file.
 struct NotReached : Error {
@@ -47,9 +51,13 @@ class Verifier {
     std::vector<std::uint64_t> first_page(manifest.shards.size());
     for (std::uint64_t p = state_.pages.size(); p-- > 0;) first_page[state_.pages[p].shard] = p;
     check_spare();
-    tbb::parallel_for(std::size_t{0}, parts_.size(), [&](std::size_t i) { check_part(*parts_[i]); });
-    tbb::parallel_for(std::size_t{0}, manifest.shards.size(),
-                      [&](std::size_t i) { check_shard(manifest.shards[i], first_page[i]); });
+    // Over a network many reads are under way for each file already.
+    tbb::task_arena arena(folder_ ? tbb::task_arena::automatic : 2);
+    arena.execute([&] {
+      tbb::parallel_for(std::size_t{0}, parts_.size(), [&](std::size_t i) { check_part(*parts_[i]); });
+      tbb::parallel_for(std::size_t{0}, manifest.shards.size(),
+                        [&](std::size_t i) { check_shard(manifest.shards[i], first_page[i]); });
+    });
     Box bounds;
     for (const ShardInfo& shard : manifest.shards) bounds.include(shard.bounds);
     if (bounds.lower != manifest.bounds.lower || bounds.upper != manifest.bounds.upper) {
@@ -93,15 +101,19 @@ class Verifier {
   [[nodiscard]] std::string hash_of(const std::string& file, std::uint64_t bytes) {
     if (hashes_) return hashes_->sha256(file, [&](std::uint64_t read) { tick(read); });
     Sha256 hash;
-    std::vector<std::byte> piece(std::min<std::uint64_t>(bytes, 1U << 20));
-    for (std::uint64_t at = 0; at < bytes; at += piece.size()) {
-      piece.resize(std::min<std::uint64_t>(bytes - at, piece.size()));
-      if (const char* const problem = state_.bytes->read(file, at, piece)) {
-        demand_reached(file, problem);
-        throw Error(problem);
+    ReadAhead ahead(*state_.bytes);
+    const auto piece = [&](std::uint64_t at) { return CheckedRange{file, at, std::min(bytes - at, piece_bytes)}; };
+    for (std::uint64_t at = 0, begun = 0; at < bytes; at += piece_bytes) {
+      for (begun = std::max(begun, at); begun < bytes && ahead.has_room(); begun += piece_bytes) {
+        ahead.begin(piece(begun));
       }
-      hash.add(piece);
-      tick(piece.size());
+      const ReadAhead::Result read = ahead.take(piece(at));
+      if (read.problem) {
+        demand_reached(file, read.problem);
+        throw Error(read.problem);
+      }
+      hash.add(read.bytes);
+      tick(read.bytes.size());
     }
     return hash.digits();
   }
@@ -203,7 +215,12 @@ class Verifier {
     for (const TileEntry& entry : page.view.tiles) all.include(box_of(entry));
     bool good = all.lower == box.lower && all.upper == box.upper;
     if (!good) damage({name_of(number, box), "its box in the manifest is not that of its tiles", all});
+    std::size_t expected = 0;
     for (std::uint32_t t = 0; t < page.view.tiles.size(); ++t) {
+      for (; expected < page.view.tiles.size() && reader.expects_more(); ++expected) {
+        reader.expect(number, page.view.tiles[expected]);
+        reader.expect_numbers(number, page.view.tiles[expected]);
+      }
       const TileEntry& entry = page.view.tiles[t];
       try {
         check_tile(number, entry, t, reader);
@@ -227,6 +244,8 @@ class Verifier {
   }
 
   void check_tile(std::uint64_t page, const TileEntry& entry, std::uint32_t number, TileReader& reader) const {
+    // Both before any check: all that is expected is read.
+    const std::string numbers_problem = problem_of_numbers(page, entry, number, reader);
     const LoadedTile tile = reader.tile(page, entry, number);
     if (geometry_hash(tile.tile, tile.leaves, tile.fine) != entry.geometry_hash) {
       throw Error("its triangles are not those that its entry counts");
@@ -249,11 +268,20 @@ class Verifier {
         }
       }
     }
+    if (!numbers_problem.empty()) throw Error(numbers_problem);
+  }
+
+  /// Empty: there is none.
+  std::string problem_of_numbers(std::uint64_t page, const TileEntry& entry, std::uint32_t number,
+                                 TileReader& reader) const {
     try {
       static_cast<void>(reader.numbers(page, entry, number));
+      return {};
     } catch (const Unusable& error) {
-      if (error.unread) demand_reached(name_of(page, number, box), error.why);
-      throw Error("the numbers of its triangles in the scene: " + error.why);
+      if (error.unread) demand_reached(name_of(page, number, box_of(entry)), error.why);
+      return "the numbers of its triangles in the scene: " + error.why;
+    } catch (const Error& error) {
+      return error.what();
     }
   }
 

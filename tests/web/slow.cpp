@@ -30,6 +30,11 @@ TEST(WebSlow, AReaderOfAllTilesHasSeveralRequestsUnderWay) {
   static_cast<void>(server.most_at_once());
   EXPECT_EQ(all_bytes(*store), all_bytes(*Store::open(served.store())));
   EXPECT_GE(server.most_at_once(), 2);
+  static_cast<void>(server.most_at_once());
+  static_cast<void>(server.requests());
+  EXPECT_TRUE(roam::verify_store(server.address("late100"), {}, patient(2.0)).whole());
+  EXPECT_GE(server.most_at_once(), 2);
+  EXPECT_LT(server.requests().size(), store->info().tiles) << "many tiles in a request";
   struct Enough {};
   EXPECT_THROW(store->for_each_triangle(store->info().bounds, [](auto, auto) { throw Enough(); }), Enough);
 }
