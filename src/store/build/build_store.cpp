@@ -271,7 +271,10 @@ void read_share(const StoreBuildOptions& options, std::uint64_t i, StoreBuildRep
   reader.take_records(in_force, share);
   const std::vector<std::size_t> numbers = all_anew ? reader.without_runs(share) : reader.unknown();
   if (numbers.empty()) return;
+  // A plan that failed meanwhile may have removed it.
+  if (!work.store.is_in_place()) work.store = shared_output(options.output, options.through_link);
   make_folders(work.store);
+  const ReadingSign sign(work.store);
   reader.read(numbers);
 }
 

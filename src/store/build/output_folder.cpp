@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <chrono>
 #include <filesystem>
+#include <random>
 #include <system_error>
 #include <thread>
 #include <utility>
@@ -29,11 +30,6 @@ fs::path whole_path(const fs::path& path) {
   return whole;
 }
 
-bool is_inside(const fs::path& inner, const fs::path& outer) {
-  const fs::path relative = whole_path(inner).lexically_relative(whole_path(outer));
-  return !relative.empty() && *relative.begin() != "..";
-}
-
 /// Whether a build creates something of this name in the folder of a store.
 bool is_ours(const std::string& name) {
   static const std::set<std::string> ours{current_file, lock_file,    "manifests", "packs", "parts",
@@ -54,6 +50,11 @@ void demand_no_other_things(const Folder& store) {
 }
 
 }  // namespace
+
+bool is_inside(const fs::path& inner, const fs::path& outer) {
+  const fs::path relative = whole_path(inner).lexically_relative(whole_path(outer));
+  return !relative.empty() && *relative.begin() != "..";
+}
 
 void check_output(const StoreBuildOptions& options) {
   const fs::path& out = options.output;
@@ -111,6 +112,19 @@ Folder shared_output(const fs::path& path, bool through_link) {
   Folder store = Folder::held_or_made(path, through_link, made);
   demand_no_other_things(store);
   return store;
+}
+
+ReadingSign::ReadingSign(const Folder& store) : store_(store) {
+  std::random_device random;
+  name_ = record_file(fmt::format("{:08x}{:08x}{:08x}", random(), random(), random()));  // that no part has
+  write_file(store_, name_, "");
+}
+
+ReadingSign::~ReadingSign() {
+  try {
+    remove_file(store_, name_);
+  } catch (const Error&) {  // it stays until the store is merged
+  }
 }
 
 OutputFolder::OutputFolder(Folder& store, bool through_link, const BuildProgress& progress) : store_(store) {

@@ -17,6 +17,9 @@ namespace roam::store {
 /// As in StoreBuildOptions.
 using BuildProgress = std::function<bool(const StoreBuildProgress&)>;
 
+/// Whether a path leads into a folder, or to the folder itself. Neither needs to be there.
+[[nodiscard]] bool is_inside(const std::filesystem::path& inner, const std::filesystem::path& outer);
+
 /// Throws roam::Error if the output folder cannot be used for this scene.
 void check_output(const StoreBuildOptions& options);
 
@@ -31,6 +34,21 @@ void check_output(const StoreBuildOptions& options);
 /// The folder of a store, open from then on; made if it does not exist. Takes no lock, and stays. Throws as
 /// OutputFolder, except for locks.
 [[nodiscard]] Folder shared_output(const std::filesystem::path& path, bool through_link);
+
+/// A file in the scratch folder that counts as a result for its life: a plan that fails meanwhile does not take the
+/// folders for its own, and leaves them.
+class ReadingSign {
+ public:
+  /// The scratch folder must be there. Throws FileError.
+  explicit ReadingSign(const Folder& store);
+  ~ReadingSign();
+  ReadingSign(const ReadingSign&) = delete;
+  ReadingSign& operator=(const ReadingSign&) = delete;
+
+ private:
+  Folder store_;
+  std::string name_;
+};
 
 /// The folder of a store, locked; made if it does not exist. The destructor removes what builds put there, except after
 /// keep(), if it was there before, or if a later build can continue from it.
