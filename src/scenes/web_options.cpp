@@ -1,12 +1,30 @@
 #include "scenes/web_options.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 
 #include "cli/help.h"
+#include "cli/tell.h"
 #include "cli/user_folder.h"
 #include "cli/values.h"
+#include "roam/error.h"
+#include "store/web/disk_cache.h"
 
 namespace roam::app {
+namespace {
+
+/// Without a cache, all is as it is with one, but slower.
+void drop_unusable_cache(WebAccess& web) {
+  if (web.cache.empty() || web.cache_bytes < web::DiskCache::least_bytes) return;
+  try {
+    static_cast<void>(web::DiskCache(web.cache, web.cache_bytes));
+  } catch (const Error& error) {
+    tell(std::string("note: nothing is kept for the next time: ") + error.what());
+    web.cache.clear();
+  }
+}
+
+}  // namespace
 
 void take_query_of(CLI::Option& store, WebAccess& web) {
   store.transform(CLI::Validator(
@@ -36,6 +54,10 @@ void add_web_options(CLI::App& verb, CLI::Option& store, WebAccess& web) {
       ->type_name("SIZE");
   verb.add_flag("--redirects", web.redirects, "Follow the server's redirects to other hosts and folders");
   verb.option_defaults()->group(other_group);
+  verb.parse_complete_callback([&store, &web] {
+    const auto names = store.results();
+    if (std::any_of(names.begin(), names.end(), &Store::is_address)) drop_unusable_cache(web);
+  });
 }
 
 }  // namespace roam::app

@@ -2,6 +2,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "environment_variable.h"
 #include "store_verbs.h"
 #include "web_servers.h"
 
@@ -76,9 +77,34 @@ TEST_F(WebVerbs, InfoNamesWhatKeepsAStoreFromBeingRead) {
   const auto said = [&](const char* mode) { return run({"info", server.address(mode, name)}).out; };
   EXPECT_TRUE(contains(said("endless"), "not read    http://")) << said("endless");
   EXPECT_TRUE(contains(said("endless"), "ignores ranges")) << said("endless");
-  EXPECT_FALSE(contains(said("right"), "not read")) << said("right");
+  EXPECT_FALSE(contains(said("good"), "not read")) << said("good");
   EXPECT_TRUE(contains(json::parse(run({"info", server.address("endless", name), "--json"}).out)["not_read"],
                        "ignores ranges"));
+}
+
+TEST_F(WebVerbs, GoOnWithoutACacheThatCannotBeWritten) {
+  const TestFolder folder;
+  const support::Misbehaving server(store_verbs::fs::path(store()).parent_path());
+  const EnvironmentVariable cache("XDG_CACHE_HOME", folder.write("file", "in the place of a folder").c_str());
+  const std::string address = server.address("good", store_verbs::fs::path(store()).filename().string());
+  const ProgramResult walked = run({"walk", address, "--path", path(), "--mode", "fly", "--cache", "64M"});
+  EXPECT_EQ(walked.status, 0) << walked.err;
+  EXPECT_TRUE(contains(walked.err, "note: nothing is kept for the next time: ")) << walked.err;
+  EXPECT_EQ(run({"info", address, "--cache", "1M"}).status, 1) << "too small for any folder";
+}
+
+TEST_F(WebVerbs, ShowThePictureOfTheDisk) {
+  const TestFolder folder;
+  const std::string store = copy(folder);  // away from its scene, which would be shown
+  const support::Misbehaving server(store_verbs::fs::path(store).parent_path());
+  const auto picture = [&](const std::string& of, const std::string& name) {
+    const ProgramResult shown = run({"view", of, "--headless", "--size", "320x200", "--screenshot", folder.file(name)});
+    EXPECT_EQ(shown.status, 0) << shown.err;
+    return folder.read(name);
+  };
+  const std::string disk = picture(store, "disk.png");
+  EXPECT_GT(disk.size(), 1000U);
+  EXPECT_TRUE(picture(server.address("late50", store_verbs::fs::path(store).filename().string()), "web.png") == disk);
 }
 
 TEST_F(WebVerbs, CallAFailureOfTheServerNoDamage) {
