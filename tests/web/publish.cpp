@@ -96,9 +96,38 @@ TEST_F(Publish, RefusesDamageAndFoldersWithOtherThings) {
   std::ofstream(other / "index.html") << "hello";
   EXPECT_THROW(static_cast<void>(roam::publish_store(to(), other)), roam::Error);
   EXPECT_THROW(static_cast<void>(roam::publish_store(to(), to())), roam::Error);
+  EXPECT_THROW(static_cast<void>(roam::publish_store(to(), to() / "packs" / "www")), roam::Error);
+  EXPECT_FALSE(fs::exists(to() / "packs" / "www"));
   EXPECT_THROW(static_cast<void>(roam::publish_store(to(), "http://host/x.roam")), roam::Error);
   EXPECT_THROW(static_cast<void>(roam::publish_store(folder_.path() / "nothing", other / "new")), roam::Error);
   EXPECT_FALSE(fs::exists(other / "new"));
+}
+
+TEST_F(Publish, SaysWhatAFailureLeavesAndTheNextOneTidies) {
+  make(1);
+  static_cast<void>(roam::publish_store(from(), to()));
+  const auto first = packs();
+  const fs::path aside = folder_.path() / "aside";
+  fs::copy(from(), aside, fs::copy_options::recursive);
+  const Mesh two[] = {yard_mesh(2), yard_mesh(3)};
+  made::store(from(), two, {.page_tiles = 8, .tile_triangles = 100});
+  // A copy is cut off by a kill, and the version before is published again.
+  std::ofstream(to() / "packs" / (std::string(64, 'a') + ".pack")) << "of a version that never came";
+  std::ofstream(to() / "packs" / "new.pack.123.1.unfinished") << "";
+  EXPECT_TRUE(roam::publish_store(aside, to()).unchanged);
+  EXPECT_FALSE(fs::exists(to() / "packs" / (std::string(64, 'a') + ".pack")));
+  EXPECT_TRUE(std::includes(packs().begin(), packs().end(), first.begin(), first.end()));
+  // The parts are copied, and then a pack cannot be.
+  const std::string pack = Store::open(from())->state().packs.front();
+  fs::resize_file(from() / pack, fs::file_size(from() / pack) - 8);
+  try {
+    static_cast<void>(roam::publish_store(from(), to()));
+    ADD_FAILURE() << "published a pack that was cut off";
+  } catch (const roam::Error& error) {
+    EXPECT_NE(std::string(error.what()).find("goes on from what is copied"), std::string::npos) << error.what();
+  }
+  EXPECT_TRUE(roam::verify_store(to()).whole());
+  EXPECT_EQ(Store::open(to())->info().hash, Store::open(aside)->info().hash);
 }
 
 TEST_F(Publish, MirrorsAStoreOnAWebServer) {

@@ -120,14 +120,15 @@ void keep(const Manifest& manifest, std::set<std::string>& files) {
 
 }  // namespace
 
-std::string tidy(const Folder& store) {
+std::string tidy(const Folder& store, bool keeps_versions) {
   std::string hash;
   const Manifest manifest = read_manifest(*files_of(store), store.string(), &hash);
   std::set<std::string> needed;
   keep(manifest, needed);
   for (const std::string& file : files_in(store, "manifests")) {
     if (is_temporary(file, [](auto name) { return name == manifest_file("new"); })) remove_file(store, file);
-    if (!is_named_by_hash(file, ".json") || file == manifest_file(hash) || remove_unless_read(store, file)) continue;
+    if (!is_named_by_hash(file, ".json") || file == manifest_file(hash)) continue;
+    if (!keeps_versions && remove_unless_read(store, file)) continue;
     needed.insert(codes_file(fs::path(file).stem().string()));
     const std::vector<std::byte> bytes = read_file(store, file, Store::usual_memory);
     keep(parse_manifest(std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size()), file), needed);

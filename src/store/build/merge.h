@@ -11,9 +11,9 @@ namespace roam::store {
 /// and the scratch folder. The store must be locked. Returns the result of tidy.
 [[nodiscard]] std::string merge(Work& work, const Plan& plan);
 
-/// Removes files that no manifest in force names, and the scratch folder. The store must be locked. Returns the result
-/// of remove_scratch.
-[[nodiscard]] std::string tidy(const Folder& store);
+/// Removes files that no manifest in force names, and the scratch folder. With `keeps_versions` all manifests count as
+/// in force. The store must be locked. Returns the result of remove_scratch.
+[[nodiscard]] std::string tidy(const Folder& store, bool keeps_versions = false);
 
 /// Removes the files with which a build could continue. On failure returns a sentence for the user, else an empty text.
 std::string remove_scratch(const Folder& store);

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <set>
-#include <system_error>
 #include <vector>
 
 #include "roam/error.h"
@@ -29,6 +28,19 @@ class Publisher {
   }
 
   StorePublication run() {
+    try {
+      copy_all();
+    } catch (const Error& error) {
+      if (done_.files == 0) throw;
+      throw Error::at(to_.string(), fmt::format("{}; for readers nothing has changed, and the next publication goes on "
+                                                "from what is copied",
+                                                error.what()));
+    }
+    return done_;
+  }
+
+ private:
+  void copy_all() {
     for (const char* folder : {"packs", "parts", "manifests"}) make_folder_in(to_, folder);
     for (const PartInfo& part : from_.manifest.parts) copy(part_file(part.file), part.file, part.bytes);
     for (const ShardInfo& shard : from_.manifest.shards) copy(pack_file(shard.pack), shard.pack, shard.bytes);
@@ -40,10 +52,8 @@ class Publisher {
                                               from_.name, manifest_file(done_.hash)));
     }
     publish(to_, {reinterpret_cast<const char*>(manifest.data()), manifest.size()}, from_.manifest.format);
-    return done_;
   }
 
- private:
   void tick(std::uint64_t bytes) {
     bytes_ += bytes;
     if (progress_ && !progress_(bytes_, total_)) throw Cancelled();
@@ -105,10 +115,10 @@ StorePublication publish_store(const std::filesystem::path& store, const std::fi
                     fmt::format("cannot publish to {}: name the folder from which it is served", folder.string()));
   }
   const auto from = Store::open(store, Store::usual_memory, web);
-  std::error_code none;
-  if (std::filesystem::equivalent(store, folder, none)) {
-    throw Error::at(folder.string(),
-                    fmt::format("{} is the store itself; name the folder from which it is served", folder.string()));
+  if (!Store::is_address(store.native()) && store::is_inside(folder, store)) {
+    throw Error::at(folder.string(), fmt::format("{} is the store itself, or lies in it; name the folder from which it "
+                                                 "is served",
+                                                 folder.string()));
   }
   store::Folder to(folder);
   store::OutputFolder output(to, true, {});
@@ -118,7 +128,11 @@ StorePublication publish_store(const std::filesystem::path& store, const std::fi
   // Another publication of the same version must not remove the one before it.
   const bool is_same = before && before->info().hash == done.hash;
   done.unchanged = is_same && done.files == 0;
-  if (!is_same) static_cast<void>(store::tidy(to));
+  try {
+    static_cast<void>(store::tidy(to, is_same));
+  } catch (const Error&) {
+    if (!is_same) throw;  // else an older version is damaged, and all stays
+  }
   return done;
 }
 
