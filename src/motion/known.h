@@ -2,30 +2,20 @@
 /// \file
 /// Facts about the space around a body, kept from one step to the next to save queries.
 
-#include <algorithm>
 #include <cstdint>
-#include <glm/geometric.hpp>
 #include <limits>
 
 #include "roam/math.h"
 
 namespace roam::walking {
 
-/// A free way: as long as the space does not change, a body of this size has on it a gap of at least `gap`, and beside
-/// it one of at least `gap` less its distance from the way.
+/// A free region around a straight way: as long as the space does not change, a body of this size has there a gap of at
+/// least `gap` less its distance from the way.
 struct FreeWay {
-  Vec3 from{0.0}, motion{0.0};  ///< of the centre, metres
-  double gap = 0.0;             ///< metres; 0: nothing is known
-  double radius = 0.0;          ///< of the body, metres
+  Vec3 from{0.0}, to{0.0};  ///< of the centre, metres
+  double gap = 0.0;         ///< metres; 0: nothing is known
+  double radius = 0.0;      ///< of the body, metres
   double height = 0.0;
-
-  /// Distance of a position from the way, metres.
-  [[nodiscard]] double distance(const Vec3& place) const {
-    const Vec3 beyond = place - from;
-    const double square = glm::dot(motion, motion);
-    const double time = square > 0.0 ? std::clamp(glm::dot(beyond, motion) / square, 0.0, 1.0) : 0.0;
-    return glm::length(beyond - motion * time);
-  }
 };
 
 /// The subject of a measured clearance.
@@ -46,7 +36,7 @@ struct Known {
   double clearance = 0.0;  ///< certified at the position when the body came there, metres; 0: not known
   /// Upper bound of the gap at the position, metres. A search farther than this for the nearest triangle is useless.
   double nearest = std::numeric_limits<double>::infinity();
-  FreeWay free;
+  FreeWay free_way;
   Measured measured = Measured::nothing;  ///< the subject of `clearance`
   Fit fit = Fit::known;
   bool touching = false;  ///< it was in touch when last seen, so a query ahead is likely to meet the same obstacle
@@ -60,7 +50,7 @@ struct Known {
   /// Must be called when the space has changed.
   void forget() {
     forget_place();
-    free = {};
+    free_way = {};
   }
 };
 

@@ -11,32 +11,33 @@ namespace {
 /// step by step. Frontal contacts need one; two also serve contacts at 30 degrees.
 constexpr double look_ahead = 2.0;
 
-/// Ways. A query looks at most so many ways ahead. If nothing is within clearance_reach, it also reaches farther by
-/// this many ways. So what it finds lasts for that many steps.
+/// Ways. If nothing is within clearance_reach, the next query reaches farther by this many ways, so that what it finds
+/// free lasts for that many steps.
 constexpr double ways_ahead = 8.0;
 
 /// Skins. Least reach of a query, however short clearance_reach is.
 constexpr double least_look = 4.0;
+
+/// Skins. Reach of a query by a body so near to something, mostly its floor, that the report may be too low by the
+/// whole gap (Segment::axis_clearance). Then the way only has to be free, and the floor is out of this reach.
+constexpr double floor_look = 0.5;
 
 /// A gap returned by the space may be less than the true one (space.h): at least this part of it, less this many
 /// metres.
 constexpr double gap_part = 7.0 / 8.0;
 constexpr double gap_tolerance = 2e-3;
 
-/// A free way is used as long as its bound is at least three quarters of the true gap T over the new way. Let the free
-/// way be `length` long, G the true gap over it, and `away` the greatest distance of the new way from it. Where the
-/// body is nearest on the free way, it is at most away + length from any place of the new one, so T <= G + away +
-/// length. The gap found is at least gap_part G. From that, `away` is subtracted. So the bound is at least
-/// reported_part T if gap (1 - q) >= (1 + reported_part) away + reported_part length, where q = reported_part /
-/// gap_part.
+/// A free way is used as long as its bound is at least three quarters of the true gap (Segment::axis_clearance). Let T
+/// be the true gap over the motion. Let the motion lie within `away` of the free way, and the free way within `beyond`
+/// of the motion. The gap over the free way is at least T - beyond, so at least gap_part (T - beyond) was found. From
+/// that, `away` is subtracted. The sum of all losses must be at most a quarter of T, and T is at least gap - away.
 constexpr double reported_part = 3.0 / 4.0;
-constexpr double away_weight = (1.0 + reported_part) / (1.0 - reported_part / gap_part);  // 12.25
-constexpr double length_weight = reported_part / (1.0 - reported_part / gap_part);        // 5.25
+constexpr double beyond_weight = gap_part / (gap_part - reported_part);  // 7
+constexpr double away_weight = 1.0 / (gap_part - reported_part) + 1.0;   // 9
 
-/// Part of the known gap by which a query looks ahead. The gap over that way is at least 7/8 of the known one, the gap
-/// found at least 7/8 of that, and length_weight / 8 < 49/64.
-constexpr double part_ahead = 1.0 / 8.0;
-static_assert(length_weight * part_ahead <= gap_part * (1.0 - part_ahead));
+/// Part of the gap at the position. A query looks this far ahead, so that a motion that goes on straight needs no query
+/// of its own. The gap there is less by at most that part, and gap_part of the rest is still good enough.
+constexpr double part_ahead = 1.0 / (1.0 + beyond_weight / gap_part);  // a ninth
 
 /// Each merge of two pieces in one direction may shift the straight line by a rounding of the coordinates, 1e-9 m at
 /// 6.4e6 m. This many merges stay far below world_tolerance.
@@ -47,6 +48,13 @@ constexpr std::size_t segments_at_once = 24;
 
 /// Events of motion noted in one step; the rest of the list is kept for a fall and for events that end a step.
 constexpr std::size_t events_of_motion = 16;
+
+/// Distance of a point from a way, metres.
+double distance(const Vec3& point, const Vec3& from, const Vec3& to) {
+  const Vec3 way = to - from, off = point - from;
+  const double squared = glm::dot(way, way);
+  return glm::length(squared > 0.0 ? off - way * std::clamp(glm::dot(off, way) / squared, 0.0, 1.0) : off);
+}
 
 }  // namespace
 
@@ -97,7 +105,7 @@ Advance Move::advance(const Vec3& motion, double seconds) {
     known.fit = Fit::known;
     if (space.clearance(body(), place, 0.0).distance < -world_tolerance) {
       known.fit = Fit::came_upon;
-      known.free = {};
+      known.free_way = {};
       return {.fraction = 0.0, .touched = true, .embedded = true, .contact = {}, .gap = 0.0};
     }
   }
@@ -107,28 +115,39 @@ Advance Move::advance(const Vec3& motion, double seconds) {
   return a;
 }
 
+double Move::known_gap(const Vec3& motion, double reach) const {
+  const FreeWay& free = known.free_way;
+  if (!(free.gap > 0.0) || free.radius != settings.radius || free.height != height) return 0.0;
+  const Vec3 end = place + motion;
+  const double away = std::max(distance(place, free.from, free.to), distance(end, free.from, free.to));
+  const double rest = free.gap - away;
+  if (rest >= reach) return rest;
+  const double beyond = std::max(distance(free.from, place, end), distance(free.to, place, end));
+  return away_weight * away + beyond_weight * beyond <= free.gap ? rest : 0.0;
+}
+
 double Move::look_along(const Vec3& motion) {
   const double reach = std::max(settings.clearance_reach, least_look * skin), length = glm::length(motion);
-  FreeWay& free = known.free;
-  double rest = 0.0;
-  bool in_the_open = false;
-  if (free.gap > 0.0 && free.radius == settings.radius && free.height == height) {
-    const double away = std::max(free.distance(place), free.distance(place + motion));
-    rest = free.gap - away;
-    if (rest >= reach || away_weight * away + length_weight * glm::length(free.motion) <= free.gap) return rest;
-    in_the_open = free.gap >= reach;
+  if (const double gap = known_gap(motion, reach); gap > 0.0) return gap;
+  FreeWay& free = known.free_way;
+  const bool on_floor = reported_part * known.nearest <= look_ahead * skin + gap_tolerance;
+  Vec3 way = motion;
+  double look = std::max(floor_look * skin, 2.0 * free_gap);
+  if (!on_floor) {
+    const bool same_body = free.radius == settings.radius && free.height == height;
+    const double here = same_body ? std::min(free.gap - distance(place, free.from, free.to), reach) : 0.0;
+    if (length > 0.0 && length < part_ahead * here) way *= part_ahead * here / length;
+    const bool in_the_open = same_body && free.gap >= reach;
+    look = in_the_open ? reach + ways_ahead * length : reach;
   }
-  const double ahead = std::min(part_ahead * rest, ways_ahead * length);
-  const Vec3 way = ahead > length ? motion * (ahead / length) : motion;
-  const double look = std::min({in_the_open ? reach + ways_ahead * length : reach, known.nearest, Space::reach_limit});
+  look = std::min({look, known.nearest, Space::reach_limit});
   const double gap = Nearby::gap_bound(space, vicinity, {body(), place, way}, look);
-  if (gap > free_gap) {
-    free = {place, way, gap, settings.radius, height};
-    // The near object may be near only at the far end of the way.
-    if (gap < look) known.nearest = std::min(known.nearest, gap / gap_part + gap_tolerance + glm::length(way));
-  } else {
-    free = {};
-  }
+  free = {};
+  if (!(gap > free_gap)) return gap;
+  // With so short a reach the true gap may be far more.
+  if (!on_floor) free = {place, place + way, gap, settings.radius, height};
+  // The near object may be near only at the far end of the way.
+  if (gap < look) known.nearest = std::min(known.nearest, gap / gap_part + gap_tolerance + glm::length(way));
   return gap;
 }
 

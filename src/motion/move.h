@@ -126,6 +126,8 @@ class Move : public Mover, public Whereabouts {
  private:
   /// gap_over() as far as the query reached, without the limit of clearance_reach.
   [[nodiscard]] double look_along(const Vec3& motion);
+  /// The bound that known.free_way gives for `motion`, or 0 if it gives none that is good enough.
+  [[nodiscard]] double known_gap(const Vec3& motion, double reach) const;
 
   Vec3 last_direction_{0.0};
   int merged_ = 0;
