@@ -286,6 +286,30 @@ TEST(WalkerFree, ToldClearancesAreAsNearTheTruthAsIsSaid) {
   EXPECT_GT(judged, 1000);
 }
 
+TEST(WalkerFree, ToldClearancesAreAsNearTheTruthOnFoot) {
+  const Mesh m = rough_tiling(40, 3);
+  const Judge judge(m);
+  const World world = build(m);
+  for (const double speed : {1.4, 20.0}) {
+    Walker w(world, {}, Mode::walk, {-8.0, -8.0, 0.95});
+    for (int i = 0; i < 100; ++i) {
+      const StepReport& r = w.step({{0.4 * speed, 0.3 * speed, 0.0}}, 0.2 / speed);
+      if (r.segments.size() > 1) continue;
+      const double truth = judge.over(w.body(), r.from, r.to - r.from, 2.0);
+      ASSERT_GE(r.axis_clearance, least_told(truth, w.settings(), w.skin())) << speed << " " << i << " " << truth;
+      ASSERT_LE(r.axis_clearance, truth + 1e-6);
+    }
+  }
+}
+
+TEST(WalkerFree, AFlightStraightOnAsksOnceInThreeSteps) {
+  ChangingRoom room(floor_mesh(), true);
+  Walker w(room, ball(0.3), Mode::fly, {-5.0, 0.0, 1.0});
+  const int before = room.asked();
+  for (int i = 0; i < 120; ++i) w.step({{1.4, 0.0, 0.0}}, frame);
+  EXPECT_LE(room.asked() - before, 40);
+}
+
 TEST(WalkerFree, WhoRestsIsToldTheClearanceOfThePlace) {
   Mesh m = hall();
   add_box(m, {-0.05, 0.5, -5.0}, {0.05, 0.6, 5.0});  // a post

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <glm/geometric.hpp>
 #include <numbers>
 #include <vector>
@@ -24,6 +25,7 @@ class Counting final : public Space {
  public:
   mutable bool forgets = false;
   mutable long sweeps = 0, sweeps_in = 0, gaps = 0, gaps_in = 0;
+  mutable double farthest = 0.0;  ///< greatest reach of a gap
 
   explicit Counting(const World& world) : world_(world) {}
 
@@ -36,7 +38,10 @@ class Counting final : public Space {
     return Space::find_first_of(world_, query, forgets ? nullptr : vicinity);
   }
   void find_near(const roam::Query& query, Collector& collector, Vicinity* vicinity) const override {
-    if (collector.kind() == Collector::Kind::gap) ++(vicinity ? gaps_in : gaps);
+    if (collector.kind() == Collector::Kind::gap) {
+      ++(vicinity ? gaps_in : gaps);
+      farthest = std::max(farthest, collector.initial_reach());
+    }
     Space::find_near_of(world_, query, collector, forgets ? nullptr : vicinity);
   }
 
@@ -197,6 +202,17 @@ TEST(WalkerVicinity, GoesAsOneThatKeepsNothing) {
   EXPECT_LE(decided, steps * seeds / 10'000);
   EXPECT_GT(length, 50.0);
   EXPECT_GT(touched, 1000);
+}
+
+TEST(WalkerVicinity, ABodyOnItsFloorLooksNoFartherThanTheFloor) {
+  const World world = build(rough_tiling(40, 3));
+  const Counting space(world);
+  Walker w(space, {}, Mode::walk, {-8.0, -8.0, 0.95});
+  for (int i = 0; i < 10; ++i) w.step({.velocity = {1.4, 0.0, 0.0}}, frame);
+  space.farthest = 0.0;
+  for (int i = 0; i < 100; ++i) w.step({.velocity = {5.0, 0.0, 0.0}}, frame);
+  EXPECT_GT(space.gaps_in, 100);
+  EXPECT_LE(space.farthest, w.skin());
 }
 
 }  // namespace
