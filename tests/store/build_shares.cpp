@@ -291,23 +291,24 @@ TEST_F(StoreShares, ReadAllForAStoreOfWhichEachShardIsBuiltAnew) {
 
 TEST_F(StoreShares, OutliveAPlanThatFailsMeanwhile) {
   std::promise<void> reading, failed;
-  std::thread share;
+  std::future<void> share;
   auto wrong = in("steps", 1);
   wrong.scene = {folder_.file("absent.ply")};
   wrong.progress = [&](const roam::StoreBuildProgress&) {
-    if (share.joinable()) return true;
-    share = std::thread([&] {  // it begins when the plan has the folder, and has no run when the plan fails
-      auto o = in("steps", 1);
-      bool waited = false;
-      o.progress = [&](const roam::StoreBuildProgress& p) {
-        if (p.bytes_total == 0 || std::exchange(waited, true)) return true;
-        reading.set_value();
-        failed.get_future().wait();
-        return true;
-      };
-      StoreBuildReport report;
-      roam::read_share(o, 0, report);
-    });
+    if (share.valid()) return true;
+    share = std::async(std::launch::async,
+                       [&] {  // it begins when the plan has the folder, and has no run when the plan fails
+                         auto o = in("steps", 1);
+                         bool waited = false;
+                         o.progress = [&](const roam::StoreBuildProgress& p) {
+                           if (p.bytes_total == 0 || std::exchange(waited, true)) return true;
+                           reading.set_value();
+                           failed.get_future().wait();
+                           return true;
+                         };
+                         StoreBuildReport report;
+                         roam::read_share(o, 0, report);
+                       });
     reading.get_future().wait();
     return true;
   };
@@ -315,7 +316,7 @@ TEST_F(StoreShares, OutliveAPlanThatFailsMeanwhile) {
   const std::string said = refusal([&] { roam::plan_store(wrong, report); });
   EXPECT_NE(said.find("absent.ply"), std::string::npos) << said;
   failed.set_value();
-  share.join();
+  EXPECT_NO_THROW(share.get());
   EXPECT_EQ(scratch("scratch/parts").size(), parts) << "nothing but records stays";
   EXPECT_EQ(plan_and_build(), 0U);
   expect_the_same();
