@@ -108,6 +108,7 @@ struct ImportReport {
   std::vector<std::string> missing_page_files;
   std::vector<std::string> outside_files;
   std::optional<Georeference> georeference;
+  std::optional<LengthUnit> stated_unit;  ///< that the first file to state one states, and that was not applied
   /// Sentences for the user: about parts left out, an up axis or unit that the file states and that was not applied,
   /// patterns of `ignore` that matched nothing. Empty if all is well.
   std::vector<std::string> notes;

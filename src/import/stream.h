@@ -14,6 +14,7 @@
 ///                                                                            empty: a library opens files by itself
 ///     progress      u64 bytes read so far                                    at any time
 ///     georeference  f64 x, y, z; text srs                                    of a folder of tiles, at most once
+///     unit          u8 LengthUnit that a file states, and that is not applied
 ///     tile          text file; u8 whether it exists; text part;              in a list of the parts of a scene: the
 ///                   ArchiveEntry                                             root of a folder's tile, then `part` is
 ///                                                                            empty; or a file of a tileset's part, one
@@ -53,7 +54,7 @@
 namespace roam::reader {
 
 inline constexpr int stream_fd = 3;
-inline constexpr std::uint32_t stream_version = 10;
+inline constexpr std::uint32_t stream_version = 11;
 inline constexpr std::uint32_t frame_magic = 0x31524d52;  // "RMR1"
 /// Largest payload, in bytes; a sender splits vertices and triangles accordingly.
 inline constexpr std::uint32_t payload_limit = 4u << 20;
@@ -69,6 +70,7 @@ enum class FrameKind : std::uint16_t {
   looked_up,
   progress,
   georeference,
+  unit,
   tile,
   object,
   vertices,

@@ -117,6 +117,12 @@ void StreamReceiver::take_description(const FrameHeader& header, std::span<const
       if (!report_.georeference) report_.georeference = std::move(georeference);
       break;
     }
+    case FrameKind::unit: {
+      const auto unit = fields.take<LengthUnit>();
+      if (static_cast<std::size_t>(unit) >= length_unit_names.size()) throw StreamDamaged{"an unknown unit"};
+      if (!report_.stated_unit) report_.stated_unit = unit;
+      break;
+    }
     case FrameKind::left_out:
       take_left_out(fields);
       break;

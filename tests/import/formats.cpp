@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "collada_made.h"
 #include "import_files.h"
 
 namespace roam::test {
@@ -36,17 +37,6 @@ TEST(ImportFormats, TurnsGltfUprightUnlessTold) {
   EXPECT_TRUE(contains(import_error(file, {.ignore = {"Panel"}}), "to be ignored"));
 }
 
-std::string collada(const std::string& up, const std::string& unit) {
-  return R"(<?xml version="1.0"?><COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1"><asset><unit meter=")" +
-         unit + "\"/><up_axis>" + up + R"(</up_axis></asset><library_geometries><geometry id="g"><mesh>
-<source id="p"><float_array id="a" count="12">0 0 0 1 0 0 1 1 0 0 1 0</float_array><technique_common>
-<accessor source="#a" count="4" stride="3"><param name="X" type="float"/><param name="Y" type="float"/><param name="Z" type="float"/></accessor>
-</technique_common></source><vertices id="v"><input semantic="POSITION" source="#p"/></vertices>
-<polylist count="1"><input semantic="VERTEX" source="#v" offset="0"/><vcount>4</vcount><p>0 1 2 3</p></polylist></mesh></geometry>
-</library_geometries><library_visual_scenes><visual_scene id="s"><node name="Floor"><translate>10 20 30</translate>
-<instance_geometry url="#g"/></node></visual_scene></library_visual_scenes><scene><instance_visual_scene url="#s"/></scene></COLLADA>)";
-}
-
 TEST(ImportFormats, LeavesColladaAsItIsAndSaysWhatItStates) {
   const TemporaryFolder folder;
   for (const std::string up : {"X_UP", "Y_UP", "Z_UP"}) {
@@ -56,6 +46,7 @@ TEST(ImportFormats, LeavesColladaAsItIsAndSaysWhatItStates) {
     EXPECT_EQ(triangles[1], (Triangle{Vec3(10, 20, 30), Vec3(11, 21, 30), Vec3(10, 21, 30)}));
     EXPECT_EQ(scene.meshes[0].name, "Floor");
     EXPECT_TRUE(notes_contain(scene, "its unit is 0.0254 m"));
+    EXPECT_EQ(scene.report.stated_unit, LengthUnit::in);
     EXPECT_EQ(notes_contain(scene, "axis is up"), up != "Z_UP");
     // Words for the command line and for a program.
     EXPECT_TRUE(notes_contain(scene, "read it with its unit (--unit in)"));

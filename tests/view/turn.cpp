@@ -5,6 +5,7 @@
 #include <sstream>
 #include <vector>
 
+#include "collada_made.h"
 #include "roam/profile.h"
 #include "scenes/frame.h"
 #include "view_driven.h"
@@ -28,24 +29,31 @@ TEST(NextFrame, IsTheLikelyOneOrAQuarterTurnOn) {
   EXPECT_EQ(frame, (SceneFrame{UpAxis::z, LengthUnit::cm}));
 }
 
-TEST(NextUnit, GoesRoundAllUnits) {
+TEST(NextUnit, IsTheStatedOneOrTheNext) {
   SceneFrame frame{UpAxis::y, LengthUnit::m};
+  EXPECT_EQ(next_unit(frame, LengthUnit::in), (SceneFrame{UpAxis::y, LengthUnit::in}));
   for (const LengthUnit unit : {LengthUnit::cm, LengthUnit::mm, LengthUnit::ft, LengthUnit::in, LengthUnit::m}) {
-    frame = next_unit(frame);
+    frame = next_unit(frame, std::nullopt);
     EXPECT_EQ(frame, (SceneFrame{UpAxis::y, unit}));
   }
 }
 
 TEST(Unit, IsAppliedByAKeyAndKept) {
   DrivenSession d;
-  d.write_scene();
+  const std::string scene = d.folder.write("scene.dae", test::collada("Z_UP", "0.0254"));
+  d.options.scene.scenes = {scene};
   d.begin();
+  EXPECT_TRUE(contains(d.hud(), "The file states that its unit is in: Ctrl+U applies it")) << d.hud();
   d.press(osgGA::GUIEventAdapter::KEY_Control_L);
   d.press('u');
   EXPECT_FALSE(d.session->frame());
   ASSERT_TRUE(d.session->next());
-  EXPECT_EQ(d.session->next()->frame, (SceneFrame{UpAxis::z, LengthUnit::cm}));
+  EXPECT_EQ(d.session->next()->frame, (SceneFrame{UpAxis::z, LengthUnit::in}));
   EXPECT_EQ(find_frame(d.options.scene.scenes), d.session->next()->frame);
+  d.session.reset();
+  d.options.scene.unit = "in";
+  d.begin();
+  EXPECT_FALSE(contains(d.hud(), "states that its unit")) << d.hud();
 }
 
 TEST(Turn, EndsTheSessionAndIsKept) {

@@ -79,6 +79,12 @@ bool Arrival::receive(const Seen& seen) {
     const std::string key = key_of(roamer_.controls(), "turn");
     news_.note(words::likely_up(scene_names_, *up) + (key.empty() ? key : fmt::format("; {} turns it", key)));
   }
+  if (const auto unit = stated_unit()) {
+    const std::string key = key_of(roamer_.controls(), "unit");
+    if (!key.empty()) {
+      news_.note(fmt::format("The file states that its unit is {}: {} applies it", to_string(*unit), key));
+    }
+  }
   roamer_.setMode(mode);
   pager_ = loaded_->pager;
   if (pager_) {

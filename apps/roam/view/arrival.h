@@ -52,6 +52,10 @@ class Arrival {
   [[nodiscard]] const SceneIdentity* identity() const { return loaded_ ? &loaded_->identity : nullptr; }
   /// The axis that is likely to be up instead of z; none without reason to doubt, or before the scene is loaded.
   [[nodiscard]] std::optional<UpAxis> likely_up() const { return loaded_ ? loaded_->likely_up : std::nullopt; }
+  /// The unit that the scene's file states, and that was not applied.
+  [[nodiscard]] std::optional<LengthUnit> stated_unit() const {
+    return loaded_ ? loaded_->report.stated_unit : std::nullopt;
+  }
   /// The scene that the body collides with; null before it is loaded, for a ghost, and with a store.
   [[nodiscard]] std::shared_ptr<const World> world() const { return loaded_ ? loaded_->world : nullptr; }
   /// The names of its objects, by their numbers. Only with a world().

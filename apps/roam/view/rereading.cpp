@@ -13,7 +13,8 @@
 
 namespace roam::app {
 
-SceneFrame next_unit(const SceneFrame& frame) {
+SceneFrame next_unit(const SceneFrame& frame, std::optional<LengthUnit> stated) {
+  if (stated) return {frame.up, *stated};
   const std::size_t next = (static_cast<std::size_t>(frame.unit) + 1) % length_unit_names.size();
   return {frame.up, static_cast<LengthUnit>(next)};
 }
@@ -22,7 +23,9 @@ void Rereading::add_to(Commands& commands) {
   commands.add("turn", [this] {
     read_with([this](const SceneFrame& frame) { return next_frame(frame, arrival_.likely_up()); });
   });
-  commands.add("unit", [this] { read_with(next_unit); });
+  commands.add("unit", [this] {
+    read_with([this](const SceneFrame& frame) { return next_unit(frame, arrival_.stated_unit()); });
+  });
   commands.add("leave_out", [this] { leave_out_ahead(); });
   commands.add("show_all", [this] { show_all(); });
 }

@@ -26,8 +26,8 @@ struct NextSession {
   std::string note;  ///< a message for the person; empty: none
 };
 
-/// The same axis, and the next unit of m, cm, mm, ft, in, in a circle.
-[[nodiscard]] SceneFrame next_unit(const SceneFrame& frame);
+/// The same axis, and the unit that the file states; without one, the next of m, cm, mm, ft, in, in a circle.
+[[nodiscard]] SceneFrame next_unit(const SceneFrame& frame, std::optional<LengthUnit> stated);
 
 class Rereading {
  public:

@@ -31,12 +31,13 @@ bool same_unit(double stated, double metres) {
   return std::abs(stated - metres) <= stated_rounding * metres;
 }
 
-/// The command line's name of a unit of this length; empty if it has none.
-std::string_view unit_of(double metres) {
+/// The unit of this length, if the command line has it.
+std::optional<LengthUnit> unit_of(double metres) {
   for (const char* const name : length_unit_names) {
-    if (same_unit(metres, metres_per(parse_length_unit(name)))) return name;
+    const LengthUnit unit = parse_length_unit(name);
+    if (same_unit(metres, metres_per(unit))) return unit;
   }
-  return {};
+  return std::nullopt;
 }
 
 /// The names of an object and its ancestors in one text; `name` if all are empty. A node and its only mesh often have
@@ -75,12 +76,13 @@ void MeshSink::compare_with_stated(std::optional<UpAxis> up, std::optional<doubl
   }
   const double read_as = settings_.metres_per_unit;
   if (metres_per_unit && !same_unit(*metres_per_unit, read_as)) {
-    const std::string_view unit = unit_of(*metres_per_unit);
+    const std::optional<LengthUnit> unit = unit_of(*metres_per_unit);
+    if (unit) frames_.send(FrameKind::unit, PayloadWriter().add(*unit));
     report_note(
         fmt::format("{}: the file states that its unit is {:.6g} m; it is read as {:.6g} m. If the file is right, {}.",
                     file, *metres_per_unit, read_as,
-                    unit.empty() ? "scale it to metres first: none of m, cm, mm, ft and in is its unit"
-                                 : fmt::format("read it with its unit (--unit {})", unit)));
+                    unit ? fmt::format("read it with its unit (--unit {})", to_string(*unit))
+                         : "scale it to metres first: none of m, cm, mm, ft and in is its unit"));
   }
 }
 
