@@ -84,6 +84,7 @@ std::string text_report(const PublishOptions& options, const StorePublication& p
 
 ExitStatus publish(const PublishOptions& options) {
   demand_no_address("DIR", options.folder);
+  if (options.folder.empty()) throw UsageError("DIR", "a folder needs a name");
   if (options.nginx) demand_plain_name(options.folder);
   StorePublication published;
   {
