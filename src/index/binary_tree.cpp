@@ -173,6 +173,7 @@ class Builder {
         }
         std::sort(keys.begin(), keys.begin() + count_);
       }
+      if (!builder.options_.vertices.empty()) number_vertices();
     }
     [[nodiscard]] const Sorted& all() const { return all_; }
 
@@ -209,27 +210,70 @@ class Builder {
     }
 
    private:
+    /// Numbers the vertices of the items from 0, by a hash table.
+    void number_vertices() {
+      constexpr std::uint32_t slots = 512, empty = ~0U;
+      std::array<std::uint32_t, slots> keys;
+      std::array<std::uint8_t, slots> numbers;
+      keys.fill(empty);
+      std::uint8_t found = 0;
+      for (std::uint32_t i = 0; i < count_; ++i) {
+        for (int c = 0; c < 3; ++c) {
+          const std::uint32_t key = builder_.options_.vertices[items_[i]][c];
+          std::uint32_t slot = key % slots;
+          while (keys[slot] != empty && keys[slot] != key) slot = (slot + 1) % slots;
+          if (keys[slot] == empty) {
+            keys[slot] = key;
+            numbers[slot] = found++;
+          }
+          vertex_[i][c] = numbers[slot];
+        }
+      }
+    }
+
+    /// Distinct vertices of a growing set of items.
+    class Vertices {
+     public:
+      void include(const std::array<std::uint8_t, 3>& corners) {
+        for (const std::uint8_t v : corners) {
+          std::uint64_t& word = seen_[v / 64];
+          const std::uint64_t bit = std::uint64_t{1} << v % 64;
+          count_ += (word & bit) == 0 ? 1 : 0;
+          word |= bit;
+        }
+      }
+      [[nodiscard]] std::uint32_t count() const { return count_; }
+
+     private:
+      std::array<std::uint64_t, 3> seen_{};
+      std::uint32_t count_ = 0;
+    };
+
     static constexpr int bit_count = 6;
     static constexpr std::uint64_t mask = (1U << bit_count) - 1;
     static_assert(exact_below <= 1U << bit_count);
 
     [[nodiscard]] std::pair<int, std::uint32_t> best(const Sorted& sorted, std::uint32_t count) const {
       const double margin = builder_.options_.margin;
-      std::array<double, exact_below> area_left{};
+      std::array<double, exact_below> cost_left{};
       double best_cost = std::numeric_limits<double>::infinity();
       std::pair<int, std::uint32_t> best{0, count / 2};
       for (int axis = 0; axis < 3; ++axis) {
         const auto& keys = sorted[axis];
         Bounds bounds;
+        Vertices vertices;
         for (std::uint32_t i = 0; i < count; ++i) {
           bounds.include(boxes_[keys[i] & mask]);
-          area_left[i] = bounds.half_area(margin);
+          vertices.include(vertex_[keys[i] & mask]);
+          cost_left[i] = bounds.half_area(margin) * builder_.tests(std::max(i + 1, vertices.count()));
         }
         bounds = {};
+        vertices = {};
         for (std::uint32_t i = count - 1; i > 0; --i) {
           bounds.include(boxes_[keys[i] & mask]);
+          vertices.include(vertex_[keys[i] & mask]);
           const double cost =
-              area_left[i - 1] * builder_.tests(i) + bounds.half_area(margin) * builder_.tests(count - i);
+              cost_left[i - 1] + bounds.half_area(margin) * builder_.tests(std::max(count - i, vertices.count()));
           if (cost < best_cost) {
             best_cost = cost;
             best = {axis, i};
@@ -243,6 +287,7 @@ class Builder {
     std::uint32_t count_ = 0;
     std::array<std::uint32_t, exact_below> items_;
     std::array<StepBox, exact_below> boxes_;
+    std::array<std::array<std::uint8_t, 3>, exact_below> vertex_{};  ///< all 0 if options_ has none
     Sorted all_;
   };
 

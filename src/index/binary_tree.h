@@ -3,6 +3,7 @@
 /// A binary tree over boxes by the surface area heuristic (Wald, "On fast construction of SAH-based bounding volume
 /// hierarchies", 2007): the first half of building a tile. collapse.h is the second.
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <span>
@@ -31,6 +32,9 @@ struct BinaryTreeOptions {
   /// Steps by which a query grows the boxes, in total: the chance of a visit is proportional to the area of the grown
   /// box. Must be more than 0, or the heuristic has no preference in flat scenes.
   double margin = 1.0;
+  /// Of each item, if leaves hold at most items_per_test vertices too; else empty. The heuristic counts different
+  /// numbers. Two vertices with one number only make a leaf look less full.
+  std::span<const std::array<std::uint32_t, 3>> vertices;
   /// Whether these items may form a leaf. Must hold for a single item.
   std::function<bool(std::span<const std::uint32_t>)> fits_leaf;
 };

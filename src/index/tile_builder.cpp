@@ -7,6 +7,7 @@
 #include "index/collapse.h"
 #include "index/grid.h"
 #include "math/largest.h"
+#include "math/mix.h"
 
 namespace roam::index {
 namespace {
@@ -35,6 +36,7 @@ class TileBuilder {
     quantize();
     BinaryTreeOptions options;
     options.fits_leaf = [this](std::span<const std::uint32_t> items) { return fits_leaf(items); };
+    options.vertices = vertices_;
     options.margin = std::max(1.0, query_margin / grid_.step);
     const BinaryTree tree = build_binary_tree(boxes_, options);
     WideTree wide = collapse(tree, options.margin);
@@ -51,6 +53,7 @@ class TileBuilder {
   void quantize() {
     corners_.resize(triangles_.size());
     boxes_.resize(triangles_.size());
+    vertices_.resize(triangles_.size());
     double worst = 0.0, worst_fine = 0.0;  // squared
     const double fine_step = grid_.step / double(fine_steps);
     for (std::size_t i = 0; i < triangles_.size(); ++i) {
@@ -70,6 +73,7 @@ class TileBuilder {
         }
         const auto& stored = fine_ ? f : whole;
         corners_[i][c] = {std::uint64_t(stored[0]) << 32 | std::uint64_t(stored[1]), std::uint64_t(stored[2])};
+        vertices_[i][c] = static_cast<std::uint32_t>(mix(corners_[i][c].xy ^ mix(corners_[i][c].z)));
         boxes_[i].include(point);
         worst = std::max(worst, error);
         worst_fine = std::max(worst_fine, error_fine);
@@ -166,6 +170,7 @@ class TileBuilder {
   std::span<const std::uint32_t> ids_;
   bool fine_ = false;
   std::vector<std::array<VertexKey, 3>> corners_;
+  std::vector<std::array<std::uint32_t, 3>> vertices_;  ///< hashes
   std::vector<StepBox> boxes_;
   Grid grid_;
   BuiltTile out_;

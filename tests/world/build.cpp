@@ -103,7 +103,21 @@ TEST(WorldBuild, KnowsNoObjectOfWhatIsNoTriangle) {
 
 TEST(WorldBuild, TakesFewBytes) {
   const World world = build(floor_mesh(500, 0.2, {0.0, 0.0, 0.0}));
-  EXPECT_LE(double(world.stats().bytes) / double(world.stats().triangles), 14.0);
+  EXPECT_LE(double(world.stats().bytes) / double(world.stats().triangles), 12.0);
+}
+
+TEST(WorldBuild, FillsLeavesWithVertices) {
+  // No triangle shares a vertex, so a leaf holds five.
+  const Mesh floor = floor_mesh(100, 0.2, {0.0, 0.0, 0.0});
+  Mesh apart;
+  for (const auto& corners : floor.triangles) {
+    const auto first = static_cast<std::uint32_t>(apart.vertices.size());
+    const Vec3 lift(0.0, 0.0, 0.01 * (first % 2));
+    for (const std::uint32_t v : corners) apart.vertices.push_back(floor.vertices[v] + lift);
+    apart.triangles.push_back({first, first + 1, first + 2});
+  }
+  const World world = build(apart);
+  EXPECT_LE(double(world.stats().bytes) / double(world.stats().triangles), 1.05 * 128.0 / 5.0);
 }
 
 TEST(WorldBuild, MovesNoVertexByAMillimetre) {
