@@ -296,19 +296,19 @@ TEST_F(StoreShares, OutliveAPlanThatFailsMeanwhile) {
   wrong.scene = {folder_.file("absent.ply")};
   wrong.progress = [&](const roam::StoreBuildProgress&) {
     if (share.valid()) return true;
-    share = std::async(std::launch::async,
-                       [&] {  // it begins when the plan has the folder, and has no run when the plan fails
-                         auto o = in("steps", 1);
-                         bool waited = false;
-                         o.progress = [&](const roam::StoreBuildProgress& p) {
-                           if (p.bytes_total == 0 || std::exchange(waited, true)) return true;
-                           reading.set_value();
-                           failed.get_future().wait();
-                           return true;
-                         };
-                         StoreBuildReport report;
-                         roam::read_share(o, 0, report);
-                       });
+    // It begins when the plan has the folder, and has no run when the plan fails.
+    share = std::async(std::launch::async, [&] {
+      auto o = in("steps", 1);
+      bool waited = false;
+      o.progress = [&](const roam::StoreBuildProgress& p) {
+        if (p.bytes_total == 0 || std::exchange(waited, true)) return true;
+        reading.set_value();
+        failed.get_future().wait();
+        return true;
+      };
+      StoreBuildReport report;
+      roam::read_share(o, 0, report);
+    });
     reading.get_future().wait();
     return true;
   };

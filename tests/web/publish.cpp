@@ -115,8 +115,7 @@ TEST_F(Publish, SaysWhatAFailureLeavesAndTheNextOneTidies) {
   std::ofstream(to() / "packs" / (std::string(64, 'a') + ".pack")) << "of a version that never came";
   std::ofstream(to() / "packs" / "new.pack.123.1.unfinished") << "";
   EXPECT_TRUE(roam::publish_store(aside, to()).unchanged);
-  EXPECT_FALSE(fs::exists(to() / "packs" / (std::string(64, 'a') + ".pack")));
-  EXPECT_TRUE(std::includes(packs().begin(), packs().end(), first.begin(), first.end()));
+  EXPECT_EQ(packs(), first);
   // The parts are copied, and then a pack cannot be.
   const std::string pack = Store::open(from())->state().packs.front();
   fs::resize_file(from() / pack, fs::file_size(from() / pack) - 8);
