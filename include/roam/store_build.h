@@ -139,11 +139,12 @@ struct StorePublication {
 };
 
 /// Copies a store, from a folder or a web server, into a folder from which a web server serves it. The folder is empty,
-/// not there, or a store; it becomes a store. Readers see the old store or the new one, each whole: every file is
-/// written under a temporary name, compared with its SHA-256 and renamed, CURRENT last. Files of the version before
-/// stay, for those who walk in it; older ones are removed. Files of the right size are not read again. `progress` gets
-/// bytes done and bytes in all; if it returns false, roam::Cancelled is thrown, and the next call continues. Throws
-/// roam::Error if a file cannot be read, is damaged or cannot be written.
+/// not there, or another store, and does not lie in the store; it becomes a store. Readers see the old store or the new
+/// one, each whole: every file is written under a temporary name, compared with its SHA-256 and renamed, CURRENT last.
+/// Files of the version before stay, for those who walk in it; older ones are removed. Files of the right size are not
+/// read again. `progress` gets bytes done and bytes in all; if it returns false, roam::Cancelled is thrown. Throws
+/// roam::Error if a file cannot be read, is damaged or cannot be written. What was copied stays then, and the next call
+/// continues.
 StorePublication publish_store(const std::filesystem::path& store, const std::filesystem::path& folder,
                                const std::function<bool(std::uint64_t, std::uint64_t)>& progress = {},
                                const WebAccess& web = {});
