@@ -12,7 +12,7 @@
 namespace roam::measure {
 namespace {
 
-constexpr double stations_a_step = 16.0;
+constexpr double stations_a_step = 20'000.0;
 constexpr double dense = 0.05;  ///< m between positions where places are listed
 /// The narrowest place is looked for again on either side, so many times as densely.
 constexpr int refinement = 24;

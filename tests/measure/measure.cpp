@@ -60,6 +60,20 @@ TEST(MeasureAlong, FindsTheDoorAndItsWidth) {
   EXPECT_FALSE(along.lowest());
 }
 
+TEST(MeasureAlong, FindsTheDoorInOneLongStep) {
+  Mesh mesh;
+  add_corridor(mesh);
+  scenes::add_box(mesh, {9, 0, 0}, {9.2, 1.6, 3});
+  scenes::add_box(mesh, {9, 2.4, 0}, {9.2, 4, 3});
+  const World world = scenes::build(mesh);
+  roam::Walker walker(world, roam::WalkerSettings::sphere(0.3), Mode::fly, {2.55, 2.0, 1.5});
+  Along along(world, walker.settings(), Mode::fly);
+  along.put(walker.position());
+  along.add(walker.step({.velocity = {16.0, 0.0, 0.0}}, 1.0));
+  ASSERT_TRUE(along.narrowest());
+  EXPECT_NEAR(along.narrowest()->width, 0.8, 0.003);
+}
+
 // Door jambs at random angles and offsets: their least distance, edge to edge, is what the body has.
 TEST(MeasureAlong, FindsTheLeastDistanceOfPostsOnEitherSide) {
   for (std::uint64_t seed = 0; seed < 40; ++seed) {
