@@ -111,6 +111,14 @@ TEST_F(StoreVerbs, AWallThatTheStoreDoesNotHaveIsFoundByTheCheckAgainstTheScene)
   EXPECT_GE(report["verified"]["overstated_clearances"], report["violations"]);
 }
 
+TEST_F(StoreVerbs, ABodyThatMakesNoMoveIsNotCalledVerified) {
+  const TestFolder folder;
+  const std::string cut = copy(folder);
+  for (const auto& pack : fs::directory_iterator(fs::path(cut) / "packs")) fs::resize_file(pack.path(), 10'000);
+  const ProgramResult walked = run({"walk", cut, "--path", path(), "--mode", "fly", "--verify"});
+  EXPECT_TRUE(contains(walked.out, "checked     nothing: the body made no move")) << walked.out;
+}
+
 TEST_F(StoreVerbs, WandersFromAPlaceThatIsFoundAndDrawsThat) {
   const TestFolder folder;
   const ProgramResult walked = run(
