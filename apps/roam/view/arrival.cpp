@@ -43,6 +43,7 @@ Arrival::Arrival(const ViewOptions& options, const ViewPlan& plan, const SceneAn
                  osgRoam::Manipulator& roamer, News& news)
     : plan_(plan),
       scene_names_(what.scene.names()),
+      unit_is_chosen_(!what.scene.unit.empty()),
       needs_collision_(!options.path.empty() || options.verify),
       roamer_(roamer),
       news_(news),

@@ -52,9 +52,9 @@ class Arrival {
   [[nodiscard]] const SceneIdentity* identity() const { return loaded_ ? &loaded_->identity : nullptr; }
   /// The axis that is likely to be up instead of z; none without reason to doubt, or before the scene is loaded.
   [[nodiscard]] std::optional<UpAxis> likely_up() const { return loaded_ ? loaded_->likely_up : std::nullopt; }
-  /// The unit that the scene's file states, and that was not applied.
+  /// The unit that the scene's file states, unless it is applied, or the person has chosen one.
   [[nodiscard]] std::optional<LengthUnit> stated_unit() const {
-    return loaded_ ? loaded_->report.stated_unit : std::nullopt;
+    return loaded_ && !unit_is_chosen_ ? loaded_->report.stated_unit : std::nullopt;
   }
   /// The scene that the body collides with; null before it is loaded, for a ghost, and with a store.
   [[nodiscard]] std::shared_ptr<const World> world() const { return loaded_ ? loaded_->world : nullptr; }
@@ -92,6 +92,7 @@ class Arrival {
 
   ViewPlan plan_;
   std::string scene_names_;
+  bool unit_is_chosen_;
   bool needs_collision_;  ///< a path or --verify: a ghost does not suffice
   osgRoam::Manipulator& roamer_;
   News& news_;
