@@ -11,8 +11,6 @@
 #include "roam/walker.h"
 #include "store/read_ahead.h"
 #include "store/web/server.h"
-#include "store/read_ahead.h"
-#include "store/web/server.h"
 #include "walker_judged.h"
 
 namespace {
