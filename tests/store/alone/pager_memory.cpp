@@ -49,7 +49,7 @@ std::uint64_t resident_bytes() {
 
 TEST(PagerMemory, NothingIsAllocatedAndTheProcessDoesNotGrow) {
   const made::Folder folder("pager_memory");
-  const auto meshes = roam::generate::collect(roam::generate::gallery({.triangles = 700'000, .seed = 2}));
+  const auto meshes = roam::generate::collect(roam::generate::gallery({.triangles = 800'000, .seed = 2}));
   const auto store = made::store(folder.path(), meshes, {.page_tiles = 16, .tile_triangles = 4000});
   ASSERT_GT(store->info().resident_bytes, 7u << 20) << "nothing would have to go";
   Pager pager(store, {.memory = Pager::least_memory});
