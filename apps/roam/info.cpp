@@ -225,7 +225,7 @@ ExitStatus store_info(const SceneOptions& options, bool json, bool stats) {
   Json report = json_report(*store);
   if (!problem.empty()) report["not_read"] = problem;
   print_report(json, report, text_report(*store, problem) + (stats ? stats_report(*store) : ""));
-  return done;
+  return problem.empty() ? done : failed;
 }
 
 ExitStatus info(SceneOptions options, bool json, bool stats) {

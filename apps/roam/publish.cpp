@@ -108,9 +108,10 @@ ExitStatus publish(const PublishOptions& options) {
 }
 
 constexpr const char* help =
-    R"(Publishing copies a store into DIR, from which a web server serves it. Each file is compared with its
-SHA-256 and renamed into place, CURRENT last: readers see the old store or the new one. Files of the version before
-stay, for those who walk in it; older ones are removed. Publish every version with the same command.
+    R"(Publishing copies a store into DIR, from which a web server serves it. Each file that it copies is
+compared with its SHA-256 and renamed into place, CURRENT last: readers see the old store or the new one. A file
+that is there with its size stays, also if `roam verify` calls it damaged: remove it before. Files of the version
+before stay, for those who walk in it; older ones are removed. Publish every version with the same command.
 
 Any web server that serves ranges will do. --nginx prints lines for nginx, with CORS for web pages.
 

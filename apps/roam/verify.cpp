@@ -17,6 +17,7 @@
 #include "scenes/beside_scene.h"
 #include "scenes/user_key.h"
 #include "scenes/web_options.h"
+#include "store/files.h"
 #include "store/held.h"
 #include "verbs.h"
 #include "words/measures.h"
@@ -94,8 +95,13 @@ std::string text_report(const VerifyOptions& options, const StoreVerification& f
   }
   const std::string text = damage_text(options, found);
   if (Store::is_address(options.store.native())) {
+    if (found.damage.front().what == store::current_file) {
+      return text + "does a web server answer at this address without a store, such as one that wants a login?\n";
+    }
     return text +
-           "tiles that are damaged are solid; verify and mend the store that was published, and publish it again\n";
+           "tiles that are damaged are solid; `roam verify` the published folder, remove its damaged files, and "
+           "publish "
+           "again\n";
   }
   return text +
          fmt::format("tiles that are damaged are solid; `roam verify {} --repair SCENE` mends the store\n", store);

@@ -54,8 +54,12 @@ void add_web_options(CLI::App& verb, CLI::Option& store, WebAccess& web) {
       ->type_name("SIZE");
   verb.add_flag("--redirects", web.redirects, "Follow the server's redirects to other hosts and folders");
   verb.option_defaults()->group(other_group);
-  verb.parse_complete_callback([&store, &web] {
-    const auto names = store.results();
+  verb.parse_complete_callback([&verb, &store, &web] {
+    std::vector<std::string> names = store.results();
+    if (const CLI::Option* const other = verb.get_option_no_throw("--store")) {
+      const std::vector<std::string> more = other->results();
+      names.insert(names.end(), more.begin(), more.end());
+    }
     if (std::any_of(names.begin(), names.end(), &Store::is_address)) drop_unusable_cache(web);
   });
 }

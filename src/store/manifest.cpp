@@ -19,7 +19,7 @@ constexpr std::string_view current_start = "roam store ";
 constexpr const char* manifest_name = "the manifest";
 /// Versions published while a store is opened, each of which removes the one before.
 constexpr int most_versions = 10;
-constexpr const char* no_current = "it is none of a store";
+constexpr const char* no_current = "its content is not that of a store's CURRENT";
 
 std::string text_of(const std::vector<std::byte>& content) {
   return {reinterpret_cast<const char*>(content.data()), content.size()};

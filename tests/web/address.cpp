@@ -15,6 +15,8 @@ TEST(Address, KeepsItsQueryToItself) {
   EXPECT_EQ(address.shown(), "https://host:81/a/dam.roam");
   EXPECT_EQ(address.of("CURRENT"), "https://host:81/a/dam.roam/CURRENT?key=value&b=%20");
   EXPECT_EQ(Address("http://host").of("CURRENT"), "http://host/CURRENT");
+  EXPECT_EQ(Address("http://host/a/CURRENT").of("CURRENT"), "http://host/a/CURRENT");
+  EXPECT_EQ(Address("http://host/CURRENT/").of("CURRENT"), "http://host/CURRENT");
   EXPECT_TRUE(Address::is_one("http://host"));
   EXPECT_TRUE(Address::is_one("HtTpS://host"));
   EXPECT_EQ(Address("HTTPS://Host/A?b").of("CURRENT"), "https://Host/A/CURRENT?b");

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <set>
+#include <system_error>
 #include <vector>
 
 #include "roam/error.h"
@@ -28,30 +29,35 @@ class Publisher {
   }
 
   StorePublication run() {
+    const std::vector<std::byte> manifest = copied();
+    publish(to_, {reinterpret_cast<const char*>(manifest.data()), manifest.size()}, from_.manifest.format);
+    return done_;
+  }
+
+ private:
+  /// Copies all but the manifest, and returns that. Says that readers see no difference if it fails.
+  std::vector<std::byte> copied() {
     try {
-      copy_all();
+      return copy_all();
     } catch (const Error& error) {
       if (done_.files == 0) throw;
       throw Error::at(to_.string(), fmt::format("{}; for readers nothing has changed, and the next publication goes on "
                                                 "from what is copied",
                                                 error.what()));
     }
-    return done_;
   }
-
- private:
-  void copy_all() {
+  std::vector<std::byte> copy_all() {
     for (const char* folder : {"packs", "parts", "manifests"}) make_folder_in(to_, folder);
     for (const PartInfo& part : from_.manifest.parts) copy(part_file(part.file), part.file, part.bytes);
     for (const ShardInfo& shard : from_.manifest.shards) copy(pack_file(shard.pack), shard.pack, shard.bytes);
-    const std::vector<std::byte> manifest = from_.bytes->whole(manifest_file(done_.hash), Store::usual_memory);
+    std::vector<std::byte> manifest = from_.bytes->whole(manifest_file(done_.hash), Store::usual_memory);
     // A second request may have another answer than the first, such as the page of a login.
     if (sha256(manifest) != done_.hash) {
       throw Error::at(from_.name, fmt::format("cannot publish {}: {} is not what it was when the store was opened; "
                                               "publish again",
                                               from_.name, manifest_file(done_.hash)));
     }
-    publish(to_, {reinterpret_cast<const char*>(manifest.data()), manifest.size()}, from_.manifest.format);
+    return manifest;
   }
 
   void tick(std::uint64_t bytes) {
@@ -115,7 +121,9 @@ StorePublication publish_store(const std::filesystem::path& store, const std::fi
                     fmt::format("cannot publish to {}: name the folder from which it is served", folder.string()));
   }
   const auto from = Store::open(store, Store::usual_memory, web);
-  if (!Store::is_address(store.native()) && store::is_inside(folder, store)) {
+  std::error_code none;
+  const bool is_same_folder = std::filesystem::equivalent(store, folder, none);  // also through another mount
+  if (!Store::is_address(store.native()) && (is_same_folder || store::is_inside(folder, store))) {
     throw Error::at(folder.string(), fmt::format("{} is the store itself, or lies in it; name the folder from which it "
                                                  "is served",
                                                  folder.string()));

@@ -38,7 +38,15 @@ Address::Address(std::string_view text) {
   if (std::any_of(shown_.begin(), shown_.end(), cannot_be) || std::any_of(query_.begin(), query_.end(), cannot_be)) {
     refuse("an address holds no blanks, quotes or letters beyond ASCII; write %20 for a blank");
   }
-  while (shown_.ends_with('/') && shown_.size() > shown_.find(host) + host.size()) shown_.pop_back();
+  const std::size_t root = shown_.find(host) + host.size();
+  const auto drop = [&](std::string_view end) {
+    const bool has = shown_.ends_with(end) && shown_.size() >= root + end.size();
+    if (has) shown_.resize(shown_.size() - end.size());
+    return has;
+  };
+  while (drop("/")) {
+  }
+  drop("/CURRENT");  // the address of the store's first file
 }
 
 std::string Address::of(std::string_view file) const {
