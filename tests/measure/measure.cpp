@@ -41,12 +41,17 @@ void add_corridor(Mesh& mesh) {
   scenes::add_wall(mesh, 0, 4, 20, 4, 0, 3);
 }
 
-TEST(MeasureAlong, FindsTheDoorAndItsWidth) {
+/// The door, 0.8 m wide, is in the middle.
+World corridor_with_door() {
   Mesh mesh;
   add_corridor(mesh);
   scenes::add_box(mesh, {9, 0, 0}, {9.2, 1.6, 3});
   scenes::add_box(mesh, {9, 2.4, 0}, {9.2, 4, 3});
-  const World world = scenes::build(mesh);
+  return scenes::build(mesh);
+}
+
+TEST(MeasureAlong, FindsTheDoorAndItsWidth) {
+  const World world = corridor_with_door();
   const Along along = walked(world, {}, {{2, 2, 0.902}, {18, 2, 0.902}});
   ASSERT_TRUE(along.narrowest());
   const auto& n = *along.narrowest();
@@ -61,11 +66,7 @@ TEST(MeasureAlong, FindsTheDoorAndItsWidth) {
 }
 
 TEST(MeasureAlong, FindsTheDoorInOneLongStep) {
-  Mesh mesh;
-  add_corridor(mesh);
-  scenes::add_box(mesh, {9, 0, 0}, {9.2, 1.6, 3});
-  scenes::add_box(mesh, {9, 2.4, 0}, {9.2, 4, 3});
-  const World world = scenes::build(mesh);
+  const World world = corridor_with_door();
   roam::Walker walker(world, roam::WalkerSettings::sphere(0.3), Mode::fly, {2.55, 2.0, 1.5});
   Along along(world, walker.settings(), Mode::fly);
   along.put(walker.position());
