@@ -88,7 +88,7 @@ TEST(WebSlow, AReadThatHasWaitedForItsTurnIsTriedAgain) {
   const Served served("web_turn");
   const support::Misbehaving server(served.root());
   const std::string pack = add_pack(served, 'a', 18 * apart);
-  const auto store = opened(server.address(fmt::format("rate64reset{}", 16 * apart)), patient(2.0));
+  const auto store = opened(server.address(fmt::format("rate32reset{}", 16 * apart)), patient(4.0));
   static_cast<void>(server.requests());
   std::vector<std::future<const char*>> reads;
   for (std::uint64_t i = 0; i < 8; ++i) reads.push_back(begun(*store, pack, 2 * i * apart, 18'000));
