@@ -42,23 +42,24 @@ struct PagerOptions {
 
 /// Contents and work of a pager.
 struct PagerStats {
-  std::uint64_t memory = 0;      ///< bytes allocated; constant
-  std::uint64_t used = 0;        ///< bytes of it that hold tiles and pages
-  std::uint64_t tiles = 0;       ///< resident
-  std::uint64_t pages = 0;       ///< resident
-  std::uint64_t triangles = 0;   ///< resident
-  std::uint64_t wanted = 0;      ///< tiles and pages within the horizon that are not resident
-  std::uint64_t reading = 0;     ///< tiles and pages that are being read now
-  bool full = false;             ///< memory does not hold all tiles and pages within the horizon
-  std::uint64_t loads = 0;       ///< tiles and pages loaded so far
-  std::uint64_t evictions = 0;   ///< tiles and pages evicted so far
-  std::uint64_t failures = 0;    ///< failed reads and decodings so far
-  std::uint64_t failed = 0;      ///< tiles and pages that are solid now because of a failure
-  std::uint64_t bytes_read = 0;  ///< from the store
-  double longest_read = 0.0;     ///< s: longest read of a tile
-  double longest_decode = 0.0;   ///< s: longest decoding of a tile
-  double ready_radius = 0.0;     ///< m around the body within which all is known, as of the last update()
-  std::string last_failure;      ///< sentence with tile, position and reason; empty: none
+  std::uint64_t memory = 0;           ///< bytes allocated; constant
+  std::uint64_t used = 0;             ///< bytes of it that hold tiles and pages
+  std::uint64_t tiles = 0;            ///< resident
+  std::uint64_t pages = 0;            ///< resident
+  std::uint64_t triangles = 0;        ///< resident
+  std::uint64_t wanted = 0;           ///< tiles and pages within the horizon that are not resident
+  std::uint64_t reading = 0;          ///< tiles and pages that are being read now
+  bool full = false;                  ///< memory does not hold all tiles and pages within the horizon
+  std::uint64_t loads = 0;            ///< tiles and pages loaded so far
+  std::uint64_t evictions = 0;        ///< tiles and pages evicted so far
+  std::uint64_t failures = 0;         ///< failed reads and decodings so far
+  std::uint64_t failed = 0;           ///< tiles and pages that are solid now because of a failure
+  std::uint64_t failed_may_pass = 0;  ///< of them, those that a web server may still send: they are tried again
+  std::uint64_t bytes_read = 0;       ///< from the store
+  double longest_read = 0.0;          ///< s: longest read of a tile
+  double longest_decode = 0.0;        ///< s: longest decoding of a tile
+  double ready_radius = 0.0;          ///< m around the body within which all is known, as of the last update()
+  std::string last_failure;           ///< sentence with tile, position and reason; empty: none
 };
 
 class Pager final : public LiveSpace {

@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "cli/tell.h"
-#include "store/web/server.h"
 
 namespace roam::app {
 namespace {
@@ -51,9 +50,9 @@ TilesAround::TilesAround(Pager& pager, std::function<bool()> goes_on, double stu
 
 /// Whether tiles have failed that a web server may still send: the pager tries them again.
 bool TilesAround::failed_may_come() {
-  const PagerStats now = pager_.stats();
-  lost_ = std::min(lost_, now.failed);
-  return now.failed > lost_ && web::may_pass(now.last_failure);
+  const std::uint64_t now = pager_.stats().failed_may_pass;
+  lost_ = std::min(lost_, now);
+  return now > lost_;
 }
 
 void TilesAround::wait(const Body& body, const Vec3& place, const Vec3& velocity, double reach) {
@@ -79,7 +78,7 @@ void TilesAround::wait(const Body& body, const Vec3& place, const Vec3& velocity
     return;
   }
   stuck_at_ = now.loads;
-  lost_ = now.failed;
+  lost_ = now.failed_may_pass;
   tell(fmt::format("note: nothing has come from {} for {:g} s; it is no longer waited for, and stays solid",
                    pager_.store().name(), stuck_));
 }

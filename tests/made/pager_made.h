@@ -47,6 +47,8 @@ class TroubledBytes : public roam::store::StoreBytes {
   std::atomic<std::uint64_t> reads{0};
   /// The reason of errors.
   const char* reason = "the disk reports an input/output error";
+  /// How many of every thousand offsets the web server does not have.
+  std::atomic<int> lost{0};
   /// Offsets of reads without faults. Set it before the first read.
   std::set<std::uint64_t> spared;
 
@@ -81,6 +83,9 @@ class TroubledBytes : public roam::store::StoreBytes {
       return static_cast<int>((chance >> 33) % 1000) < of_thousand;
     };
     if (spared.contains(offset)) return files_->read(file, offset, out);
+    if (static_cast<int>((offset * 0x9E3779B97F4A7C15ULL >> 33) % 1000) < lost) {
+      return "the web server has no such file (status 404 or 410)";
+    }
     if (strikes(errors)) return reason;
     if (const char* problem = files_->read(file, offset, out)) return problem;
     if (strikes(short_reads)) std::memset(out.data() + out.size() / 2, 0, out.size() - out.size() / 2);

@@ -91,6 +91,21 @@ TEST(TilesAround, ThatAWebServerCannotSendAreNotWaitedFor) {
   }
 }
 
+TEST(TilesAround, ThatMayComeAreWaitedForBesideOthersThatCannot) {
+  const Alley alley("around_mixed");
+  alley.bytes->lost = 200;
+  alley.bytes->reason = "the connection to the web server broke";
+  const auto failed = [&](int errors) {
+    alley.bytes->errors = errors;
+    Pager pager(roam::store::open_store(alley.bytes, "http://alley"), {.memory = Pager::least_memory});
+    TilesAround(pager, always).wait(person, begin, Vec3(0.0), 30.0);
+    return pager.stats().failed;
+  };
+  const std::uint64_t right = failed(0);
+  EXPECT_GT(right, 0U);
+  EXPECT_EQ(failed(300), right);
+}
+
 TEST(TilesAround, ThatNeverComeAreGivenUpOnceAndSaidSo) {
   const Alley alley("around_stuck");
   Pager pager(roam::store::open_store(alley.bytes, "alley"), {.memory = Pager::least_memory});

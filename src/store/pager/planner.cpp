@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "store/tile_reader.h"
+#include "store/web/server.h"
 
 namespace roam::paging {
 namespace {
@@ -119,9 +120,9 @@ void Planner::forget(const PagedItem& item) {
   if (!item.is_page()) return;
   PageState& page = pages_[item.page];
   for (std::uint32_t i = 0; i < store_.pages[item.page].ref.tiles; ++i) {
-    const TileState& tile = page.tiles[i];
+    TileState& tile = page.tiles[i];
     if (tile.here) units_.release({tile.unit, units_of({item.page, i})});
-    if (tile.why) --failed_;
+    set_failure(tile, nullptr);
   }
   page.entries = nullptr;
   page.tiles = nullptr;
@@ -182,6 +183,7 @@ void Planner::plan(const TrackedBody& tracked, Clock::time_point time) {
   const std::lock_guard lock(handover_.mutex);
   handover_.stats.wanted = wanted_;
   handover_.stats.failed = failed_;
+  handover_.stats.failed_may_pass = failed_may_pass_;
   handover_.stats.full = full_;
 }
 
@@ -333,7 +335,7 @@ void Planner::done(const Work& work, const Outcome& outcome) {
   TileState& state = state_of(work.item);
   if (outcome.why) {
     end(*request);
-    note_failure(work.item, outcome.why);
+    set_failure(state, outcome.why);
     const double wait =
         std::min(last_retry, first_retry * static_cast<double>(1U << std::min<int>(state.attempts, 10)));
     state.again = Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(wait));
@@ -343,7 +345,7 @@ void Planner::done(const Work& work, const Outcome& outcome) {
     if (!work.item.is_page()) --pages_[work.item.page].requests;
     *request = {};
     units_.give(run, work.item);
-    if (state.why) --failed_;
+    set_failure(state, nullptr);
     state = {};
     state.here = true;
     state.unit = run.unit;
@@ -366,14 +368,22 @@ void Planner::done(const Work& work, const Outcome& outcome) {
   stats.longest_decode = std::max(stats.longest_decode, outcome.decode_s);
   stats.failures += outcome.why ? 1 : 0;
   stats.failed = failed_;
+  stats.failed_may_pass = failed_may_pass_;
   if (outcome.why) handover_.last_failure = {work.item, box(work.item), outcome.why};
   // A recent maximum: it decays to one half in about fifty loads.
   handover_.latency = std::max(outcome.read_s + outcome.decode_s, 0.985 * handover_.latency);
 }
 
-void Planner::note_failure(const PagedItem& item, const char* why) {
-  TileState& state = state_of(item);
-  if (!state.why) ++failed_;
+/// `why`: null ends a failure.
+void Planner::set_failure(TileState& state, const char* why) {
+  if (state.why) {
+    --failed_;
+    if (web::may_pass(state.why)) --failed_may_pass_;
+  }
+  if (why) {
+    ++failed_;
+    if (web::may_pass(why)) ++failed_may_pass_;
+  }
   state.why = why;
 }
 

@@ -99,7 +99,7 @@ class Planner {
   [[nodiscard]] const TileState& state_of(const PagedItem& item) const;
   [[nodiscard]] Box box(const PagedItem& item) const;
   [[nodiscard]] bool filling() const { return units_.free() > units_.size() / reserve_part; }
-  void note_failure(const PagedItem& item, const char* why);
+  void set_failure(TileState& state, const char* why);
 
   const Store::State& store_;
   std::byte* arena_;
@@ -110,7 +110,7 @@ class Planner {
   std::array<Request, most_requests> requests_;
   std::array<Candidate, most_candidates> candidates_;
   std::size_t candidate_count_ = 0;
-  std::uint64_t wanted_ = 0, failed_ = 0;
+  std::uint64_t wanted_ = 0, failed_ = 0, failed_may_pass_ = 0;
   bool appraised_ = false;  ///< in this plan
   bool full_ = false;       ///< no room was found in this plan
   // State of the last plan.

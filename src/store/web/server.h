@@ -44,8 +44,8 @@ inline constexpr const char* too_short = "the file is shorter than the manifest 
 inline constexpr const char* no_ranges =
     "the web server ignores ranges and sends the whole file; use one that serves ranges, as nginx does";
 
-/// Whether a message names a problem that may pass, such as a broken connection.
-[[nodiscard]] bool may_pass(std::string_view message);
+/// Whether the problem of an Answer may pass, as a broken connection does.
+[[nodiscard]] bool may_pass(std::string_view problem);
 
 /// A file to get, or a range of one.
 struct Wanted {

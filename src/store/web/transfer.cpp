@@ -102,8 +102,6 @@ Failure failure_of(CURLcode code) {
   return {code, "the web server's answer is no HTTP", false};
 }
 
-bool has(std::string_view message, std::string_view text) { return message.find(text) != std::string_view::npos; }
-
 bool same_name(std::string_view a, std::string_view lower) {
   return a.size() == lower.size() && std::equal(a.begin(), a.end(), lower.begin(), [](char x, char y) {
            return (x >= 'A' && x <= 'Z' ? static_cast<char>(x - 'A' + 'a') : x) == y;
@@ -126,11 +124,11 @@ bool number(std::string_view& text, std::uint64_t& value) {
 
 }  // namespace
 
-bool may_pass(std::string_view message) {
+bool may_pass(std::string_view problem) {
   return std::any_of(std::begin(passing), std::end(passing),
-                     [&](long status) { return has(message, meaning(status, false)); }) ||
+                     [&](long status) { return problem == meaning(status, false); }) ||
          std::any_of(std::begin(failures), std::end(failures),
-                     [&](const Failure& f) { return f.may_pass && has(message, f.meaning); });
+                     [&](const Failure& f) { return f.may_pass && problem == f.meaning; });
 }
 
 Transfer::Transfer(std::vector<Job*>&& of, std::string where, const Manners& manners)
