@@ -79,7 +79,7 @@ std::size_t login_size(std::string_view address) {
 std::string without_secrets(std::string_view text) {
   std::string result;
   while (!text.empty()) {
-    std::size_t begin = name_size(text);
+    std::size_t begin = text.starts_with("://") ? 1 : name_size(text);
     if (begin == 0 || !text.substr(begin).starts_with('/')) {
       result += text.front();
       text.remove_prefix(1);

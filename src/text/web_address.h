@@ -23,8 +23,8 @@ namespace roam {
 /// "host:port" of an address; empty: it is none.
 [[nodiscard]] std::string_view web_host(std::string_view address);
 
-/// The text with every address in it cut at its question mark, and without a name and a password. An address ends at
-/// the next blank; one whose slashes became one, as in a path, counts too.
+/// The text with every address in it, of any scheme, cut at its question mark, and without a name and a password. An
+/// address ends at the next blank; http:/ with one slash, as in a path, counts too.
 [[nodiscard]] std::string without_secrets(std::string_view text);
 
 }  // namespace roam

@@ -24,6 +24,7 @@ TEST(WebAddress, ASentenceHoldsNeitherQueriesNorPasswords) {
       {"http://me:p?a@host/a?b", "http://...@host/a"},
       {"http://host/a?mail=me@host", "http://host/a"},
       {"httphttp://a?b", "httphttp://a"},
+      {"ftp://me:pass@host/a", "ftp://...@host/a"},
   };
   for (const auto& [sentence, shown] : sentences) EXPECT_EQ(roam::without_secrets(sentence), shown);
 }
