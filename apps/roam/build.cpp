@@ -22,6 +22,7 @@
 #include "scenes/frame.h"
 #include "scenes/scene_options.h"
 #include "scenes/user_key.h"
+#include "text/web_address.h"
 #include "verbs.h"
 
 namespace roam::app {
@@ -247,6 +248,9 @@ void check_usage(const BuildVerb& verb) {
                      "how the scene is read was fixed by --plan; leave it out, or plan again with it");
   }
   for (const auto& scene : verb.scene.scenes) {
+    if (scheme_size(scene.native()) > 0) {
+      throw UsageError(Error::at(scene.string(), scene.string() + " is an address: download the scene first"));
+    }
     if (Store::is_store(scene)) {
       throw UsageError(
           Error::at(scene.string(), scene.string() + " is a store already: name the scene that it was made of"));
