@@ -75,9 +75,8 @@ std::string damage_text(const VerifyOptions& options, const StoreVerification& f
   if (found.damage.size() > most_lines) {
     text += fmt::format("... and {} more (--json tells all)\n", found.damage.size() - most_lines);
   }
-  return text +
-         fmt::format("{}: {} damaged\n", printable_part(options.store.string()),
-                     found.damage.size() == 1 ? "1 thing is" : fmt::format("{} things are", found.damage.size()));
+  return text + fmt::format("{}: {} {} damaged\n", printable_part(options.store.string()),
+                            words::counted(found.damage.size(), "thing"), found.damage.size() == 1 ? "is" : "are");
 }
 
 std::string text_report(const VerifyOptions& options, const StoreVerification& found, const Origin& origin) {

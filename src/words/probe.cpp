@@ -228,12 +228,12 @@ Lines report(const ProbeQuestion& question, const ProbeAnswer& answer, const Pro
   if (answer.passage.found) lines.add(answer.wide_enough ? "way" : "widest way", way_line(answer.passage, details));
   if (answer.wide_enough) lines.add("narrowest", narrowest_line(answer, details));
   if (details.narrower > 0.0 && answer.passage.found) {
-    lines.add("narrower",
-              fmt::format("{} than {:g} m on this way",
-                          details.narrow.empty()       ? "nothing is narrower"
-                          : details.narrow.size() == 1 ? "1 place is narrower"
-                                                       : fmt::format("{} places are narrower", details.narrow.size()),
-                          details.narrower));
+    lines.add("narrower", fmt::format("{} than {:g} m on this way",
+                                      details.narrow.empty()
+                                          ? "nothing is narrower"
+                                          : fmt::format("{} {} narrower", counted(details.narrow.size(), "place"),
+                                                        details.narrow.size() == 1 ? "is" : "are"),
+                                      details.narrower));
     for (const ProbeDetails::Narrow& n : details.narrow) {
       const std::string objects = between(n.left, n.right);
       std::string text = fmt::format("{:.3f} m wide{} at {}, {:.1f} m on the way", n.place.width,

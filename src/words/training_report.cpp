@@ -16,8 +16,6 @@ std::string body_of(const Training& t) {
   return (t.mode == Mode::fly ? "a flying body " : "a body ") + size_of(t.radius, t.height);
 }
 
-std::string routes(std::size_t count) { return counted(count, "route"); }
-
 std::size_t served(const Training& t) {
   return static_cast<std::size_t>(std::count_if(t.paths.begin(), t.paths.end(), [&](const TrainedPath& path) {
     return !path.largest || *path.largest >= t.radius;
@@ -29,7 +27,7 @@ std::string headline(const Training& t) {
   if (!t.complete) return "INTERRUPTED: this is the best known so far.";
   if (t.paths.empty()) return fmt::format("NO ROUTE: there is room for {}, but no way to go.", body_of(t));
   const bool has_disc = t.support_radius > t.radius;
-  const std::string all = t.paths.size() == 1 ? "the route" : fmt::format("all {}", routes(t.paths.size()));
+  const std::string all = t.paths.size() == 1 ? "the route" : fmt::format("all {}", counted(t.paths.size(), "route"));
   const std::string wider =
       t.largest && *t.largest > t.radius ? fmt::format(" Up to {:.2f} m wide would.", 2.0 * *t.largest) : std::string();
   if (t.paper || (!t.feasible && t.contradictions.empty() && has_disc && served(t) == t.paths.size())) {
@@ -38,7 +36,7 @@ std::string headline(const Training& t) {
   }
   if (t.feasible) return fmt::format("PASSES: {} passes {}.{}", body_of(t), all, wider);
   if (served(t) < t.paths.size())
-    return fmt::format("PASSES IN PART: {} passes {} of {}.", body_of(t), served(t), routes(t.paths.size()));
+    return fmt::format("PASSES IN PART: {} passes {} of {}.", body_of(t), served(t), counted(t.paths.size(), "route"));
   return fmt::format("DOES NOT PASS: {} did not come through on {}.", body_of(t), all);
 }
 
@@ -78,7 +76,8 @@ std::string tested(const Training& t) {
         path.trials.begin(), path.trials.end(), [](const Trial& trial) { return trial.outcome != Outcome::reached; }));
   }
   if (walks == 0) return {};
-  std::string text = fmt::format("{}, {} {}", routes(t.paths.size()), walks, t.mode == Mode::fly ? "flights" : "walks");
+  std::string text =
+      fmt::format("{}, {} {}", counted(t.paths.size(), "route"), walks, t.mode == Mode::fly ? "flights" : "walks");
   if (!t.contradictions.empty())
     return text + fmt::format("; {} ended otherwise than predicted: please report that", t.contradictions.size());
   if (t.paper) return text;
