@@ -9,17 +9,18 @@ About a minute a mutant: all of them take days. Status 1 if one survives that te
 harmless."""
 
 import argparse
+import hashlib
 import json
 import os
 import pathlib
 import random
 import re
-import shutil
 import subprocess
 import sys
 import time
 
-SOURCE = pathlib.Path(__file__).resolve().parents[2]
+from changed_tree import SOURCE, ChangedTree, ends_well
+
 ROOMS = ("sweep", "index", "world", "motion")
 TOKEN = re.compile(r"""
     (?P<skip>//.*|"(?:\\.|[^"\\])*"|'(?:\\.|[^'\\])*')
@@ -58,61 +59,37 @@ def mutants_of(path):
                 yield number, match.start(), match.group(), changed(match.lastgroup, match.group())
 
 
-def run(command, seconds):
-    """Whether the command ends well in time."""
-    try:
-        return subprocess.run(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, timeout=seconds, check=False,
-                              env={**os.environ, "GTEST_FAIL_FAST": "1"}).returncode == 0
-    except subprocess.TimeoutExpired:
-        return False
-
-
-class Bench:
-    """A copy of the tree that is changed, built and tested."""
+class Bench(ChangedTree):
+    """Builds and runs the core's tests."""
 
     def __init__(self, work):
-        self.tree, self.build = work / "tree", work / "build"
-        work.mkdir(parents=True, exist_ok=True)
-        shutil.rmtree(self.tree, ignore_errors=True)
-        listed = subprocess.run(["git", "ls-files", "-z"], cwd=SOURCE, check=True, capture_output=True, text=True).stdout
-        for path in filter(None, listed.split("\0")):
-            (self.tree / path).parent.mkdir(parents=True, exist_ok=True)
-            shutil.copy2(SOURCE / path, self.tree / path)
-        subprocess.run(["cmake", "-S", self.tree, "-B", self.build, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release",
-                        "-DCMAKE_CXX_FLAGS_RELEASE=-O1", "-DROAM_TOOLS=OFF", "-DROAM_UNITY=OFF"], check=True,
-                       stdout=subprocess.DEVNULL)
-        if not self.compile():
-            sys.exit("the tree does not compile as it is")
+        super().__init__(work, ["-DCMAKE_BUILD_TYPE=Release", "-DCMAKE_CXX_FLAGS_RELEASE=-O1", "-DROAM_TOOLS=OFF",
+                                "-DROAM_UNITY=OFF"], [])
         self.programs = sorted(p for p in self.build.glob("test_*") if os.access(p, os.X_OK) and p.is_file())
         self.seconds = {}
         for program in self.programs:
             begin = time.monotonic()
-            if not run([program], 3600):
+            if not ends_well([program], 3600):
                 sys.exit(f"{program.name} fails as it is")
             self.seconds[program] = time.monotonic() - begin
 
-    def compile(self):
-        return run(["cmake", "--build", self.build], 3600)
-
     def judge(self, path, line, column, token, replacement):
         """Killed by which test program, 'compiler', or None."""
-        file = self.tree / path
-        original = file.read_text(encoding="utf-8")
-        lines = original.splitlines(keepends=True)
-        text = lines[line - 1]
-        lines[line - 1] = text[:column] + replacement + text[column + len(token):]
-        file.write_text("".join(lines), encoding="utf-8")
-        try:
-            if not self.compile():
+        def change(text):
+            lines = text.splitlines(keepends=True)
+            old = lines[line - 1]
+            lines[line - 1] = old[:column] + replacement + old[column + len(token):]
+            return "".join(lines)
+
+        with self.changed(path, change):
+            if not self.compiles():
                 return "compiler"
             room = pathlib.Path(path).parts[1]
             # The room's own tests first, then from the quickest.
             for program in sorted(self.programs, key=lambda p: (not p.name.startswith(f"test_{room}"), self.seconds[p])):
-                if not run([program], 5 * self.seconds[program] + 10):
+                if not ends_well([program], 5 * self.seconds[program] + 10):
                     return program.name
             return None
-        finally:
-            file.write_text(original, encoding="utf-8")
 
 
 def main():
@@ -131,9 +108,10 @@ def main():
     if kept.exists():
         for row in map(json.loads, kept.read_text(encoding="utf-8").splitlines()):
             known[tuple(row["mutant"])] = row["killed_by"]
-    # A result holds as long as the mutant's line, and the tests.
-    tests = subprocess.run(["git", "rev-parse", "HEAD:tests"], cwd=SOURCE, check=True, capture_output=True,
-                           text=True).stdout.strip()
+    # A result holds as long as the mutant's line, and the core's tests.
+    listed = subprocess.run(["git", "ls-tree", "HEAD:tests", "math", *ROOMS, "made", "support"], cwd=SOURCE, check=True,
+                            capture_output=True).stdout
+    tests = hashlib.sha256(listed).hexdigest()[:16]
     lines = {path: (SOURCE / path).read_text(encoding="utf-8").splitlines() for path in files}
     harmless = (SOURCE / "tests/long/mutants.txt").read_text(encoding="utf-8").splitlines()
     bench, table, survived = None, {}, []

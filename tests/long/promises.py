@@ -1,0 +1,72 @@
+#!/usr/bin/env python3
+"""tests/long/promises.py [--check] [--work FOLDER] [NAME...]
+
+Takes out of a copy of the tree, one at a time, what makes each promise of docs/guarantees.md hold, and runs the promise's
+test, which must fail (those of NAME: tests whose name contains it). Results are kept in FOLDER (build-promises), so that
+the same command goes on where it was stopped. --check runs nothing: it only compares the list below with the source and
+with docs/guarantees.md. Status 1 if a test passes all the same, or the list does not fit. Two hours."""
+
+import argparse
+import json
+import pathlib
+import re
+import sys
+
+from changed_tree import SOURCE, ChangedTree, ends_well
+
+# Program, its filter as in docs/guarantees.md, file, what stands there once, what takes its place.
+PROMISES = [
+    ("sweep", "EverySweep.IsNeitherMissedNorLateNorEarly", "src/sweep/error_bound.h", "roundings = 16.0", "roundings = 0.0"),
+]
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--check", action="store_true")
+    parser.add_argument("--work", type=pathlib.Path, default=SOURCE / "build-promises")
+    parser.add_argument("names", metavar="NAME", nargs="*")
+    options = parser.parse_args()
+    document = (SOURCE / "docs/guarantees.md").read_text(encoding="utf-8")
+    named = set(re.findall(r"`([A-Z]\w+\.(?:\*|\w+))`", document))
+    wrong = [f"{name}: docs/guarantees.md has it, this list has not" for name in sorted(named - {p[1] for p in PROMISES})]
+    wrong += [f"{name}: this list has it, docs/guarantees.md has not" for name in sorted({p[1] for p in PROMISES} - named)]
+    for _, name, path, good, _ in PROMISES:
+        count = (SOURCE / path).read_text(encoding="utf-8").count(good)
+        if count != 1:
+            wrong.append(f"{name}: {path} has {count} of: {good}")
+    if wrong or options.check:
+        print("\n".join(wrong))
+        return 1 if wrong else 0
+    return prove(options)
+
+
+def prove(options):
+    kept = options.work / "results.jsonl"
+    known = {}
+    if kept.exists():
+        known = {tuple(row["promise"]): row["failed"] for row in map(json.loads, kept.read_text(encoding="utf-8").splitlines())}
+    chosen = [p for p in PROMISES if not options.names or any(name in p[1] for name in options.names)]
+    tree, passed = None, []
+    for promise in chosen:
+        program, name, path, good, bad = promise
+        if promise not in known:
+            targets = sorted({f"test_{p[0]}" for p in chosen})
+            tree = tree or ChangedTree(options.work, ["-DCMAKE_BUILD_TYPE=Release", "-DROAM_UNITY=OFF"], targets)
+            test = [tree.build / f"test_{program}", f"--gtest_filter=*{name}*"]
+            if not ends_well(test, 1200):
+                sys.exit(f"{name} fails as it is")
+            with tree.changed(path, lambda text: text.replace(good, bad)):
+                if not tree.compiles([f"test_{program}"]):
+                    sys.exit(f"{name}: {path} does not compile with {bad}")
+                known[promise] = not ends_well(test, 1200)
+            with kept.open("a", encoding="utf-8") as out:
+                out.write(json.dumps({"promise": promise, "failed": known[promise]}) + "\n")
+        print(f"{name}: {'fails' if known[promise] else 'PASSES'} without {path}: {good}", flush=True)
+        if not known[promise]:
+            passed.append(name)
+    print(f"{len(chosen)} promises, {len(passed)} whose test passes all the same")
+    return 1 if passed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
