@@ -193,11 +193,14 @@ TEST(Probing, FindsAWayBetweenMeasuredPoints) {
   d.tap('t');
   d.click(-0.5, -0.9);
   d.tap('i');
-  ASSERT_TRUE(d.until([&] { return contains(d.hud(), "way: YES: a body 0.60 m wide"); })) << "to A: " << d.hud();
+  ASSERT_TRUE(d.until([&] { return contains(d.hud(), "probe: YES: a body 0.60 m wide"); }))
+      << "from the body: " << d.hud();
+  EXPECT_TRUE(contains(d.hud(), "A: where the body was")) << d.hud();
+  EXPECT_TRUE(contains(d.hud(), "narrowest: ")) << d.hud();
   d.click(0.3, -0.9);
   EXPECT_FALSE(contains(d.hud(), "YES")) << "that was of another question: " << d.hud();
   d.tap('i');
-  ASSERT_TRUE(d.until([&] { return contains(d.hud(), "way: YES: a body 0.60 m wide"); })) << "to B: " << d.hud();
+  ASSERT_TRUE(d.until([&] { return contains(d.hud(), "probe: YES: a body 0.60 m wide"); })) << "to B: " << d.hud();
   const ViewReport report = d.session->finish();
   ASSERT_EQ(report.probes.size(), 2u);
   EXPECT_LT(glm::distance(report.probes[0].from, {10, 0, 0}), 0.01) << "the body's feet";
@@ -213,7 +216,7 @@ TEST(Probing, StandsInFrontOfAClickedWall) {
   d.click(0, 0);
   ASSERT_TRUE(d.until([&] { return contains(d.hud(), ", front, slope 90"); })) << d.hud();
   d.tap('i');
-  ASSERT_TRUE(d.until([&] { return contains(d.hud(), "way: YES: a body 0.60 m wide"); })) << d.hud();
+  ASSERT_TRUE(d.until([&] { return contains(d.hud(), "probe: YES: a body 0.60 m wide"); })) << d.hud();
   const ViewReport report = d.session->finish();
   ASSERT_EQ(report.probes.size(), 1u);
   EXPECT_NEAR(report.probes[0].to.x, 20.0 - 0.35, 1e-2);
@@ -224,7 +227,7 @@ TEST(Probing, SaysWhyThereIsNoWay) {
   d.tap('t');
   d.click(0, 0.9);  // the ceiling, from above which nobody comes
   d.tap('i');
-  ASSERT_TRUE(d.until([&] { return contains(d.hud(), "way: ") && !contains(d.hud(), "searching"); })) << d.hud();
+  ASSERT_TRUE(d.until([&] { return contains(d.hud(), "probe: ") && !contains(d.hud(), "searching"); })) << d.hud();
   EXPECT_FALSE(contains(d.hud(), "YES")) << d.hud();
 }
 

@@ -39,6 +39,7 @@ void Measuring::take(const Pick& pick) {
     all_.push_back({pick, std::nullopt});
   }
   shown_ = true;
+  from_body_ = false;
   space_ = roamer_.space();
 }
 
@@ -56,7 +57,8 @@ void Measuring::fill(Status& status) {
   if (!shown_) return;
   Measurement& last = all_.back();
   name(last.a);
-  status.tool.push_back({"A", point_text(last.a)});
+  if (from_body_) status.tool.push_back({"A", "where the body was"});
+  status.tool.push_back({from_body_ ? "B" : "A", point_text(last.a)});
   if (!last.b) return;
   name(*last.b);
   status.tool.push_back({"B", point_text(*last.b)});
@@ -68,7 +70,7 @@ void Measuring::add_to(graphics::Marks& marks, const Vec3& origin) const {
   const Measurement& last = all_.back();
   const Vec3 a = last.a.point - origin;
   marks.points.push_back(a);
-  marks.labels.push_back({a, "A"});
+  marks.labels.push_back({a, from_body_ ? "B" : "A"});
   if (!last.b) return;
   const Vec3 b = last.b->point - origin;
   marks.points.push_back(b);

@@ -38,7 +38,9 @@ class Measuring {
   /// Takes a clicked point: the first of a measurement, or the second.
   void take(const Pick& pick);
   /// Forgets the points that are shown; the report keeps them.
-  void clear() { shown_ = false; }
+  void clear() { shown_ = from_body_ = false; }
+  /// A single point is the end of a way that a probe finds from the body: it is called B until the next click.
+  void probe_from_body() { from_body_ = true; }
 
   /// Adds the points, their distance, and the free width and headroom at the body.
   void fill(Status& status);
@@ -55,6 +57,7 @@ class Measuring {
   std::vector<Measurement> all_;
   std::weak_ptr<const Space> space_;  ///< of the last point
   bool shown_ = false;                ///< the last measurement is
+  bool from_body_ = false;
 };
 
 /// "1.20 m wide, 2.45 m high": free space across the gaze and above the feet. Needs a walker.

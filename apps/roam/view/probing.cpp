@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <iterator>
 #include <nlohmann/json.hpp>
 #include <utility>
 
@@ -49,13 +51,22 @@ ProbeReply reply_of(const Json& json) {
   return reply;
 }
 
-/// The line with single blanks.
-std::string without_columns(const std::string& line) {
-  std::string words;
-  for (const char c : line) {
-    if (c != ' ' || (!words.empty() && words.back() != ' ')) words += c;
+/// The lines of the verb's answer, "  label       text", as rows. A deeper line goes on with the row above.
+std::vector<StatusText> rows_of(const std::vector<std::string>& lines) {
+  constexpr std::size_t indent = 2;
+  std::vector<StatusText> rows;
+  for (const std::string& line : lines) {
+    const std::size_t begin = std::min(line.find_first_not_of(' '), line.size());
+    if (begin == line.size()) continue;
+    if (begin > indent && !rows.empty()) {
+      rows.back().value += ' ' + line.substr(begin);
+      continue;
+    }
+    const std::size_t end = begin == 0 ? 0 : line.find("  ", begin);
+    const std::size_t value = line.find_first_not_of(' ', std::min(end, line.size()));
+    rows.push_back({begin == 0 ? "probe" : line.substr(begin, end - begin), line.substr(std::min(value, line.size()))});
   }
-  return words;
+  return rows;
 }
 
 }  // namespace
@@ -112,15 +123,15 @@ void Probing::fill(Status& status) {
   if (!search_) return;
   const LoadState state = search_->loading.state();
   if (state.phase == LoadState::Phase::failed) {
-    status.tool.push_back({"way", state.error.what(), true});
+    status.tool.push_back({"probe", state.error.what(), true});
   } else if (!search_->received) {
-    status.tool.push_back({"way", "searching"});
+    status.tool.push_back({"probe", "searching"});
   } else {
-    constexpr std::size_t most_lines = 3;  // the answer, and what decides
-    const std::vector<std::string>& text = replies_.back().text;
-    for (std::size_t i = 0; i < std::min(text.size(), most_lines); ++i) {
-      status.tool.push_back({i == 0 ? "way" : "", without_columns(text[i]), i == 0 && !replies_.back().passable});
-    }
+    constexpr std::size_t most_rows = 3;  // the answer, and what decides
+    std::vector<StatusText> rows = rows_of(replies_.back().text);
+    rows.resize(std::min(rows.size(), most_rows));
+    if (!rows.empty()) rows.front().warning = !replies_.back().passable;
+    std::move(rows.begin(), rows.end(), std::back_inserter(status.tool));
   }
 }
 

@@ -81,6 +81,7 @@ void Tools::probe() {
     probing_.ask(a, beside(*points->b, roamer_.settings().radius), passed);
   } else {
     const Walker& walker = *roamer_.walker();
+    measuring_.probe_from_body();
     probing_.ask(roamer_.mode() == Mode::fly ? walker.position() : walker.feet(), a, passed);
   }
 }
