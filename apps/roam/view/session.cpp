@@ -259,8 +259,10 @@ void Session::show(bool at_once) {
   if (!at_once && !display_.is_due()) return;
   arrival_.note_failures(stage_.now());
   Status status = display_.status(roaming());
-  if (const Space* const visible = hidden_.visible(); visible != nullptr && roaming()) {
-    status.around = surroundings(*roamer_, *visible);
+  if (roaming()) {
+    const Space* const visible = hidden_.visible();
+    status.around =
+        surroundings(*roamer_, visible != nullptr ? *visible : roamer_->walker()->space(), tools_->section().hidden());
   }
   if (roaming() && !roamer_leads()) status.camera = cameras_->present();
   if (!options_.origin.empty()) {
