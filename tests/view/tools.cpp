@@ -86,6 +86,21 @@ TEST(Section, LeavesTheHeightButHidesTheObjectAhead) {
   EXPECT_FALSE(contains(d.hud(), "ahead")) << "the foot of the wall is seen, but not before the eye: " << d.hud();
 }
 
+TEST(Tools, BringTheDisplayBackForWhatItShows) {
+  Tooled d;
+  auto& stage = d.session->stage();
+  stage.set_hud(HudMode::off);
+  d.tap('v');
+  EXPECT_EQ(stage.hud().detail(), graphics::Detail::off);
+  d.tap('h');
+  EXPECT_TRUE(contains(d.hud(), "shows or hides this menu")) << d.hud();
+  d.tap('h');
+  stage.set_hud(HudMode::off);
+  d.session->run("layers");
+  d.run(0.1);
+  EXPECT_TRUE(contains(d.hud(), "Objects: ")) << d.hud();
+}
+
 TEST(Tools, DrawTheMeasuredLine) {
   Tooled d;
   d.tap('t');
