@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
 #include <map>
 #include <memory>
@@ -205,6 +206,17 @@ float width_of(const std::string& words, const Look& look) {
   return static_cast<float>(extents.x_bearing + extents.width);
 }
 
+namespace {
+
+/// Whether `word` is the unit of a number at the end of `line`, such as "m" or "km/h,".
+bool is_unit(const std::string& word, const std::string& line) {
+  constexpr std::size_t longest = 5;
+  const auto is_digit = [](unsigned char c) { return std::isdigit(c) != 0; };
+  return word.size() <= longest && std::isalpha(static_cast<unsigned char>(word.front())) != 0 && is_digit(line.back());
+}
+
+}  // namespace
+
 std::vector<std::string> break_lines(const std::string& words, const Look& look, float width) {
   std::vector<std::string> lines;
   std::istringstream paragraphs(words);
@@ -214,8 +226,9 @@ std::vector<std::string> break_lines(const std::string& words, const Look& look,
     for (std::string word; stream >> word;) {
       const std::string longer = line.empty() ? word : line + " " + word;
       if (!line.empty() && width_of(longer, look) > width) {
-        lines.push_back(line);
-        line = word;
+        const std::size_t rest = is_unit(word, line) ? line.rfind(' ') : std::string::npos;
+        lines.push_back(line.substr(0, rest));
+        line = rest == std::string::npos ? word : longer.substr(rest + 1);
       } else {
         line = longer;
       }

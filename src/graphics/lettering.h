@@ -52,7 +52,8 @@ void load_fonts();
 /// Pixels from the beginning of the base line to the right edge of the last letter.
 [[nodiscard]] float width_of(const std::string& words, const Look& look);
 
-/// Breaks `words` at spaces into lines of at most `width` pixels. A word that is wider stays whole.
+/// Breaks `words` at spaces into lines of at most `width` pixels. A word that is wider stays whole; a unit stays with
+/// its number.
 [[nodiscard]] std::vector<std::string> break_lines(const std::string& words, const Look& look, float width);
 
 /// `words` if they fit into `width` pixels, else their beginning with "…".

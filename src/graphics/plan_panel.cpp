@@ -133,8 +133,10 @@ Rectangle PlanPanel::place() const {
 }
 
 double PlanPanel::covered() const {
-  if (view_.size != PlanSize::large) return 0.0;
-  const Page page = Page::of(static_cast<float>(frame_.width()), static_cast<float>(frame_.height()));
+  constexpr float roomy = 0.6f;  // of the width, at the left of a small plan: the status fits beside it
+  const auto width = static_cast<float>(frame_.width());
+  if (view_.size == PlanSize::none || (view_.size == PlanSize::small && place().x >= roomy * width)) return 0.0;
+  const Page page = Page::of(width, static_cast<float>(frame_.height()));
   return 1.0 - static_cast<double>(place().x - 0.4f * page.margin) / std::max(1, frame_.width());
 }
 

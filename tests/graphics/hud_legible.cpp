@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "graphics/hud.h"
+#include "graphics/lettering.h"
 #include "hud_pictures.h"
 
 namespace roam::test {
@@ -127,6 +128,14 @@ TEST(GraphicsHud, EachLetterLiesOnWholePixels) {
   const auto row = std::max_element(full.begin(), full.end());
   EXPECT_EQ(*row, 16);
   EXPECT_LE(others[static_cast<std::size_t>(row - full.begin())].size(), 2u);
+}
+
+TEST(GraphicsHud, KeepsAUnitWithItsNumber) {
+  const graphics::Look look{.size = 14};
+  const std::string words = "ahead RoomWindow_01, 13.52 m";
+  const float width = graphics::width_of(words, look) - 2.0f;
+  EXPECT_EQ(graphics::break_lines(words, look, width), (std::vector<std::string>{"ahead RoomWindow_01,", "13.52 m"}));
+  EXPECT_EQ(graphics::break_lines("13.52 m", look, 30), (std::vector<std::string>{"13.52", "m"})) << "too narrow";
 }
 
 TEST(GraphicsHud, OnlyLettersAreLight) {

@@ -4,11 +4,13 @@
 
 #include <glm/geometric.hpp>
 
+#include "graphics/hud.h"
 #include "graphics_stage.h"
 
 namespace roam::test {
 namespace {
 
+using graphics::Hud;
 using graphics::PlanPanel;
 using graphics::PlanSize;
 
@@ -87,6 +89,20 @@ TEST(GraphicsPlanPanel, ShowsNamedPlacesThatLieOnIt) {
     for (int x = 400; x < 640; ++x) rest += is_green(at(*without, x, y));
   }
   EXPECT_EQ(rest, 0);
+}
+
+TEST(GraphicsPlanPanel, LeavesRoomForTheStatusInATallWindow) {
+  Stage stage(500, 900);
+  Hud hud(stage.frame);
+  PlanPanel plan(stage.frame);
+  hud.set_status({{"walk", "0.0 m/s"}, {"ahead", "IfcWallStandardCase_BasicWall:Exterior-Brick, 3.71 m"}});
+  for (const PlanSize size : {PlanSize::small, PlanSize::large}) {
+    plan.set_view({.size = size, .centre = {0, 0}, .half = 10.0, .yaw = 0.0});
+    hud.set_covered(plan.covered());
+    (void)stage.picture(true);
+    ASSERT_EQ(hud.panels().size(), 1u);
+    EXPECT_LT(hud.panels()[0].x + hud.panels()[0].width, plan.place().x);
+  }
 }
 
 TEST(GraphicsPlanPanel, IsNotThereUnlessWanted) {

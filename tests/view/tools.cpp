@@ -71,6 +71,36 @@ TEST(Tools, LeaveTheBodyWhereItIsWhileMeasuring) {
   EXPECT_EQ(d.measured().size(), 1u);
 }
 
+TEST(Section, LeavesTheHeightButHidesTheObjectAhead) {
+  Tooled d;
+  d.run(0.5);
+  ASSERT_TRUE(contains(d.hud(), "ahead") && contains(d.hud(), "on the floor")) << d.hud();
+  d.tap('x');
+  d.click(0, -0.9);
+  d.run(0.5);
+  EXPECT_TRUE(contains(d.hud(), "on the floor")) << "hidden, but the body stands on it: " << d.hud();
+  EXPECT_FALSE(contains(d.hud(), "ahead")) << d.hud();
+  d.events().mouseScroll(osgGA::GUIEventAdapter::SCROLL_DOWN);
+  d.events().mouseScroll(osgGA::GUIEventAdapter::SCROLL_DOWN);
+  d.run(0.5);
+  EXPECT_FALSE(contains(d.hud(), "ahead")) << "the foot of the wall is seen, but not before the eye: " << d.hud();
+}
+
+TEST(Tools, BringTheDisplayBackForWhatItShows) {
+  Tooled d;
+  auto& stage = d.session->stage();
+  stage.set_hud(HudMode::off);
+  d.tap('v');
+  EXPECT_EQ(stage.hud().detail(), graphics::Detail::off);
+  d.tap('h');
+  EXPECT_TRUE(contains(d.hud(), "shows or hides this menu")) << d.hud();
+  d.tap('h');
+  stage.set_hud(HudMode::off);
+  d.session->run("layers");
+  d.run(0.1);
+  EXPECT_TRUE(contains(d.hud(), "Objects: ")) << d.hud();
+}
+
 TEST(Tools, DrawTheMeasuredLine) {
   Tooled d;
   d.tap('t');

@@ -83,7 +83,7 @@ bool Arrival::receive(const Seen& seen) {
   if (const auto unit = stated_unit()) {
     const std::string key = key_of(roamer_.controls(), "unit");
     if (!key.empty()) {
-      news_.note(fmt::format("The file states that its unit is {}: {} applies it", to_string(*unit), key));
+      news_.note(fmt::format("{} applies the unit that the file states: {}", key, to_string(*unit)));
     }
   }
   roamer_.setMode(mode);

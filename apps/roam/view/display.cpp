@@ -117,7 +117,6 @@ Status Display::status(bool has_body) {
   s.size_reason = size_reason(walker);
   s.crouched = walker.crouched();
   s.grounded = walker.grounded();
-  s.around = surroundings(roamer_, walker.space());
   s.yaw = at.yaw;
   s.pitch = at.pitch;
   s.pace = roamer_.speed();

@@ -52,16 +52,19 @@ std::optional<std::array<double, 2>> seen_at(const CameraView& camera, const Vec
   return std::array{clip.x() / clip.w(), clip.y() / clip.w()};
 }
 
+std::optional<Pick> seen_along(const Space& space, const Sightline& line, std::span<const HalfSpace> hidden) {
+  const Vec3 whole = sight(space, line.eye) * line.direction;
+  const auto [first, last] = seen_part(hidden, line.eye, whole);
+  if (!(first < last)) return std::nullopt;
+  const Impact seen = space.ray(line.eye + first * whole, (last - first) * whole);
+  if (!seen.hit || seen.unknown) return std::nullopt;
+  return Pick{seen.point, seen.normal, space.object_name(seen.triangle), seen.triangle};
+}
+
 std::optional<Pick> pick(const Space& space, const CameraView& camera, double x, double y,
                          std::span<const HalfSpace> hidden) {
   const auto line = sightline(camera, x, y);
-  if (!line) return std::nullopt;
-  const Vec3 whole = sight(space, line->eye) * line->direction;
-  const auto [first, last] = seen_part(hidden, line->eye, whole);
-  if (!(first < last)) return std::nullopt;
-  const Impact seen = space.ray(line->eye + first * whole, (last - first) * whole);
-  if (!seen.hit || seen.unknown) return std::nullopt;
-  return Pick{seen.point, seen.normal, space.object_name(seen.triangle), seen.triangle};
+  return line ? seen_along(space, *line, hidden) : std::nullopt;
 }
 
 }  // namespace roam::app

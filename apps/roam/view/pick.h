@@ -41,7 +41,11 @@ struct Sightline {
 /// The point of the picture where a point of the scene is seen; none behind the eye.
 [[nodiscard]] std::optional<std::array<double, 2>> seen_at(const CameraView& camera, const Vec3& point);
 
-/// The first known surface behind a point of the picture. Surfaces in the half spaces are not found.
+/// The first known surface along a line. Surfaces in the half spaces are not found.
+[[nodiscard]] std::optional<Pick> seen_along(const Space& space, const Sightline& line,
+                                             std::span<const HalfSpace> hidden = {});
+
+/// The same behind a point of the picture.
 [[nodiscard]] std::optional<Pick> pick(const Space& space, const CameraView& camera, double x, double y,
                                        std::span<const HalfSpace> hidden = {});
 

@@ -1,8 +1,10 @@
 #include "view/session.h"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <memory>
+#include <string_view>
 #include <utility>
 
 #include "cli/interrupt.h"
@@ -17,6 +19,12 @@ namespace {
 
 /// s: how long the first hint stays when the body can walk.
 constexpr double hint_seconds = 8.0;
+
+/// Whether a command's result is a part of the display, which a person who gives it wants to see.
+bool is_shown_by_display(std::string_view command) {
+  constexpr std::array shown = {"help", "layers", "bookmarks", "plan", "measure", "probe"};
+  return std::find(shown.begin(), shown.end(), command) != shown.end();
+}
 
 ViewOptions with_scene(ViewOptions options, const SceneAndStore& what) {
   options.scene = what.scene;
@@ -259,8 +267,10 @@ void Session::show(bool at_once) {
   if (!at_once && !display_.is_due()) return;
   arrival_.note_failures(stage_.now());
   Status status = display_.status(roaming());
-  if (const Space* const visible = hidden_.visible(); visible != nullptr && roaming()) {
-    status.around = surroundings(*roamer_, *visible);
+  if (roaming()) {
+    const Space* const visible = hidden_.visible();
+    status.around =
+        surroundings(*roamer_, visible != nullptr ? *visible : roamer_->walker()->space(), tools_->section().hidden());
   }
   if (roaming() && !roamer_leads()) status.camera = cameras_->present();
   if (!options_.origin.empty()) {
@@ -284,6 +294,7 @@ ListPanel* Session::shown_list() {
 
 bool Session::run(const std::string& command) {
   display_.hurry();
+  if (stage_.hud().detail() == graphics::Detail::off && is_shown_by_display(command)) stage_.set_hud(HudMode::plain);
   return commands_.run(command);
 }
 

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "view/pick.h"
+
 namespace roam::app {
 
 Vec3 gaze(double yaw, double pitch) {
@@ -16,19 +18,18 @@ double sight(const Space& space, const Vec3& eye) {
   return box.empty() ? 0.0 : std::min(glm::distance(eye, box.center()) + glm::length(box.size()), farthest);
 }
 
-Surroundings surroundings(const osgRoam::Manipulator& roamer, const Space& space) {
+Surroundings surroundings(const osgRoam::Manipulator& roamer, const Space& visible, std::span<const HalfSpace> hidden) {
   const Walker& walker = *roamer.walker();
   Surroundings found;
   found.feet = walker.feet();
   const Vec3 centre = walker.position(), eye = roamer.eye();
-  const double drop = sight(space, centre);
-  if (const Impact floor = space.ray(centre, {0.0, 0.0, -drop}); floor.hit && !floor.unknown) {
+  const Space& met = walker.space();
+  if (const Impact floor = met.ray(centre, {0.0, 0.0, -sight(met, centre)}); floor.hit && !floor.unknown) {
     found.above_floor = std::max(0.0, found.feet.z - floor.point.z);
   }
-  if (const Impact seen = space.ray(eye, sight(space, eye) * gaze(roamer.yaw(), roamer.pitch()));
-      seen.hit && !seen.unknown) {
-    found.ahead_m = glm::distance(seen.point, eye);
-    found.ahead = space.object_name(seen.triangle);
+  if (const auto seen = seen_along(visible, {eye, gaze(roamer.yaw(), roamer.pitch())}, hidden)) {
+    found.ahead_m = glm::distance(seen->point, eye);
+    found.ahead = seen->object;
   }
   return found;
 }

@@ -3,9 +3,11 @@
 /// The surroundings of a body: the floor below, and the object that the eye looks at.
 
 #include <optional>
+#include <span>
 #include <string>
 
 #include "osgRoam/Manipulator.h"
+#include "roam/space.h"
 
 namespace roam::app {
 
@@ -17,8 +19,10 @@ struct Surroundings {
   std::string ahead;                  ///< name of that surface's object; may be empty
 };
 
-/// Two rays in `space`. Needs a walker; the space must not change meanwhile.
-[[nodiscard]] Surroundings surroundings(const osgRoam::Manipulator& roamer, const Space& space);
+/// The floor is that of the body's own space. The surface ahead is one of `visible` outside of the half spaces. Needs a
+/// walker; the spaces must not change meanwhile.
+[[nodiscard]] Surroundings surroundings(const osgRoam::Manipulator& roamer, const Space& visible,
+                                        std::span<const HalfSpace> hidden = {});
 
 /// The unit vector of a gaze. Radians, as in osgRoam::Manipulator.
 [[nodiscard]] Vec3 gaze(double yaw, double pitch);
