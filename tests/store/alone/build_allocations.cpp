@@ -49,8 +49,8 @@ TEST_F(StoreBuildAllocations, AStoreIsBegunOrNot) {
                      EXPECT_EQ(fs::exists(store_ + "/CURRENT"), !failed);
                      fs::remove_all(store_);
                    },
-               .dense = 10,
-               .steps = 4,
+               .dense = 5,
+               .steps = 2,
                .most = most_allocations}});
 }
 
@@ -72,8 +72,8 @@ TEST_F(StoreBuildAllocations, ACopyIsPublishedOrNotAndGoesOn) {
                      EXPECT_TRUE(failed ? roam::verify_store(copy).whole() : bits_of(copy) == whole);
                      fs::remove_all(copy);
                    },
-               .dense = 10,
-               .steps = 4,
+               .dense = 5,
+               .steps = 2,
                .most = most_allocations}});
 }
 
