@@ -36,7 +36,7 @@ struct Stopped {
 ///
 /// `walkers` must move in `instances` or in a Filtered of them; null is skipped. Throws roam::Error, and moves nothing,
 /// for any other walker, a walker that is listed twice, a `dt` that is negative or not finite, and an instance that
-/// would move beyond coordinate_limit.
+/// would move beyond coordinate_limit. After std::bad_alloc some have moved, each with its bodies, and others have not.
 std::vector<Stopped> move_instances(Instances& instances, std::span<Walker* const> walkers, double dt);
 
 }  // namespace roam

@@ -175,7 +175,7 @@ ROAM_API roam_status roam_space_get_facts(const roam_space* space, roam_space_fa
 
 /**
  * The name of the object of a triangle, as snprintf: writes at most `capacity` bytes with the final 0, and returns
- * the length of the whole name. 0: no name. For unknown space it is the reason.
+ * the length of the whole name. 0: no name, or no memory for it. For unknown space it is the reason.
  */
 ROAM_API size_t roam_object_name(const roam_space* space, uint64_t triangle, char* name, size_t capacity);
 

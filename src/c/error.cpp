@@ -1,8 +1,9 @@
 #include "c/error.h"
 
+#include <sys/stat.h>
+
 #include <cerrno>
-#include <filesystem>
-#include <system_error>
+#include <stdexcept>
 
 #include "text/web_address.h"
 
@@ -11,22 +12,24 @@ namespace {
 
 thread_local std::string text;  ///< of the last failure
 thread_local const char* shown = "";
+constexpr const char* no_memory = "the machine has too little free memory";
 
 roam_status failed(roam_status status, const char* why) noexcept {
   try {
     text = without_secrets(why);
     shown = text.c_str();
+    return status;
   } catch (...) {
-    shown = "the machine has too little free memory";
+    shown = no_memory;
+    return ROAM_NO_MEMORY;
   }
-  return status;
 }
 
-bool is_missing(const char* path) {
+/// Allocates nothing: memory may have run out.
+bool is_missing(const char* path) noexcept {
   if (scheme_size(path) > 0) return false;
-  std::error_code none;
-  const auto status = std::filesystem::status(path, none);
-  return status.type() == std::filesystem::file_type::not_found;
+  struct stat facts {};
+  return ::stat(path, &facts) != 0 && (errno == ENOENT || errno == ENOTDIR);
 }
 
 }  // namespace
@@ -42,9 +45,9 @@ roam_status caught(const char* path) noexcept {
   } catch (const Cancelled& cancelled) {
     return failed(ROAM_CANCELLED, cancelled.what());
   } catch (const std::bad_alloc&) {
-    return failed(ROAM_NO_MEMORY, "the machine has too little free memory");
+    return failed(ROAM_NO_MEMORY, no_memory);
   } catch (const std::length_error&) {
-    return failed(ROAM_NO_MEMORY, "the machine has too little free memory");
+    return failed(ROAM_NO_MEMORY, no_memory);
   } catch (const std::exception& error) {
     return failed(ROAM_FAILED, error.what());
   } catch (...) {

@@ -173,11 +173,11 @@ roam_status roam_profile_beside(const char* scene, roam_profile** profile) {
 
 roam_status roam_profile_save(const roam_profile* profile, const char* file) {
   // A file that is not there yet is no error, but a folder is.
-  const std::string folder = file == nullptr ? "" : (std::filesystem::absolute(file)).parent_path().string();
-  return guarded(folder.c_str(), [&] {
-    (void)needed(file, "the path");
-    save_profile(needed(profile, "the profile").profile, file);
-  });
+  std::string folder;
+  const roam_status status =
+      guarded([&] { folder = (std::filesystem::path(".") / &needed(file, "the path")).parent_path().string(); });
+  if (status != ROAM_OK) return status;
+  return guarded(folder.c_str(), [&] { save_profile(needed(profile, "the profile").profile, file); });
 }
 
 roam_status roam_profile_apply(const roam_profile* profile, roam_walker_settings* settings) {

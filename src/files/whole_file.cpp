@@ -161,19 +161,22 @@ bool WholeFile::take(const std::string& name) {
   return true;
 }
 
+// Nothing allocates once the file has its name: a call that throws then would not have left it as it was.
 fs::path WholeFile::commit() {
+  fs::path file = folder_path_ / name_;
   if (naming_ == Naming::exact) {
     commit_as(name_);
-    return folder_path_ / name_;
+    return file;
   }
   finish_writing();
   const fs::path wanted(name_);
-  std::string name;
-  for (int number = 1; name.empty() || !take(name); ++number) {
-    name = fmt::format("{}-{}{}", wanted.stem().string(), number, wanted.extension().string());
+  for (int number = 1;; ++number) {
+    const std::string name = fmt::format("{}-{}{}", wanted.stem().string(), number, wanted.extension().string());
+    file = folder_path_ / name;
+    if (take(name)) break;
   }
   settle();
-  return folder_path_ / name;
+  return file;
 }
 
 void WholeFile::commit_as(const std::string& name) {

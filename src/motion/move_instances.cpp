@@ -330,20 +330,28 @@ std::vector<Stopped> move_instances(Instances& instances, std::span<Walker* cons
     if (walker != nullptr) walker->state().begin_shifts();
   }
   std::vector<Stopped> stopped;
-  for (const ObjectId instance : all) {
-    const Velocity& velocity = instances.velocity(instance);
-    if (dt == 0.0 || (velocity.linear == Vec3(0.0) && velocity.turning == 0.0)) continue;
-    if (const auto stop = Movement(instances, instance, walkers, dt).run()) stopped.push_back(*stop);
+  const auto end = [&] {
+    for (Walker* const walker : walkers) {
+      if (walker == nullptr) continue;
+      const ObjectId ground = walker->stance().object;
+      const bool stands_still =
+          std::any_of(stopped.begin(), stopped.end(), [&](const Stopped& stop) { return stop.instance == ground; });
+      const bool moves = instances.has(ground) && !stands_still;
+      walker->state().end_shifts(
+          moves ? instances.velocity(ground).at(instances.pose(ground), walker->feet()) : Vec3(0.0), dt);
+    }
+  };
+  try {
+    for (const ObjectId instance : all) {
+      const Velocity& velocity = instances.velocity(instance);
+      if (dt == 0.0 || (velocity.linear == Vec3(0.0) && velocity.turning == 0.0)) continue;
+      if (const auto stop = Movement(instances, instance, walkers, dt).run()) stopped.push_back(*stop);
+    }
+  } catch (...) {
+    end();  // memory ran out between two parts of the movement
+    throw;
   }
-  for (Walker* const walker : walkers) {
-    if (walker == nullptr) continue;
-    const ObjectId ground = walker->stance().object;
-    const bool stands_still =
-        std::any_of(stopped.begin(), stopped.end(), [&](const Stopped& stop) { return stop.instance == ground; });
-    const bool moves = instances.has(ground) && !stands_still;
-    walker->state().end_shifts(
-        moves ? instances.velocity(ground).at(instances.pose(ground), walker->feet()) : Vec3(0.0), dt);
-  }
+  end();
   return stopped;
 }
 

@@ -17,41 +17,58 @@ Box united(const Box& a, const Box& b) {
 }  // namespace
 
 void BoxTree::change(const std::vector<Item>& put, const std::vector<std::uint32_t>& erased) {
-  if ((put.size() + erased.size()) * many_part > size_) {
-    for (const std::uint32_t number : erased) erase(number);
-    for (const Item& item : put) erase(item.number);
-    std::vector<Item> all = items();
-    all.insert(all.end(), put.begin(), put.end());
-    return build(std::move(all));
-  }
+  if (put.empty() && erased.empty()) return;
+  const bool many = (put.size() + erased.size()) * many_part > size_;
+  const std::size_t most = size_ + put.size();
+  std::vector<Item> all;
+  if (many || nodes_[root_].height + put.size() >= deepest_tree) all.reserve(most);
+  make_room(put, most);
+  // Nothing from here on allocates, so nothing fails halfway.
   for (const std::uint32_t number : erased) erase(number);
+  if (many) {
+    for (const Item& item : put) erase(item.number);
+    add_items(all);
+    all.insert(all.end(), put.begin(), put.end());
+    return build(all);
+  }
   for (const Item& item : put) {
     erase(item.number);
     insert(item);
-    if (nodes_[root_].height >= deepest_tree) build(items());
+    if (nodes_[root_].height < deepest_tree) continue;
+    all.clear();
+    add_items(all);
+    build(all);
+  }
+}
+
+void BoxTree::make_room(const std::vector<Item>& put, std::size_t most) {
+  // More than needed, as push_back does: many changes of one item each take constant time on average.
+  const auto grow = [](auto& list, std::size_t size) {
+    if (list.capacity() < size) list.reserve(std::max(size, 2 * list.capacity()));
+  };
+  const std::size_t nodes = std::max(2 * most, nodes_.size() + 2 * put.size());
+  grow(nodes_, nodes);
+  grow(unused_, nodes);
+  for (const Item& item : put) {
+    if (item.number >= leaves_.size()) leaves_.resize(item.number + 1, none);
   }
 }
 
 std::uint32_t BoxTree::leaf_of(std::uint32_t number) const { return number < leaves_.size() ? leaves_[number] : none; }
 
-std::vector<BoxTree::Item> BoxTree::items() const {
-  std::vector<Item> all;
-  all.reserve(size_);
+void BoxTree::add_items(std::vector<Item>& to) const {
   for (std::uint32_t number = 0; number < leaves_.size(); ++number) {
-    if (leaves_[number] != none) all.push_back({nodes_[leaves_[number]].box, number});
+    if (leaves_[number] != none) to.push_back({nodes_[leaves_[number]].box, number});
   }
-  return all;
 }
 
 // Halves the items recursively at the median along their longest extent.
-void BoxTree::build(std::vector<Item> items) {
+void BoxTree::build(std::vector<Item>& items) {
   nodes_.clear();
   unused_.clear();
   root_ = none;
   size_ = items.size();
-  if (items.empty()) return;
-  nodes_.reserve(2 * items.size() - 1);
-  root_ = split(items, 0, items.size());
+  if (!items.empty()) root_ = split(items, 0, items.size());
 }
 
 std::uint32_t BoxTree::split(std::vector<Item>& items, std::size_t begin, std::size_t end) {
@@ -82,10 +99,7 @@ std::uint32_t BoxTree::make(const Node& node) {
     unused_.pop_back();
     nodes_[index] = node;
   }
-  if (node.leaf()) {
-    if (node.number >= leaves_.size()) leaves_.resize(node.number + 1, none);
-    leaves_[node.number] = index;
-  }
+  if (node.leaf()) leaves_[node.number] = index;
   return index;
 }
 

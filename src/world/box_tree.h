@@ -66,7 +66,7 @@ class BoxTree {
 
   /// Puts the items of `put`, each in place of the item with the same number, and removes the numbers in `erased`. No
   /// number may occur twice. A few changes cost a walk down the tree each. Many changes, or a tree that has become too
-  /// deep, rebuild it.
+  /// deep, rebuild it. After std::bad_alloc nothing has changed.
   void change(const std::vector<Item>& put, const std::vector<std::uint32_t>& erased);
 
   /// The box of all items; empty if there are none.
@@ -142,7 +142,9 @@ class BoxTree {
     }
   }
 
-  void build(std::vector<Item> items);
+  /// For a change that puts these items: `most` items in all. Nothing else allocates.
+  void make_room(const std::vector<Item>& put, std::size_t most);
+  void build(std::vector<Item>& items);
   std::uint32_t split(std::vector<Item>& items, std::size_t begin, std::size_t end);
   void insert(const Item& item);
   void erase(std::uint32_t number);
@@ -150,7 +152,7 @@ class BoxTree {
   void link(std::uint32_t parent, std::uint32_t old_child, std::uint32_t child);
   void fit_upward(std::uint32_t node);
   void fit(std::uint32_t node);
-  [[nodiscard]] std::vector<Item> items() const;
+  void add_items(std::vector<Item>& to) const;
   [[nodiscard]] std::uint32_t leaf_of(std::uint32_t number) const;
 
   std::vector<Node> nodes_;

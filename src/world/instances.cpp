@@ -112,11 +112,14 @@ struct Instances::State {
   }
   [[nodiscard]] const Instance& at(ObjectId instance) const { return instances[index(instance)]; }
 
-  void put(std::uint32_t i) {
+  /// Changes nothing if memory runs out.
+  void put(std::uint32_t i, const Pose& pose) {
     Instance& it = instances[i];
-    it.frame = {it.pose.position, std::cos(it.pose.heading), std::sin(it.pose.heading),
-                query::instance_bit | TriangleId{i} << 32, first_instance + i};
-    tree.change({{turned(it.data->reach, it.frame), i}}, {});
+    const query::Frame frame{pose.position, std::cos(pose.heading), std::sin(pose.heading),
+                             query::instance_bit | TriangleId{i} << 32, first_instance + i};
+    tree.change({{turned(it.data->reach, frame), i}}, {});
+    it.pose = pose;
+    it.frame = frame;
     state = next_revision();
   }
 
@@ -181,10 +184,15 @@ ObjectId Instances::add(std::shared_ptr<const World> world, const Pose& pose, st
   }
   if (s.instances.size() >= most_instances) throw Error("there are no more numbers for instances");
   const auto i = static_cast<std::uint32_t>(s.instances.size());
-  s.lossless |= world->data_->lossless;
   const WorldData* const data = world->data_.get();
   s.instances.push_back({std::move(world), data, pose, {}, std::move(name), user_data, {}});
-  s.put(i);
+  try {
+    s.put(i, pose);
+  } catch (...) {
+    s.instances.pop_back();
+    throw;
+  }
+  s.lossless |= data->lossless;
   return first_instance + i;
 }
 
@@ -200,10 +208,9 @@ void Instances::set_pose(ObjectId instance, const Pose& pose) {
   const DefaultFloatingPoint guard;
   check(pose);
   const std::uint32_t i = state_->index(instance);
-  Pose& old = state_->instances[i].pose;
+  const Pose& old = state_->instances[i].pose;
   if (old.position == pose.position && old.heading == pose.heading) return;
-  old = pose;
-  state_->put(i);
+  state_->put(i, pose);
 }
 
 void Instances::set_velocity(ObjectId instance, const Velocity& velocity) {

@@ -218,6 +218,7 @@ TEST(CSurvey, ProbesAndTrains) {
   ASSERT_EQ(roam_profile_apply(loaded, &settings), ROAM_OK);
   EXPECT_EQ(settings.radius, training.radius);
   EXPECT_EQ(roam_profile_save(profile, (folder.path() / "none" / "x.json").c_str()), ROAM_NOT_FOUND);
+  EXPECT_EQ(roam_profile_save(profile, ""), ROAM_UNREADABLE);
   roam_space* world = c_rig::built({room});
   roam_walker* walker = nullptr;
   ASSERT_EQ(roam_walker_create(world, &settings, ROAM_WALK, {1, 1, 0.9}, &walker), ROAM_OK) << roam_error();

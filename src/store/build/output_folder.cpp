@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <exception>
 #include <filesystem>
 #include <random>
 #include <system_error>
@@ -123,7 +124,7 @@ ReadingSign::ReadingSign(const Folder& store) : store_(store) {
 ReadingSign::~ReadingSign() {
   try {
     remove_file(store_, name_);
-  } catch (const Error&) {  // it stays until the store is merged
+  } catch (const std::exception&) {  // it stays until the store is merged
   }
 }
 
@@ -147,7 +148,7 @@ OutputFolder::~OutputFolder() {
     for (const std::string& name : names_in(store_, "")) {
       if (is_ours(name) && !there_.contains(name)) remove_all(store_, name);
     }
-  } catch (const Error&) {  // such entries stay: the earlier error matters more
+  } catch (const std::exception&) {  // such entries stay: the earlier error matters more
   }
   if (store_.is_in_place()) remove_made_folders();
 }

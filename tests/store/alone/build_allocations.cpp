@@ -1,0 +1,108 @@
+// Where memory runs out, work on a store throws. The store in the folder is whole, the old one or the new one, and the
+// same call completes it. Instrumented builds have an operator new of their own.
+#include <gtest/gtest.h>
+
+#include "fallible_calls.h"
+#include "pager_made.h"
+#include "store_builds.h"
+
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+namespace {
+
+using namespace store_builds;
+
+std::string bits_of(const std::string& store) {
+  const bool before = std::exchange(spared, true);
+  std::string all;
+  for (const auto& [name, text] : content(store))
+    all += name + " " + std::to_string(std::hash<std::string>()(text)) + "\n";
+  spared = before;
+  return all;
+}
+
+/// The first ones of a build and of a publication. Later ones may fail while JSON is freed, which ends the program: see
+/// docs/guarantees.md.
+constexpr long most_allocations = 300;
+
+class StoreBuildAllocations : public testing::Test {
+ protected:
+  StoreBuildAllocations() {
+    write_ply(a_, field(24, 0.5, {0.0, 0.0, 0.0}));
+    write_ply(b_, field(16, 0.5, {40.0, 0.0, 0.0}));
+  }
+  [[nodiscard]] std::string built() const {
+    roam::StoreBuildOptions how = options({a_, b_}, store_);
+    how.threads = 2;
+    roam::build_store(how);
+    return bits_of(store_);
+  }
+
+  const TestFolder folder_;
+  const std::string a_ = folder_.file("a.ply"), b_ = folder_.file("b.ply"), store_ = folder_.file("s");
+};
+
+TEST_F(StoreBuildAllocations, AStoreIsBegunOrNot) {
+  fail_calls({{.name = "build_store",
+               .bits = [&] { return built(); },
+               .after =
+                   [&](bool failed) {
+                     EXPECT_EQ(fs::exists(store_ + "/CURRENT"), !failed);
+                     fs::remove_all(store_);
+                   },
+               .dense = 5,
+               .steps = 2,
+               .most = most_allocations}});
+}
+
+TEST_F(StoreBuildAllocations, ACopyIsPublishedOrNotAndGoesOn) {
+  const std::string whole = built(), copy = folder_.file("copy");
+  fail_calls({{.name = "publish_store",
+               .bits =
+                   [&] {
+                     roam::publish_store(store_, copy);
+                     return bits_of(copy);
+                   },
+               .after =
+                   [&](bool failed) {
+                     // A copy that was begun is gone on with.
+                     if (!fs::exists(copy + "/CURRENT")) {
+                       EXPECT_TRUE(failed);
+                       return;
+                     }
+                     EXPECT_TRUE(failed ? roam::verify_store(copy).whole() : bits_of(copy) == whole);
+                     fs::remove_all(copy);
+                   },
+               .dense = 5,
+               .steps = 2,
+               .most = most_allocations}});
+}
+
+TEST_F(StoreBuildAllocations, ReadingThrowsAndThePagerGoesOn) {
+  static_cast<void>(built());
+  const auto store = roam::Store::open(store_);
+  roam::Pager pager(store, {.memory = roam::Pager::least_memory});
+  made::load_all(pager);
+  const roam::Box all = store->info().bounds;
+  fail_calls({
+      {"for_each_triangle",
+       [&] {
+         std::uint64_t count = 0, sum = 0;
+         store->for_each_triangle(all, [&](auto, auto ids) {
+           count += ids.size();
+           for (const auto id : ids) sum += id;
+         });
+         return std::string(Bits() << count << sum);
+       }},
+      {"sample", [&] { return std::string(Bits() << store->sample(5).at(0)); }},
+      {"is_authentic and is_store",
+       [&] {
+         return std::string(Bits() << store->is_authentic({}) << roam::Store::is_store(store_)
+                                   << roam::Store::is_store(a_));
+       }},
+      {"stats and object_name of a pager",
+       [&] { return pager.stats().last_failure + pager.object_name(3) + " and a text too long for no allocation"; }},
+  });
+}
+
+}  // namespace
+#endif
