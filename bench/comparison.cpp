@@ -57,7 +57,9 @@ std::vector<EngineRun> compare(std::span<const Engine> engines, const QuerySet& 
   std::vector<Answer> truth;
   for (const Query& query : queries) {
     if (options.between) options.between();
-    truth.push_back(reference.sweep(query));
+    truth.push_back(set.kind == QueryKind::nearest
+                        ? Answer{.distance = reference.clearance(query.body, query.from, nearest_reach)}
+                        : reference.sweep(query));
   }
 
   std::vector<EngineRun> runs;
@@ -65,16 +67,21 @@ std::vector<EngineRun> compare(std::span<const Engine> engines, const QuerySet& 
   std::vector<Ask> asked;
   std::vector<std::size_t> counts;
   for (const Engine& engine : engines) {
-    if (capsules && engine.spheres_only) continue;
-    Guarded& guard = guarded.emplace_back(engine.ask);
+    const Ask& ask = set.kind == QueryKind::nearest ? engine.nearest : engine.ask;
+    if (!ask || (capsules && engine.spheres_only) || (set.kind == QueryKind::ray && !engine.rays)) continue;
+    Guarded& guard = guarded.emplace_back(ask);
     const std::vector<Answer> answers = ask_patiently(guard, queries, options);
     const std::size_t count = answers.size();
     EngineRun& run = runs.emplace_back();
     run.set = set.name;
+    run.kind = set.kind;
     run.engine = &engine;
     run.asked = count;
     if (guard.failure.empty()) {
-      run.verdict = judge(answers, std::span(truth).first(count), queries.first(count), reference, engine.says_when);
+      const std::span<const Answer> true_answers = std::span(truth).first(count);
+      run.verdict = set.kind == QueryKind::nearest
+                        ? judge_nearest(answers, true_answers)
+                        : judge(answers, true_answers, queries.first(count), reference, engine.says_when);
     }
     asked.push_back(std::ref(guard));
     counts.push_back(count);

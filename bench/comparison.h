@@ -19,6 +19,7 @@ namespace roam::bench {
 /// One engine on one set of queries.
 struct EngineRun {
   std::string set;
+  QueryKind kind = QueryKind::sweep;
   const Engine* engine = nullptr;
   std::size_t asked = 0;  ///< fewer than in the set if the engine is too slow for all
   Verdict verdict;
@@ -32,7 +33,8 @@ struct ComparisonOptions {
   std::function<void()> between{};  ///< called between engines, portions and rounds; an exception ends the comparison
 };
 
-/// Judges all answers first, then times the engines in turns. Engines without capsules are skipped if the set has one.
+/// Judges all answers first, then times the engines in turns. Engines without capsules are skipped if the set has one,
+/// and so are engines without rays or nearest points.
 /// An engine that throws has failed; the others continue. Uses one thread; the engines must outlive the runs.
 [[nodiscard]] std::vector<EngineRun> compare(std::span<const Engine> engines, const QuerySet& set,
                                              const Reference& reference, const ComparisonOptions& options);

@@ -22,11 +22,13 @@ struct Engine {
   std::string name;           ///< with its version
   std::string used;           ///< how it is used, for readers of a table
   bool spheres_only = false;  ///< it has no capsules
+  bool rays = false;          ///< `ask` takes bodies of radius 0
   bool says_when = true;      ///< false: it reports hit or free, without a time
   std::size_t bytes = 0;      ///< resident, everything that queries need; 0 if unknown
   double build_one = 0;       ///< seconds on one thread
   double build_two = 0;       ///< seconds on two threads; 0 if it builds on one only
   Ask ask{};
+  Ask nearest{};  ///< empty if it has no such query
 };
 
 /// Seconds that `work` takes.

@@ -1,6 +1,6 @@
 // Embree has no sweep. Its point query visits the triangles near a place. So a sweep is a row of point queries along
 // the motion, each for a stretch of a few radii. A sphere test in doubles decides the visited triangles. The row stops
-// at the first stretch that begins behind the first touch so far.
+// at the first stretch that begins behind the first touch so far. Rays and nearest points are Embree's own, in floats.
 
 #if ROAM_BENCH_EMBREE >= 4
 #include <embree4/rtcore.h>
@@ -125,10 +125,57 @@ Answer sweep(const EmbreeWorld& world, const Query& query) {
   return {state.first <= 1, std::min(state.first, 1.0)};
 }
 
+Answer ray(const EmbreeWorld& world, const Query& query) {
+  RTCRayHit hit{};
+  hit.ray.org_x = static_cast<float>(query.from.x);
+  hit.ray.org_y = static_cast<float>(query.from.y);
+  hit.ray.org_z = static_cast<float>(query.from.z);
+  hit.ray.dir_x = static_cast<float>(query.motion.x);
+  hit.ray.dir_y = static_cast<float>(query.motion.y);
+  hit.ray.dir_z = static_cast<float>(query.motion.z);
+  hit.ray.tfar = 1;
+  hit.ray.mask = ~0U;
+  hit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+#if ROAM_BENCH_EMBREE >= 4
+  rtcIntersect1(world.scene, &hit);
+#else
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  rtcIntersect1(world.scene, &context, &hit);
+#endif
+  return hit.hit.geomID == RTC_INVALID_GEOMETRY_ID ? Answer{} : Answer{true, hit.ray.tfar};
+}
+
+bool visit_nearest(RTCPointQueryFunctionArguments* arguments) {
+  const EmbreeWorld& world = *static_cast<const EmbreeWorld*>(arguments->userPtr);
+  const std::uint32_t* index = world.indices + 3 * arguments->primID;
+  const Point<float> from{arguments->query->x, arguments->query->y, arguments->query->z};
+  Corners<float> corner;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const float* v = world.vertices + 3 * index[i];
+    corner[i] = Point<float>(v[0], v[1], v[2]) - from;
+  }
+  const float distance = glm::length(nearest_to_origin(corner));
+  if (!(distance < arguments->query->radius)) return false;
+  arguments->query->radius = distance;
+  return true;  // the search domain shrinks
+}
+
+Answer nearest(const EmbreeWorld& world, const Query& query) {
+  RTCPointQuery point{static_cast<float>(query.from.x), static_cast<float>(query.from.y),
+                      static_cast<float>(query.from.z), 0, static_cast<float>(nearest_reach)};
+  RTCPointQueryContext context;
+  rtcInitPointQueryContext(&context);
+  rtcPointQuery(world.scene, &point, &context, visit_nearest, const_cast<EmbreeWorld*>(&world));
+  return {.distance = point.radius};
+}
+
 }  // namespace
 
 Engine make_embree(const Scene& scene) {
-  Engine engine{.name = "Embree", .used = "rtcPointQuery and a sphere test in doubles"};
+  Engine engine{.name = "Embree",
+                .used = "rtcPointQuery and a sphere test in doubles; rays: rtcIntersect1; nearest: floats",
+                .rays = true};
   engine.build_one = seconds([&] { const EmbreeWorld world(scene, 1); });
   std::shared_ptr<EmbreeWorld> world;
   engine.build_two = seconds([&] { world = std::make_shared<EmbreeWorld>(scene, 2); });
@@ -136,7 +183,9 @@ Engine make_embree(const Scene& scene) {
   const auto version = rtcGetDeviceProperty(world->device, RTC_DEVICE_PROPERTY_VERSION);  // 31305 is 3.13.5
   engine.name.append(1, ' ').append(std::to_string(version / 10000));
   engine.name.append(1, '.').append(std::to_string(version / 100 % 100));
-  engine.ask = timed([world](const Query& query) { return bench::sweep(*world, query); });
+  engine.ask = timed(
+      [world](const Query& query) { return query.body.radius > 0 ? bench::sweep(*world, query) : ray(*world, query); });
+  engine.nearest = timed([world](const Query& query) { return bench::nearest(*world, query); });
   return engine;
 }
 

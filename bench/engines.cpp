@@ -76,7 +76,7 @@ SceneFindings find_in(const SceneChoice& choice, const std::vector<EngineOffer>&
       }
     }
   }
-  for (Engine& engine : findings.engines) engine.ask = {};  // frees the scene
+  for (Engine& engine : findings.engines) engine.ask = engine.nearest = {};  // frees the scene
   return findings;
 }
 
@@ -108,8 +108,9 @@ constexpr const char* help =
     "roam with -DROAM_PHYSX_DIR, -DJolt_DIR and -Dbox3d_DIR. PhysX and Jolt also run under node, as WebAssembly and\n"
     "slower, and so does three-mesh-bvh:\n"
     "  npm install --prefix DIR physx-js-webidl jolt-physics three three-mesh-bvh\n\n"
-    "At the end: how many times as fast as the fastest other engine roam is, in each row and figure, the geometric\n"
-    "means, and the worst rows.\n\n"
+    "Rays and nearest points have a table of their own, of the engines that have such queries.\n\n"
+    "At the end: how many times as fast as the fastest other engine roam is, in each row of sweeps and figure, the\n"
+    "geometric means, and the worst rows.\n\n"
     "Exit status 3: roam itself missed something or stopped late; 1: also when roam itself failed.\n\n"
     "Examples:\n"
     "  roam bench engines\n"
@@ -122,7 +123,7 @@ void add_engines(CLI::App& program, app::Run& run) {
   CLI::App* verb = program.add_subcommand("engines", "Sweeps through scenes: roam beside other engines");
   verb->footer(help);
   const auto options = std::make_shared<Options>();
-  options->add_to(*verb);
+  options->add_to(*verb, point_set_names());
   verb->add_option("--engines", options->engines, "Engines, separated by commas (default: all)")
       ->delimiter(',')
       ->check(app::one_of(engine_names()));

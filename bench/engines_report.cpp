@@ -18,15 +18,11 @@ double bytes_a_triangle(const Engine& engine, const SceneFindings& findings) {
 
 std::string or_dash(bool there, const std::string& text) { return there ? text : "-"; }
 
-std::string table(const SceneFindings& findings, int rounds) {
-  std::string out = fmt::format("{}; {} interleaved rounds, medians; us\n\n", findings.scene, rounds);
-  out +=
-      fmt::format("wrong: missed or late by more than {:g} mm of depth, early or false by more than {:g} mm of gap\n",
-                  1e3 * depth_allowed, 1e3 * gap_allowed);
-  out += fmt::format("{:<9} {:<27} {:>8} {:>7} {:>7} {:>7} {:>7} {:>9} {:>9} {:>9} {:>9} {:>9}\n", "set", "engine",
-                     "queries", "missed", "late", "early", "false", "deepest", "p50", "p99", "max", "hit p50");
-  std::string last;
+/// The rows of sweeps, or all others.
+std::string rows(const SceneFindings& findings, bool sweeps) {
+  std::string out, last;
   for (const EngineRun& run : findings.runs) {
+    if ((run.kind == QueryKind::sweep) != sweeps) continue;
     if (!last.empty() && last != run.set) out += "\n";
     last = run.set;
     const Verdict& v = run.verdict;
@@ -36,6 +32,26 @@ std::string table(const SceneFindings& findings, int rounds) {
                        or_dash(when, std::to_string(v.early)), v.false_hits,
                        or_dash(v.deepest > 0, fmt::format("{:.3g} mm", 1e3 * v.deepest)), 1e-3 * run.times.p50,
                        1e-3 * run.times.p99, 1e-3 * run.times.most, 1e-3 * run.times.hit_p50);
+  }
+  return out;
+}
+
+std::string table(const SceneFindings& findings, int rounds) {
+  std::string out = fmt::format("{}; {} interleaved rounds, medians; us\n\n", findings.scene, rounds);
+  out +=
+      fmt::format("wrong: missed or late by more than {:g} mm of depth, early or false by more than {:g} mm of gap\n",
+                  1e3 * depth_allowed, 1e3 * gap_allowed);
+  const std::string head =
+      fmt::format("{:<9} {:<27} {:>8} {:>7} {:>7} {:>7} {:>7} {:>9} {:>9} {:>9} {:>9} {:>9}\n", "set", "engine",
+                  "queries", "missed", "late", "early", "false", "deepest", "p50", "p99", "max", "hit p50");
+  const std::string sweeps = rows(findings, true), points = rows(findings, false);
+  if (!sweeps.empty()) out += head + sweeps;
+  if (!points.empty()) {
+    out += fmt::format(
+        "{}rays and nearest points; late: a ray more than {:g} mm behind the touch, a distance that much "
+        "too great\n",
+        sweeps.empty() ? "" : "\n", 1e3 * depth_allowed);
+    out += head + points;
   }
   out +=
       fmt::format("\n{:<27} {:>10} {:>10} {:>10}   {}\n", "engine", "B/triangle", "build 1, s", "build 2, s", "used");
@@ -191,6 +207,7 @@ draw::Sheet engine_chart(const EngineFindings& findings) {
   for (const SceneFindings& scene : findings.scenes) {
     std::string last;
     for (const EngineRun& run : scene.runs) {
+      if (run.kind != QueryKind::sweep) continue;
       if (run.set != last) groups.push_back({one ? run.set : scene.scene + ": " + run.set, {}});
       last = run.set;
       const std::size_t wrong = run.verdict.missed + run.verdict.late;

@@ -29,7 +29,8 @@ Verdict judge(std::span<const Answer> answers, std::span<const Answer> truth, st
     const double free_until = answer.hit ? (says_when ? answer.time : 0.0) : 1.0;
     // Depth and gap change by at most the motion's length. So only answers that differ by more need a closer look.
     if (truth[i].hit && (free_until - truth[i].time) * length > depth_allowed) {
-      const double depth = depth_on_way(query, free_until, reference);
+      const double depth =
+          query.body.radius > 0 ? depth_on_way(query, free_until, reference) : (free_until - truth[i].time) * length;
       if (depth > depth_allowed) {
         ++(answer.hit ? verdict.late : verdict.missed);
         verdict.deepest = std::max(verdict.deepest, depth);
@@ -38,6 +39,19 @@ Verdict judge(std::span<const Answer> answers, std::span<const Answer> truth, st
     if (!answer.hit || (truth[i].hit && (!says_when || (truth[i].time - answer.time) * length <= gap_allowed)))
       continue;
     if (far_off(query, answer, says_when, reference)) ++(truth[i].hit ? verdict.early : verdict.false_hits);
+  }
+  return verdict;
+}
+
+Verdict judge_nearest(std::span<const Answer> answers, std::span<const Answer> truth) {
+  Verdict verdict{.queries = answers.size()};
+  for (std::size_t i = 0; i < answers.size(); ++i) {
+    const double above = answers[i].distance - truth[i].distance;
+    verdict.hits += truth[i].distance < nearest_reach ? 1 : 0;
+    verdict.early += -above > gap_allowed ? 1 : 0;
+    if (above <= depth_allowed) continue;
+    ++verdict.late;
+    verdict.deepest = std::max(verdict.deepest, above);
   }
   return verdict;
 }

@@ -30,9 +30,14 @@ struct Verdict {
   [[nodiscard]] std::size_t wrong() const { return missed + late + early + false_hits; }
 };
 
+/// A point has no depth: its way beyond the first touch counts instead.
 /// `says_when` false: the engine only reports hit or free. Then no hit is late or early; a hit is false if the body
 /// never comes within gap_allowed of a triangle.
 [[nodiscard]] Verdict judge(std::span<const Answer> answers, std::span<const Answer> truth,
                             std::span<const Query> queries, const Reference& reference, bool says_when = true);
+
+/// A distance is "late" if it is more than depth_allowed above the true one, since a body that trusts it is in a wall,
+/// and "early" if it is more than gap_allowed below. `deepest` is the most that a late one is above.
+[[nodiscard]] Verdict judge_nearest(std::span<const Answer> answers, std::span<const Answer> truth);
 
 }  // namespace roam::bench

@@ -13,7 +13,7 @@ constexpr std::array<double Summary::*, lead_figures.size()> figures{&Summary::p
 std::vector<LeadRow> leads_in(const std::string& scene, std::span<const EngineRun> runs) {
   std::vector<LeadRow> rows;
   for (const EngineRun& own : runs) {
-    if (own.engine->name != "roam") continue;
+    if (own.engine->name != "roam" || own.kind != QueryKind::sweep) continue;
     LeadRow row{.scene = scene, .set = own.set, .leads = {}};
     bool known = false;
     for (std::size_t i = 0; i < figures.size(); ++i) {

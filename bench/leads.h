@@ -26,8 +26,8 @@ struct LeadRow {
   std::array<Lead, lead_figures.size()> leads;
 };
 
-/// One row for each set in which roam and another engine have times. Engines that do not say when they hit do not
-/// count. A slow engine counts by the part of the queries that it answered.
+/// One row for each set of sweeps in which roam and another engine have times. Engines that do not say when they hit do
+/// not count. A slow engine counts by the part of the queries that it answered.
 [[nodiscard]] std::vector<LeadRow> leads_in(const std::string& scene, std::span<const EngineRun> runs);
 
 /// Over all rows with a known lead in one figure.

@@ -17,16 +17,25 @@ struct Query {
   Vec3 motion{0.0};
 };
 
+/// What the queries of a set return: the first touch of a body, that of a point, or the distance from `from` to the
+/// nearest triangle.
+enum class QueryKind { sweep, ray, nearest };
+
+/// Distances that are not smaller need not be found, metres.
+constexpr double nearest_reach = 5.0;
+
 /// Queries of one kind, in order: consecutive ones of a walk are neighbours in space.
 struct QuerySet {
   std::string name;
   std::vector<Query> queries;
+  QueryKind kind = QueryKind::sweep;
 };
 
 /// An engine's answer to one query.
 struct Answer {
   bool hit = false;
-  double time = 1.0;  ///< fraction of the motion until the first touch; 1 when free
+  double time = 1.0;                ///< fraction of the motion until the first touch; 1 when free
+  double distance = nearest_reach;  ///< of a nearest query, at most nearest_reach
 };
 
 }  // namespace roam::bench

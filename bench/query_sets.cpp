@@ -13,6 +13,7 @@ namespace {
 
 constexpr double start_reach = 3.0;         // m: starts and walkers are no farther from a surface
 constexpr double start_margin = 1e-3;       // m: no start is closer to a triangle than radius + this
+constexpr double far_motion = 50.0;         // m: of long sweeps and rays
 constexpr double walker_skin = 5e-3;        // m: walkers stop this far off
 constexpr double frames_per_second = 60.0;  // of walkers
 constexpr std::size_t walkers = 100;
@@ -118,23 +119,42 @@ const std::vector<std::string>& query_set_names() {
   return names;
 }
 
+const std::vector<std::string>& point_set_names() {
+  static const std::vector<std::string> names{"rays", "walkrays", "nearest"};
+  return names;
+}
+
 QuerySet make_queries(const std::string& name, std::size_t count, const Reference& reference) {
   constexpr std::uint64_t seed = 20200216;
   Dice dice(seed);
   QuerySet set{.name = name, .queries = {}};
   set.queries.reserve(count);
+  if (name == "walkrays" || name == "nearest") {
+    set.queries = make_queries("coherent", count, reference).queries;
+    set.kind = name == "nearest" ? QueryKind::nearest : QueryKind::ray;
+    for (Query& query : set.queries) {
+      query = {.body = {.radius = 0.0},
+               .from = query.from,
+               .motion = name == "nearest" ? Vec3(0.0) : far_motion * glm::normalize(query.motion)};
+    }
+    return set;
+  }
   if (name == "coherent") {
     for (std::size_t w = 0; w < walkers; ++w) {
       walk(dice, count * (w + 1) / walkers - count * w / walkers, reference, set.queries);
     }
     return set;
   }
-  if (name != "random" && name != "long" && name != "capsule") {
-    throw Error("there is no query set '" + name + "': choose random, coherent, long or capsule");
+  if (name == "rays") {
+    set.kind = QueryKind::ray;
+  } else if (name != "random" && name != "long" && name != "capsule") {
+    throw Error("there is no query set '" + name +
+                "': choose random, coherent, long, capsule, rays, walkrays or nearest");
   }
   while (set.queries.size() < count) {
-    const Body body = name == "capsule" ? Body::capsule(0.3, 1.8) : Body{.radius = dice.uniform(0.2, 1.0)};
-    const double length = name == "long" ? 50.0 : dice.uniform(0.05, 2.0);
+    const Body body =
+        name == "capsule" ? Body::capsule(0.3, 1.8) : Body{.radius = name == "rays" ? 0.0 : dice.uniform(0.2, 1.0)};
+    const double length = name == "long" || name == "rays" ? far_motion : dice.uniform(0.05, 2.0);
     const Vec3 from = start(dice, body, reference);
     set.queries.push_back({body, from, length * dice.direction()});
   }

@@ -18,7 +18,9 @@ struct RunOptions {
   std::size_t queries = 100000;
   int rounds = 5;
 
-  void add_to(CLI::App& app) {
+  /// `more_sets` are chosen too, after the sweeps.
+  void add_to(CLI::App& app, const std::vector<std::string>& more_sets = {}) {
+    sets.insert(sets.end(), more_sets.begin(), more_sets.end());
     app.add_option("--scene", names_, "gallery, terrain, city, with a number of triangles as in gallery:5M, or a file")
         ->allow_extra_args(false)
         ->capture_default_str();
@@ -30,7 +32,7 @@ struct RunOptions {
         ->capture_default_str();
     app.add_option("--sets", sets, "query sets, separated by commas (default: all)")
         ->delimiter(',')
-        ->check(app::one_of(query_set_names()));
+        ->check(app::one_of(sets));
     app.add_option("--queries", queries, "queries of each set")->capture_default_str()->check(app::at_least_one());
     app.add_option("--rounds", rounds, "each query's time is the median over these")
         ->capture_default_str()

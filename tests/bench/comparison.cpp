@@ -1,11 +1,12 @@
 // A comparison counts what engines get wrong, and keeps apart who was asked what.
 
+#include "bench/comparison.h"
+
 #include <gtest/gtest.h>
 
 #include <chrono>
 #include <thread>
 
-#include "bench/comparison.h"
 #include "roam/error.h"
 
 namespace roam::bench {
@@ -159,6 +160,54 @@ TEST(BenchComparison, AsksNoCapsuleOfAnEngineOfSpheres) {
   const std::vector<EngineRun> runs = compared(engines, set);
   ASSERT_EQ(runs.size(), 1U);
   EXPECT_EQ(runs[0].engine->name, "both");
+}
+
+TEST(BenchComparison, JudgesRaysByTheirWayBehindTheTouch) {
+  const Reference reference = wall_at_5();
+  QuerySet set = queries();
+  set.kind = QueryKind::ray;
+  for (Query& query : set.queries) query.body.radius = 0.0;
+  Engine none = engine(
+      "no rays", [](const Query&) { return Answer{}; }, 1.0);
+  Engine blind = none, late = none;
+  blind.rays = late.rays = true;
+  late.ask = engine(
+                 "",
+                 [&](const Query& q) {
+                   const Answer answer = reference.sweep(q);
+                   return answer.hit ? Answer{true, answer.time + 1e-5} : answer;
+                 },
+                 1.0)
+                 .ask;
+  const std::vector<Engine> engines{none, blind, late};
+  const std::vector<EngineRun> runs = compared(engines, set);
+  ASSERT_EQ(runs.size(), 2U) << "an engine without rays is left out";
+  EXPECT_EQ(runs[0].verdict.missed, 100U);
+  EXPECT_NEAR(runs[0].verdict.deepest, 5.0, 1e-9);
+  EXPECT_EQ(runs[1].verdict.late, 100U);
+  EXPECT_NEAR(runs[1].verdict.deepest, 1e-4, 1e-9);
+}
+
+TEST(BenchComparison, JudgesDistancesThatAreTooGreatAsLate) {
+  QuerySet set{.name = "made", .queries = {}, .kind = QueryKind::nearest};
+  for (int i = 0; i < 10; ++i) set.queries.push_back({.body = {.radius = 0.0}, .from = {1.0 + 0.1 * i, 0.0, 0.0}});
+  const auto answering = [](double more) {
+    return engine(
+               "", [more](const Query& q) { return Answer{.distance = 5.0 - q.from.x + more}; }, 7.0)
+        .ask;
+  };
+  std::vector<Engine> engines(4);
+  engines[1].nearest = answering(0.0);
+  engines[2].nearest = answering(2e-5);
+  engines[3].nearest = answering(-2e-3);
+  const std::vector<EngineRun> runs = compared(engines, set);
+  ASSERT_EQ(runs.size(), 3U) << "an engine without such queries is left out";
+  EXPECT_EQ(runs[0].verdict.wrong(), 0U);
+  EXPECT_EQ(runs[0].verdict.hits, 10U);
+  EXPECT_EQ(runs[0].times.p50, 7.0);
+  EXPECT_EQ(runs[1].verdict.late, 10U);
+  EXPECT_NEAR(runs[1].verdict.deepest, 2e-5, 1e-9);
+  EXPECT_EQ(runs[2].verdict.early, 10U);
 }
 
 }  // namespace

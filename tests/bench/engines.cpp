@@ -9,6 +9,7 @@
 #include <map>
 
 #include "bench/closed_form.h"
+#include "bench/comparison.h"
 #include "bench/engine.h"
 #include "bench/query_sets.h"
 
@@ -104,6 +105,28 @@ TEST_P(EngineAnswers, AreThoseOfASearchThroughAllTriangles) {
       hits += asked.truth[i].hit && answers[i].hit ? 1 : 0;
     }
     EXPECT_GT(hits, 5U) << asked.set;
+  }
+}
+
+TEST_P(EngineAnswers, ToRaysAndNearestPointsAreThoseOfTheReference) {
+  const std::vector<EngineOffer> all = offers();
+  const auto offer = std::find_if(all.begin(), all.end(), [](const EngineOffer& o) { return o.name == GetParam(); });
+  if (!offer->make) GTEST_SKIP() << offer->name << " is not here: " << offer->missing;
+  const Scene scene = gallery();
+  const std::vector<Engine> engines{offer->make(scene)};
+  if (!engines[0].rays && !engines[0].nearest) GTEST_SKIP() << offer->name << " has no such queries";
+  const Reference reference(scene.meshes);
+  for (const std::string& name : point_set_names()) {
+    const QuerySet set = make_queries(name, 200, reference);
+    const std::vector<EngineRun> runs = compare(engines, set, reference, {.rounds = 1, .patience = 10.0});
+    ASSERT_EQ(runs.size(), set.kind == QueryKind::ray || engines[0].nearest ? 1U : 0U) << name;
+    if (runs.empty()) continue;
+    const Verdict& verdict = runs[0].verdict;
+    EXPECT_EQ(runs[0].failure, "");
+    EXPECT_EQ(verdict.queries, 200U);
+    EXPECT_GT(verdict.hits, 50U) << name;
+    EXPECT_EQ(verdict.missed + verdict.early + verdict.false_hits, 0U) << name;
+    EXPECT_LT(verdict.deepest, offer->name == "roam" ? 1e-9 : offer->name == "jolt" ? 5e-3 : 2e-3) << name;
   }
 }
 

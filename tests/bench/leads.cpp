@@ -58,5 +58,15 @@ TEST(BenchLeads, LeaveOutRowsWithoutAnyTimeToCompare) {
   EXPECT_EQ(summarize({}, 0).worst, nullptr);
 }
 
+TEST(BenchLeads, LeaveOutRaysAndNearestPoints) {
+  const Engine own{.name = "roam", .used = {}}, other{.name = "other", .used = {}};
+  std::vector<EngineRun> runs(2);
+  runs[0] = {.set = "rays", .engine = &own, .verdict = {}, .times = {.p50 = 1, .p99 = 1}, .failure = {}};
+  runs[1] = {.set = "rays", .engine = &other, .verdict = {}, .times = {.p50 = 2, .p99 = 2}, .failure = {}};
+  EXPECT_EQ(leads_in("made", runs).size(), 1U);
+  runs[0].kind = runs[1].kind = QueryKind::ray;
+  EXPECT_TRUE(leads_in("made", runs).empty());
+}
+
 }  // namespace
 }  // namespace roam::bench

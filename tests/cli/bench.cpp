@@ -81,6 +81,29 @@ TEST(BenchEngines, TellsWrongAnswersAndTimesOfEachEngineOnEachSet) {
   }
 }
 
+TEST(BenchEngines, MeasuresRaysAndNearestPointsBesideTheSweeps) {
+  const std::vector<std::string> more{"--sets", "random,rays,walkrays,nearest", "--engines", "roam,paper"};
+  const ProgramResult result = bench(with(with(small, more), {"--json"}));
+  ASSERT_EQ(result.status, 0) << result.err;
+  const nlohmann::json report = json(result);
+  std::vector<std::string> sets;
+  for (const auto& run : report["scenes"][0]["runs"]) {
+    sets.push_back(run["set"]);
+    EXPECT_GT(run["p50_us"], 0.0);
+    EXPECT_EQ(run["engine"], run["set"] == "random" && sets.size() == 2 ? "the paper's method" : "roam")
+        << "the paper's method has no rays";
+    EXPECT_TRUE(run["engine"] != "roam" || run["late"] == 0) << run;
+  }
+  EXPECT_EQ(sets, (std::vector<std::string>{"random", "random", "rays", "walkrays", "nearest"}));
+  EXPECT_EQ(report["leads"]["rows"].size(), 1U) << "means of sweeps only";
+
+  const ProgramResult text = bench(with(small, more));
+  const std::size_t sweeps = text.out.find("random "), points = text.out.find("rays and nearest points");
+  ASSERT_NE(points, std::string::npos) << text.out;
+  EXPECT_LT(sweeps, points);
+  EXPECT_LT(points, text.out.find("walkrays "));
+}
+
 TEST(BenchEngines, MeasuresSeveralScenesAndComparesOverAllRows) {
   const std::vector<std::string> scenes{"--scene", "gallery:10k", "--scene", "terrain", "--sets", "random,long"};
   const ProgramResult result = bench(with(with(small, scenes), {"--json", "--engines", "roam,polytope,paper"}));
