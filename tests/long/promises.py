@@ -51,6 +51,38 @@ PROMISES = [
      "static_cast<void>(again([&] { return ::fsync(file_.number()); }));"),
     ("import", "ImportSandbox.*", "src/import/reader/sandbox/landlock.cpp", "allow(ruleset, folder, read_file",
      "allow(ruleset, folder.parent_path(), read_file"),
+    ("index", "LeafFilter.*", "src/index/leaf-inl.h", "slack = hn::Sub(slack, hn::Mul(set(half_height), hn::Abs(n.z)));",
+     "slack = hn::Sub(slack, hn::Mul(set(0.999F * half_height), hn::Abs(n.z)));"),
+    ("world", "WorldAgainstBruteForce.*", "src/index/sweep_traversal-inl.h",
+     "piece.body.radius + limit - double(t.fine_error)", "piece.body.radius + limit"),
+    # The rounding mode "down" is not seen.
+    ("math", "FloatingPoint.*", "src/math/floating_point.h", "(_mm_getcsr() & ~flags)", "(_mm_getcsr() & ~flags & ~0x2000U)"),
+    ("store", "PagerWalk.*", "src/store/pager/pager.cpp", "tracked.holds(residents.box(item))",
+     "tracked.time_to(residents.box(item)) < 0.0"),
+    ("store_pager_system_calls", "PagerSystemCalls.AreNoneOfTheBodysThread", "src/store/pager/pager.cpp",
+     "lock(handover.mutex, std::try_to_lock);", "lock(handover.mutex);"),
+    ("store_pager_memory", "PagerMemory.NothingIsAllocatedAndTheProcessDoesNotGrow", "src/store/pager/pager.cpp",
+     "residents.take(item);", "residents.take(item);" + ALLOCATION),
+    ("cli", "StoreMemory.IsWhatMemorySaysAndLittleMore", "src/store/pager/pager.cpp",
+     "rest / (unit_bytes", "rest * 5 / 4 / (unit_bytes"),
+    ("store", "StoreLinks.*", "src/store/folder.cpp", "flags | O_NOFOLLOW | O_CLOEXEC | O_NONBLOCK", "flags | O_CLOEXEC | O_NONBLOCK"),
+    ("cli", "StoreTrust.*", "src/store/authentic.cpp", "if (key && !same_digits(found,", "if (key && has_line && !same_digits(found,"),
+    ("store", "StoreCodecDamage.*", "src/store/codec/tile_decoder.cpp", "  return bits.finished();\n}\n\n/// Fills",
+     "  return true;\n}\n\n/// Fills"),
+    ("store_allocations", "StoreAllocations.*", "src/store/pager/loader.cpp", "} catch (...) {\n      end();\n      throw;",
+     "} catch (...) {\n      throw;"),
+    ("files", "PathAllocations.*", "src/files/whole_file.cpp", "::unlinkat(folder_.number(), temporary_.c_str(), 0);\n    throw;",
+     "throw;"),
+    ("cli", "FullDisk.*", "src/files/whole_file.cpp",
+     "if (write_fully(file_.number(), bytes) < bytes.size()) fail_to_write(errno);",
+     "static_cast<void>(write_fully(file_.number(), bytes));"),
+    ("store_build_power", "StoreBuildPower.ACutAtAnyStepLeavesTheOldStoreTheNewOrNone", "src/files/whole_file.cpp",
+     "  if (again([&] { return ::fsync(file_.number()); }) != 0) fail_to_write(errno);\n", ""),
+    # Either limit bounds it, so both go.
+    ("import", "ImportReaderProcess.BoundsTheMemoryOfTheReader", "src/import/reader/sandbox/sandbox.cpp",
+     """  if (rights.address_space > 0) all = limit(RLIMIT_AS, rights.address_space) && all;
+  if (rights.data > 0) all = limit(RLIMIT_DATA, rights.data) && all;
+""", "  static_cast<void>(rights.data);\n"),
 ]
 
 
@@ -68,7 +100,7 @@ def main():
         count = (SOURCE / path).read_text(encoding="utf-8").count(good)
         if count != 1:
             wrong.append(f"{name}: {path} has {count} of: {good}")
-    if wrong or options.check:
+    if options.check:
         print("\n".join(wrong))
         return 1 if wrong else 0
     return prove(options)
@@ -88,17 +120,21 @@ def prove(options):
             tree = tree or ChangedTree(options.work, OPTIONS, targets)
             test = [tree.build / f"test_{program}", f"--gtest_filter=*{name}*"]
             if not ends_well(test, 1200):
-                sys.exit(f"{name} fails as it is")
+                print(f"{name} fails as it is", flush=True)
+                passed.append(name)
+                continue
             with tree.changed(path, lambda text: text.replace(good, bad)):
                 if not tree.compiles([f"test_{program}"]):
-                    sys.exit(f"{name}: {path} does not compile with {bad}")
+                    print(f"{name}: {path} does not compile with: {bad}", flush=True)
+                    passed.append(name)
+                    continue
                 known[promise] = not ends_well(test, 1200)
             with kept.open("a", encoding="utf-8") as out:
                 out.write(json.dumps({"promise": promise, "failed": known[promise]}) + "\n")
         print(f"{name}: {'fails' if known[promise] else 'PASSES'} without {path}: {good}", flush=True)
         if not known[promise]:
             passed.append(name)
-    print(f"{len(chosen)} promises, {len(passed)} whose test passes all the same")
+    print(f"{len(chosen)} faults, {len(passed)} not seen to fail")
     return 1 if passed else 0
 
 
