@@ -97,7 +97,7 @@ PROMISES = [
      "i = some.begin(); i + 1 < some.end();"),
     ("world", "WorldBuild.GivesTheSameBitsForAnyNumberOfThreads", "src/world/build.cpp",
      "tiles[i] = build_tile(soup, ids, lossless);",
-     "tiles[i] = build_tile(soup, ids, lossless || tbb::this_task_arena::max_concurrency() > 4);"),
+     "tiles[i] = build_tile(soup, ids, lossless || tbb::this_task_arena::max_concurrency() > 1);"),
     ("motion", "Walker.GivesTheSameBitsOnEveryRunAndWithAnyNumberOfThreads", "src/world/build.cpp",
      "return build_tiles(soup, parts, options.lossless, progress);",
      "return build_tiles(soup, parts, options.lossless || options.threads > 4, progress);"),
