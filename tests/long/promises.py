@@ -194,7 +194,7 @@ def prove(options):
                 known[promise] = not ends_well(test, 1200)
             with kept.open("a", encoding="utf-8") as out:
                 out.write(json.dumps({"promise": promise, "failed": known[promise]}) + "\n")
-        print(f"{name}: {'fails' if known[promise] else 'PASSES'} without {path}: {good}", flush=True)
+        print(f"{name}: {'fails' if known[promise] else 'PASSES'} without {path}: {good.strip().splitlines()[0]}", flush=True)
         if not known[promise]:
             passed.append(name)
     print(f"{len(chosen)} faults, {len(passed)} not seen to fail")
