@@ -125,7 +125,8 @@ PROMISES = [
     ("store", "PagerFailures.WithReadsThatNeverEndTheBodyIsHeldAndNothingWaits", "src/store/pager/paged_scene.cpp",
      "(!only_coming || !page.failed) && collector", "only_coming && !page.failed && collector"),
     ("store_build_resume", "StoreBuildResume.AfterBeingKilledAtAnyStepOnTheDisk", "src/store/build/merge.cpp",
-     'return name == manifest_file("new"); })) remove_file(store, file);', 'return name == manifest_file("new"); })) {}'),
+     'return name == manifest_file("new"); })) remove_file(store, file);',
+     'return name == manifest_file("new"); })) {}'),
     ("store_build_resume", "StoreBuildResume.AnUpdateThatIsKilledLeavesTheOldStoreOrTheNew",
      "src/store/build/merge.cpp",
      "  publish(work.store, manifest);", "  remove_file(work.store, current_file);\n  publish(work.store, manifest);"),
@@ -194,7 +195,8 @@ def prove(options):
                 known[promise] = not ends_well(test, 1200)
             with kept.open("a", encoding="utf-8") as out:
                 out.write(json.dumps({"promise": promise, "failed": known[promise]}) + "\n")
-        print(f"{name}: {'fails' if known[promise] else 'PASSES'} without {path}: {good.strip().splitlines()[0]}", flush=True)
+        said = "fails" if known[promise] else "PASSES"
+        print(f"{name}: {said} without {path}: {good.strip().splitlines()[0]}", flush=True)
         if not known[promise]:
             passed.append(name)
     print(f"{len(chosen)} faults, {len(passed)} not seen to fail")
