@@ -22,9 +22,12 @@ def ends_well(command, seconds):
 class ChangedTree:
     def __init__(self, work, options, targets):
         """Copies into the folder `work`, and builds the targets (none: all) with these options of cmake."""
-        self.tree, self.build, self.targets = work / "tree", work / "build", targets
-        work.mkdir(parents=True, exist_ok=True)
-        shutil.rmtree(self.tree, ignore_errors=True)
+        # Inside of the tree, so that paths relative to it are those of other builds, for the compiler's cache.
+        self.tree, self.build, self.targets = work / "tree", work / "tree/build", targets
+        self.tree.mkdir(parents=True, exist_ok=True)
+        for old in self.tree.iterdir():
+            if old.is_dir() and old != self.build:
+                shutil.rmtree(old)
         listed = subprocess.run(["git", "ls-files", "-z"], cwd=SOURCE, check=True, capture_output=True, text=True).stdout
         for path in filter(None, listed.split("\0")):
             (self.tree / path).parent.mkdir(parents=True, exist_ok=True)

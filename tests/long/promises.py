@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
 """tests/long/promises.py [--check] [--work FOLDER] [NAME...]
 
-Takes out of a copy of the tree, one at a time, what makes each promise of docs/guarantees.md hold, and runs the promise's
-test, which must fail (those of NAME: tests whose name contains it). Results are kept in FOLDER (build-promises), so that
-the same command goes on where it was stopped. --check runs nothing: it only compares the list below with the source and
-with docs/guarantees.md. Status 1 if a test passes all the same, or the list does not fit. Two hours."""
+Takes out of a copy of the tree, one at a time, what makes each promise of docs/guarantees.md hold, and runs the
+promise's test, which must fail (those of NAME: tests whose name contains it). Results are kept in FOLDER
+(build-promises), so that the same command goes on where it was stopped. --check runs nothing: it only compares the list
+below with the source and with docs/guarantees.md. Status 1 if a test passes all the same, a fault does not compile, or
+the list does not fit. Hours."""
 
 import argparse
 import json
@@ -14,9 +15,136 @@ import sys
 
 from changed_tree import SOURCE, ChangedTree, ends_well
 
+# Those of the preset `check`, file by file, for the compiler's cache.
+OPTIONS = ["-DCMAKE_BUILD_TYPE=Release", "-DROAM_BENCH=ON", "-DROAM_WERROR=ON", "-DROAM_UNITY=OFF"]
+
+# Not a new-expression, which the compiler may leave out.
+ALLOCATION = "\n  ::operator delete(::operator new(1));"
+
 # Program, its filter as in docs/guarantees.md, file, what stands there once, what takes its place.
 PROMISES = [
-    ("sweep", "EverySweep.IsNeitherMissedNorLateNorEarly", "src/sweep/error_bound.h", "roundings = 16.0", "roundings = 0.0"),
+    ("sweep", "EverySweep.IsNeitherMissedNorLateNorEarly", "src/sweep/error_bound.h", "roundings = 16.0",
+     "roundings = 0.0"),
+    ("index", "NodeFilter.*", "src/index/margin.h", "node_roundings = 40.0F", "node_roundings = 0.0F"),
+    ("index", "FilterMargins.*", "src/index/margin.h", "leaf_roundings = 32.0F", "leaf_roundings = 0.0F"),
+    ("world", "PatchworkLevels.ARefinementWaitsUntilTheBodyIsFreeInIt", "src/world/patches.cpp",
+     "if (!world || (fits && !fits(*world))) return false;", "if (!world) return false;"),
+    ("world", "PatchworkUnknown.LeavesABodyBesideItFreeWhenItBecomesKnown", "src/world/patchwork.cpp",
+     "unknown::sweep(box, Patchwork::margin,", "unknown::sweep(box, 0.0,"),
+    ("world", "PatchworkMemory.*", "src/world/patchwork.cpp", "lost = true;\n      ++revision;", "++revision;"),
+    ("world", "PatchworkQueries.DoNotAllocate", "src/world/patchwork.cpp", "collector.demand(0.0);",
+     "collector.demand(0.0);" + ALLOCATION),
+    ("motion", "WalkerPatchwork.*", "src/world/patchwork.cpp", "distance >= room_kept; };",
+     "distance >= -10.0 * room_kept; };"),
+    ("motion", "RandomWalks.*", "src/motion/move.cpp", "const double rest = free.gap - away;",
+     "const double rest = free.gap - 0.5 * away;"),
+    ("motion", "Walker.NeverPassesAThinWallAtAnySpeedAndTimeStep", "src/motion/move.cpp",
+     "until_touch - skin / approach", "until_touch + skin / approach"),
+    ("motion", "MoveInstances.NeverLetsAnythingTouchInARandomScene", "src/motion/move_instances.cpp",
+     "body.radius + shift.bulge(place, way) + rounding", "body.radius + rounding"),
+    ("motion", "Regions.NeverViolateInRandomClutter", "src/motion/sizes.cpp",
+     "if (m.probe(lift).touched || !m.space.fits(body, m.place + lift + raised)) return;",
+     "if (m.probe(lift).touched) return;"),
+    ("motion", "Regions.GiveTheSameBitsOnEveryRunAndAllocateNothing", "src/motion/sizes.cpp",
+     "if (sizes.settled()) return;", "if (sizes.settled()) return;" + ALLOCATION),
+    ("check", "Certificate.IsRefusedForEachForgery", "src/check/check.cpp", "demand(place == end,", "demand(true,"),
+    ("check", "Certificate.ProvesWhateverItAccepts", "src/check/check.cpp", "s.clearance - 1e-9)",
+     "s.clearance - 1e-4)"),
+    ("files_whole", "WholeFile.IsWholeOrAsItWasWhicheverCallFails", "src/files/whole_file.cpp",
+     "if (again([&] { return ::fsync(file_.number()); }) != 0) fail_to_write(errno);",
+     "static_cast<void>(again([&] { return ::fsync(file_.number()); }));"),
+    ("import", "ImportSandbox.*", "src/import/reader/sandbox/landlock.cpp", "allow(ruleset, folder, read_file",
+     "allow(ruleset, folder.parent_path(), read_file"),
+    ("index", "LeafFilter.*", "src/index/leaf-inl.h",
+     "slack = hn::Sub(slack, hn::Mul(set(half_height), hn::Abs(n.z)));",
+     "slack = hn::Sub(slack, hn::Mul(set(0.999F * half_height), hn::Abs(n.z)));"),
+    ("world", "WorldAgainstBruteForce.*", "src/index/sweep_traversal-inl.h",
+     "piece.body.radius + limit - double(t.fine_error)", "piece.body.radius + limit"),
+    # The rounding mode "down" is not seen.
+    ("math", "FloatingPoint.*", "src/math/floating_point.h", "(_mm_getcsr() & ~flags)",
+     "(_mm_getcsr() & ~flags & ~0x2000U)"),
+    ("store", "PagerWalk.*", "src/store/pager/pager.cpp", "tracked.holds(residents.box(item))",
+     "tracked.time_to(residents.box(item)) < 0.0"),
+    ("store_pager_system_calls", "PagerSystemCalls.AreNoneOfTheBodysThread", "src/store/pager/pager.cpp",
+     "lock(handover.mutex, std::try_to_lock);", "lock(handover.mutex);"),
+    ("store_pager_memory", "PagerMemory.NothingIsAllocatedAndTheProcessDoesNotGrow", "src/store/pager/pager.cpp",
+     "residents.take(item);", "residents.take(item);" + ALLOCATION),
+    ("cli", "StoreMemory.IsWhatMemorySaysAndLittleMore", "src/store/pager/pager.cpp",
+     "rest / (unit_bytes", "rest * 5 / 4 / (unit_bytes"),
+    ("store", "StoreLinks.*", "src/store/folder.cpp", "flags | O_NOFOLLOW | O_CLOEXEC | O_NONBLOCK",
+     "flags | O_CLOEXEC | O_NONBLOCK"),
+    ("cli", "StoreTrust.*", "src/store/authentic.cpp", "if (key && !same_digits(found,",
+     "if (key && has_line && !same_digits(found,"),
+    ("store", "StoreCodecDamage.*", "src/store/codec/tile_decoder.cpp", "  return bits.finished();\n}\n\n/// Fills",
+     "  return true;\n}\n\n/// Fills"),
+    ("store_allocations", "StoreAllocations.*", "src/store/pager/loader.cpp",
+     "} catch (...) {\n      end();\n      throw;",
+     "} catch (...) {\n      throw;"),
+    ("files", "PathAllocations.*", "src/files/whole_file.cpp",
+     "::unlinkat(folder_.number(), temporary_.c_str(), 0);\n    throw;",
+     "throw;"),
+    ("cli", "FullDisk.*", "src/files/whole_file.cpp",
+     "if (write_fully(file_.number(), bytes) < bytes.size()) fail_to_write(errno);",
+     "static_cast<void>(write_fully(file_.number(), bytes));"),
+    ("store_build_power", "StoreBuildPower.ACutAtAnyStepLeavesTheOldStoreTheNewOrNone", "src/files/whole_file.cpp",
+     "  if (again([&] { return ::fsync(file_.number()); }) != 0) fail_to_write(errno);\n", ""),
+    # Either limit bounds it, so both go.
+    ("import", "ImportReaderProcess.BoundsTheMemoryOfTheReader", "src/import/reader/sandbox/sandbox.cpp",
+     """  if (rights.address_space > 0) all = limit(RLIMIT_AS, rights.address_space) && all;
+  if (rights.data > 0) all = limit(RLIMIT_DATA, rights.data) && all;
+""", "  static_cast<void>(rights.data);\n"),
+    ("world", "Batches.AreAnsweredAsOneByOne", "src/world/space.cpp", "i = some.begin(); i < some.end();",
+     "i = some.begin(); i + 1 < some.end();"),
+    ("world", "WorldBuild.GivesTheSameBitsForAnyNumberOfThreads", "src/world/build.cpp",
+     "tiles[i] = build_tile(soup, ids, lossless);",
+     "tiles[i] = build_tile(soup, ids, lossless || tbb::this_task_arena::max_concurrency() > 1);"),
+    ("motion", "Walker.GivesTheSameBitsOnEveryRunAndWithAnyNumberOfThreads", "src/world/build.cpp",
+     "return build_tiles(soup, parts, options.lossless, progress);",
+     "return build_tiles(soup, parts, options.lossless || options.threads > 4, progress);"),
+    ("world", "WorldBuild.ThrowsWhereverAnAllocationFails", "src/world/build.cpp", "arena.execute([&] {",
+     "arena.execute([&]() noexcept {"),
+    ("world", "WorldQueries.DoNotAllocate", "src/world/query.cpp", "    place_ = impact.place;\n    return impact.hit",
+     "    place_ = impact.place;" + ALLOCATION + "\n    return impact.hit"),
+    ("index", "InstructionSets.*", "cmake/compiler.cmake", "-ffp-contract=off", "-ffp-contract=fast"),
+    ("c", "CWalker.MovesAsCppDoes", "src/c/walker.cpp", "    if (wish.braking != 0.0) how.braking = wish.braking;\n",
+     ""),
+    ("motion", "Resize.IsSmallerAtOnceAndLargerWhenItFits", "src/motion/sizes.cpp",
+     "if (!m.space.fits(body, m.place + raised)) {",
+     "if (!m.space.fits(Body::capsule(radius - 0.06, height), m.place + raised)) {"),
+    ("motion", "WalkerAllocations.*", "src/motion/state.cpp",
+     "  std::vector<char> inside(regions.size(), char{0});\n  regions_.swap(copies);",
+     "  regions_.swap(copies);\n  std::vector<char> inside(regions.size(), char{0});"),
+    ("store", "HostileStore.*", "src/store/page.cpp", "if (t.bytes > tile_bytes || t.number_bytes",
+     "if (t.number_bytes"),
+    ("store", "StoreDamageBits.EveryFlippedBitIsFoundAndNoneChangesAnAnswer", "src/store/read_ahead.cpp",
+     "one.result.problem = r.hash ?", "one.result.problem = r.hash && r.bytes % 2 == 0 ?"),
+    ("cli", "StoreVerbs.EveryTileDamagedHoldsABodyAndLetsNothingThrough", "src/store/pager/paged_scene.cpp",
+     "    return met.time;", "    return a.residents.has_failed({a.page, tile}) ? until : met.time;"),
+    ("store", "PagerFailures.NobodyPassesAWallWhateverIsReadAndWhen", "src/store/pager/paged_scene.cpp",
+     "if (!a.only_coming || !a.residents.has_failed(item)) {", "if (!a.residents.has_failed(item)) {"),
+    ("store", "PagerFailures.WithReadsThatNeverEndTheBodyIsHeldAndNothingWaits", "src/store/pager/paged_scene.cpp",
+     "(!only_coming || !page.failed) && collector", "only_coming && !page.failed && collector"),
+    ("store_build_resume", "StoreBuildResume.AfterBeingKilledAtAnyStepOnTheDisk", "src/store/build/merge.cpp",
+     'return name == manifest_file("new"); })) remove_file(store, file);',
+     'return name == manifest_file("new"); })) {}'),
+    ("store_build_resume", "StoreBuildResume.AnUpdateThatIsKilledLeavesTheOldStoreOrTheNew",
+     "src/store/build/merge.cpp",
+     "  publish(work.store, manifest);", "  remove_file(work.store, current_file);\n  publish(work.store, manifest);"),
+    ("store_build_resume", "StoreBuildResume.GivesTheSameBytesForAnyThreadsAndMemory", "src/store/build/merge.cpp",
+     "manifest.geometry_hash += shard.geometry_hash;",
+     "manifest.geometry_hash += shard.geometry_hash + (work.options.threads == 1 ? 1 : 0);"),
+    ("store_build_resume", "StoreBuildResume.SaysThatTheDiskIsFullAndGoesOnWhenItIsNot",
+     "src/store/build/output_folder.cpp",
+     "if (keeps_ || holds_results(store_)) return;", "if (keeps_) return;"),
+    ("import", "ImportHostile.*", "src/import/scene_scope.cpp", "found = holds(next) && fs::is_symlink",
+     "found = fs::is_symlink"),
+    ("import", "ImportTilesetsHostile.*", "src/import/scene_scope.cpp", "<= deepest_nesting + 1;",
+     "<= deepest_nesting + 2;"),
+    ("import", "ImportStreamMemory.*", "src/import/reader/piece_cutter.cpp",
+     "return memory_limit - std::min(memory_limit, taken);",
+     "return 2 * memory_limit - std::min(memory_limit, taken);"),
+    ("osg_harvester_allocations", "OsgHarvesterAllocations.*", "src/osgroam/harvester.cpp",
+     "} catch (...) {\n      settle(place", "} catch (const std::runtime_error&) {\n      settle(place"),
 ]
 
 
@@ -28,13 +156,14 @@ def main():
     options = parser.parse_args()
     document = (SOURCE / "docs/guarantees.md").read_text(encoding="utf-8")
     named = set(re.findall(r"`([A-Z]\w+\.(?:\*|\w+))`", document))
-    wrong = [f"{name}: docs/guarantees.md has it, this list has not" for name in sorted(named - {p[1] for p in PROMISES})]
-    wrong += [f"{name}: this list has it, docs/guarantees.md has not" for name in sorted({p[1] for p in PROMISES} - named)]
+    listed = {p[1] for p in PROMISES}
+    wrong = [f"{name}: docs/guarantees.md has it, this list has not" for name in sorted(named - listed)]
+    wrong += [f"{name}: this list has it, docs/guarantees.md has not" for name in sorted(listed - named)]
     for _, name, path, good, _ in PROMISES:
         count = (SOURCE / path).read_text(encoding="utf-8").count(good)
         if count != 1:
             wrong.append(f"{name}: {path} has {count} of: {good}")
-    if wrong or options.check:
+    if options.check:
         print("\n".join(wrong))
         return 1 if wrong else 0
     return prove(options)
@@ -44,27 +173,33 @@ def prove(options):
     kept = options.work / "results.jsonl"
     known = {}
     if kept.exists():
-        known = {tuple(row["promise"]): row["failed"] for row in map(json.loads, kept.read_text(encoding="utf-8").splitlines())}
+        rows = map(json.loads, kept.read_text(encoding="utf-8").splitlines())
+        known = {tuple(row["promise"]): row["failed"] for row in rows}
     chosen = [p for p in PROMISES if not options.names or any(name in p[1] for name in options.names)]
     tree, passed = None, []
     for promise in chosen:
         program, name, path, good, bad = promise
         if promise not in known:
             targets = sorted({f"test_{p[0]}" for p in chosen})
-            tree = tree or ChangedTree(options.work, ["-DCMAKE_BUILD_TYPE=Release", "-DROAM_UNITY=OFF"], targets)
+            tree = tree or ChangedTree(options.work, OPTIONS, targets)
             test = [tree.build / f"test_{program}", f"--gtest_filter=*{name}*"]
             if not ends_well(test, 1200):
-                sys.exit(f"{name} fails as it is")
+                print(f"{name} fails as it is", flush=True)
+                passed.append(name)
+                continue
             with tree.changed(path, lambda text: text.replace(good, bad)):
                 if not tree.compiles([f"test_{program}"]):
-                    sys.exit(f"{name}: {path} does not compile with {bad}")
+                    print(f"{name}: {path} does not compile with: {bad}", flush=True)
+                    passed.append(name)
+                    continue
                 known[promise] = not ends_well(test, 1200)
             with kept.open("a", encoding="utf-8") as out:
                 out.write(json.dumps({"promise": promise, "failed": known[promise]}) + "\n")
-        print(f"{name}: {'fails' if known[promise] else 'PASSES'} without {path}: {good}", flush=True)
+        said = "fails" if known[promise] else "PASSES"
+        print(f"{name}: {said} without {path}: {good.strip().splitlines()[0]}", flush=True)
         if not known[promise]:
             passed.append(name)
-    print(f"{len(chosen)} promises, {len(passed)} whose test passes all the same")
+    print(f"{len(chosen)} faults, {len(passed)} not seen to fail")
     return 1 if passed else 0
 
 
