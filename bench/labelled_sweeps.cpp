@@ -4,9 +4,11 @@
 #include <CLI/CLI.hpp>
 #include <array>
 #include <charconv>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "bench_verbs.h"
+#include "cli/exit_status.h"
 #include "cli/output_file.h"
 #include "cli/progress.h"
 #include "cli/report.h"
@@ -109,6 +111,9 @@ bool broke_its_promise(const LabelledSweep& s, const SweepResult& answer) {
 
 app::ExitStatus make(const Options& options) {
   app::check_output({}, "FILE", options.file);
+  if (std::error_code none; std::filesystem::exists(options.file, none) && !is_labelled(options.file)) {
+    throw app::UsageError(options.file, "this is another file, which would be lost; name a new one");
+  }
   files::WholeFile file(options.file);
   const std::string header = numpy_header(options.count);
   file.write(std::as_bytes(std::span(header)));
@@ -147,14 +152,20 @@ void add_labels(CLI::App& program, app::Run& run) {
   CLI::App* verb = program.add_subcommand("labels", "Sweeps with exact answers, to judge any engine");
   verb->footer(help);
   const auto options = std::make_shared<Options>();
-  verb->add_option("FILE", options->file, "The labelled sweeps: written, or read with --judge")->required();
+  verb->add_option("FILE", options->file, "The labelled sweeps: written, or read with --judge")
+      ->required()
+      ->type_name("");
   verb->add_option("--judge", options->answers, "Judge these answers: a time for each sweep")->type_name("FILE");
   verb->add_option("--count", options->count, "How many sweeps to make (e.g. 500k or 20M)")
       ->transform(app::counted())
       ->check(app::from_to<std::uint64_t>(1, 50'000'000))
+      ->excludes("--judge")
       ->type_name("N")
       ->capture_default_str();
-  verb->add_option("--seed", options->seed, "Other sweeps for another number")->capture_default_str();
+  verb->add_option("--seed", options->seed, "Other sweeps for another number")
+      ->check(app::seed())
+      ->excludes("--judge")
+      ->capture_default_str();
   verb->add_flag("--json", options->json, "Print one JSON object");
   verb->callback([options, &run] {
     run = [options] { return options->answers.empty() ? make(*options) : judge_answers(*options); };

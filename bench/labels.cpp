@@ -6,6 +6,7 @@
 #include <array>
 #include <bit>
 #include <cstring>
+#include <fstream>
 
 #include "adversarial_queries.h"
 #include "files/whole_file.h"
@@ -183,6 +184,15 @@ std::string numpy_header(std::uint64_t count) {
   return std::string("\x93NUMPY\x01\x00", 8) + char(size & 0xff) + char(size >> 8) + text;
 }
 
+bool is_labelled(const std::filesystem::path& file) {
+  std::string begin(512, '\0');
+  std::ifstream in(file, std::ios::binary);
+  in.read(begin.data(), static_cast<std::streamsize>(begin.size()));
+  const std::string header = numpy_header(1);
+  const std::size_t same = header.find("fortran_order") - before_text;  // the rest depends on their number
+  return begin.compare(before_text, same, header, before_text, same) == 0;
+}
+
 std::vector<LabelledSweep> read_labelled(const std::filesystem::path& file) {
   constexpr std::uint64_t most_bytes = std::uint64_t{1} << 34;
   const std::string bytes = files::read_named(file, most_bytes);
@@ -192,8 +202,7 @@ std::vector<LabelledSweep> read_labelled(const std::filesystem::path& file) {
   if (count == 0 || bytes.size() != header + count * sizeof(LabelledSweep) || !bytes.starts_with(numpy_header(count))) {
     throw Error(file.string() +
                 " is not a file of labelled sweeps, or not a whole one; make one with `roam bench "
-                "labels " +
-                file.string() + "`");
+                "labels sweeps.npy`");
   }
   std::vector<LabelledSweep> sweeps(count);
   std::memcpy(sweeps.data(), bytes.data() + header, count * sizeof(LabelledSweep));

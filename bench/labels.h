@@ -50,6 +50,8 @@ void make_labelled(std::uint64_t count, std::uint64_t seed,
 /// The first bytes of the file: the header of a numpy file (format 1.0) of `count` records.
 [[nodiscard]] std::string numpy_header(std::uint64_t count);
 /// Reads such a file. Throws roam::Error if it is another.
+/// Whether a file begins as one of labelled sweeps does.
+[[nodiscard]] bool is_labelled(const std::filesystem::path& file);
 [[nodiscard]] std::vector<LabelledSweep> read_labelled(const std::filesystem::path& file);
 
 /// The wrong answers to the sweeps of one kind.

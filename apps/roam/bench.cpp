@@ -21,6 +21,7 @@ constexpr const char* program_name = "roam-bench";
 constexpr const char* help = R"(Kinds:
   engines   sweeps through scenes: roam, Bullet, Embree, FCL, OpenSceneGraph, PhysX, Jolt, Box3D,
             three-mesh-bvh and the paper's method
+  labels    a million sweeps with exact answers, to judge any engine
   paper     Tables 1 and 2 of Xie and Niu (2020), measured here
   scale     the time of a step from 100 thousand to 100 million triangles
   walkers   steps of roam, PhysX, Jolt and Bullet through one gallery
@@ -67,12 +68,12 @@ ExitStatus become(std::vector<std::string> arguments) {
 
 void add_bench(CLI::App& program, Run& run) {
   CLI::App* verb =
-      program.add_subcommand("bench", "Measure roam beside other engines: engines, paper, scale or walkers");
+      program.add_subcommand("bench", "Measure roam beside other engines: engines, labels, paper, scale or walkers");
   verb->footer(help);
   verb->prefix_command();
   verb->callback([verb, &run] {
     const std::vector<std::string> arguments = verb->remaining();
-    if (arguments.empty()) throw UsageError("bench", "a kind is missing: engines, paper, scale or walkers");
+    if (arguments.empty()) throw UsageError("bench", "a kind is missing: engines, labels, paper, scale or walkers");
     run = [arguments] { return become(arguments); };
   });
 }

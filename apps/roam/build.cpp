@@ -248,7 +248,7 @@ void check_usage(const BuildVerb& verb) {
                      "how the scene is read was fixed by --plan; leave it out, or plan again with it");
   }
   for (const auto& scene : verb.scene.scenes) {
-    if (scheme_size(scene.native()) > 0) {
+    if (!scheme_name(scene.native()).empty()) {
       throw UsageError(Error::at(scene.string(), scene.string() + " is an address: download the scene first"));
     }
     if (Store::is_store(scene)) {

@@ -91,7 +91,9 @@ void add_kind(CLI::App& verb, const std::shared_ptr<MakeOptions>& options, std::
                   fmt::format("About how many, e.g. 500k or 20M (default: {})", short_count(double(triangles))))
       ->transform(counted())
       ->type_name("N");
-  verb.add_option("--seed", options->seed, "Seed: the same seed gives the same bits (default: 1)")->type_name("S");
+  verb.add_option("--seed", options->seed, "Seed: the same seed gives the same bits (default: 1)")
+      ->check(seed())
+      ->type_name("S");
   verb.add_option("--origin", options->origin, "Added to all coordinates, in metres (default: 0,0,0)")
       ->expected(3)
       ->delimiter(',')

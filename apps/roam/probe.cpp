@@ -70,7 +70,7 @@ std::vector<ProbedSize> read_sizes(const std::filesystem::path& file, bool spher
 /// The value of --matrix: a file if one of that name exists, else sizes.
 std::vector<ProbedSize> matrix_sizes(const std::string& text, bool spheres) {
   std::error_code none;
-  if (std::filesystem::is_directory(text, none))
+  if (!is_standard(text) && std::filesystem::is_directory(text, none))
     throw UsageError(fmt::format("--matrix {}", text), "that is a folder; name a file of sizes, or sizes");
   std::vector<ProbedSize> sizes;
   if (is_standard(text) || std::filesystem::exists(text, none)) {

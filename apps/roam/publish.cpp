@@ -8,6 +8,7 @@
 #include "cli/output_file.h"
 #include "cli/progress.h"
 #include "cli/report.h"
+#include "cli/standard_streams.h"
 #include "cli/tell.h"
 #include "roam/error.h"
 #include "roam/store_build.h"
@@ -135,7 +136,10 @@ void add_publish(CLI::App& program, Run& run) {
   CLI::Option* nginx = verb->add_flag("--nginx", o.nginx, "Print lines for the server { } of nginx");
   verb->add_flag("--json", o.json, "Print one JSON object")->excludes(nginx);
   add_web_options(*verb, *store, o.web);
-  verb->callback([options, &run] { run = [options] { return publish(*options); }; });
+  verb->callback([options, &run] {
+    if (is_standard(options->folder)) throw UsageError("publish -", "a store is a folder: name one");
+    run = [options] { return publish(*options); };
+  });
 }
 
 }  // namespace roam::app

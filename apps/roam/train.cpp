@@ -215,7 +215,7 @@ void add_train(CLI::App& program, Run& run) {
       ->check(from_to<std::int64_t>(1, 10'000))
       ->type_name("N");
   verb->add_option("--seed", o.train.seed, "Seed of the paths: the same seed, the same result (default: 1)")
-      ->check(from_to<std::int64_t>(0, std::numeric_limits<std::int64_t>::max()))
+      ->check(seed())
       ->type_name("S");
   verb->add_option("--spacing", o.train.spacing,
                    "Metres between tested places (default: 0.2); openings under 0.7 of it may be missed")

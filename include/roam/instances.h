@@ -45,8 +45,8 @@ struct Velocity {
   [[nodiscard]] Vec3 at(const Pose& pose, const Vec3& point) const;
 };
 
-/// A space and the instances in it. Queries may run at the same time, but not during a change. Changes allocate; one
-/// that throws changes nothing.
+/// A space and the instances in it. Queries may run at the same time, but not during a change. Changes allocate;
+/// add(), remove() and set_pose() change nothing if they throw.
 class Instances final : public LiveSpace {
  public:
   /// Metres. largest_error() is the larger of this and that of the space. add() refuses worlds with a larger error,

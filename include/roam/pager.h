@@ -54,7 +54,7 @@ struct PagerStats {
   std::uint64_t evictions = 0;        ///< tiles and pages evicted so far
   std::uint64_t failures = 0;         ///< failed reads and decodings so far
   std::uint64_t failed = 0;           ///< tiles and pages that are solid now because of a failure
-  std::uint64_t failed_may_pass = 0;  ///< of them, those that a web server may still send: they are tried again
+  std::uint64_t failed_may_pass = 0;  ///< of them, those whose reason may pass, as a broken connection does
   std::uint64_t bytes_read = 0;       ///< from the store
   double longest_read = 0.0;          ///< s: longest read of a tile
   double longest_decode = 0.0;        ///< s: longest decoding of a tile

@@ -6,6 +6,7 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <type_traits>
 #include <vector>
@@ -28,6 +29,11 @@ template <class Number>
                                         std::is_integral_v<Number> ? "whole number" : "number", least, most);
           },
           ""};
+}
+
+/// A seed.
+[[nodiscard]] inline CLI::Validator seed() {
+  return from_to<std::int64_t>(0, std::numeric_limits<std::int64_t>::max());
 }
 
 /// A number of threads.

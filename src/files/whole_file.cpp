@@ -161,7 +161,7 @@ bool WholeFile::take(const std::string& name) {
   return true;
 }
 
-// Nothing allocates once the file has its name: a call that throws then would not have left it as it was.
+// Nothing allocates once the file has its name. Only the fsync of its folder may fail then.
 fs::path WholeFile::commit() {
   fs::path file = folder_path_ / name_;
   if (naming_ == Naming::exact) {

@@ -226,7 +226,8 @@ std::vector<std::string> break_lines(const std::string& words, const Look& look,
     for (std::string word; stream >> word;) {
       const std::string longer = line.empty() ? word : line + " " + word;
       if (!line.empty() && width_of(longer, look) > width) {
-        const std::size_t rest = is_unit(word, line) ? line.rfind(' ') : std::string::npos;
+        std::size_t rest = is_unit(word, line) ? line.rfind(' ') : std::string::npos;
+        if (rest != std::string::npos && width_of(longer.substr(rest + 1), look) > width) rest = std::string::npos;
         lines.push_back(line.substr(0, rest));
         line = rest == std::string::npos ? word : longer.substr(rest + 1);
       } else {

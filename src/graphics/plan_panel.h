@@ -64,7 +64,7 @@ class PlanPanel {
   [[nodiscard]] std::optional<glm::dvec2> at(double x, double y) const;
   /// Its rectangle in the picture, pixels, when it is shown.
   [[nodiscard]] Rectangle place() const;
-  /// The share of the picture that a large plan takes at the right, or any in a tall window; else 0.
+  /// The share of the picture that the plan takes at the right, if no status fits beside it; else 0.
   [[nodiscard]] double covered() const;
 
  private:

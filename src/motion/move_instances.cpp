@@ -326,17 +326,19 @@ std::vector<Stopped> move_instances(Instances& instances, std::span<Walker* cons
                   " would be moved out of the coordinates that roam knows");
     }
   }
+  std::vector<Stopped> stopped;
+  stopped.reserve(all.size());
   for (Walker* const walker : walkers) {
     if (walker != nullptr) walker->state().begin_shifts();
   }
-  std::vector<Stopped> stopped;
+  bool is_whole = false;
   const auto end = [&] {
     for (Walker* const walker : walkers) {
       if (walker == nullptr) continue;
       const ObjectId ground = walker->stance().object;
       const bool stands_still =
           std::any_of(stopped.begin(), stopped.end(), [&](const Stopped& stop) { return stop.instance == ground; });
-      const bool moves = instances.has(ground) && !stands_still;
+      const bool moves = is_whole && instances.has(ground) && !stands_still;
       walker->state().end_shifts(
           moves ? instances.velocity(ground).at(instances.pose(ground), walker->feet()) : Vec3(0.0), dt);
     }
@@ -348,9 +350,10 @@ std::vector<Stopped> move_instances(Instances& instances, std::span<Walker* cons
       if (const auto stop = Movement(instances, instance, walkers, dt).run()) stopped.push_back(*stop);
     }
   } catch (...) {
-    end();  // memory ran out between two parts of the movement
+    end();  // memory ran out between two parts of the movement: which grounds came to their ends is not known
     throw;
   }
+  is_whole = true;
   end();
   return stopped;
 }

@@ -25,10 +25,11 @@ bool says(const std::string& text, const std::string& words) { return text.find(
 TEST(BenchVerb, ListsWhatItMeasuresAndAsksWhich) {
   const ProgramResult help = bench({"--help"});
   EXPECT_EQ(help.status, 0) << help.err;
-  for (const char* verb : {"engines", "paper", "scale", "walkers"}) EXPECT_TRUE(says(help.out, verb)) << help.out;
+  for (const char* verb : {"engines", "labels", "paper", "scale", "walkers"})
+    EXPECT_TRUE(says(help.out, verb)) << help.out;
   const ProgramResult nothing = bench({});
   EXPECT_EQ(nothing.status, 2);
-  EXPECT_TRUE(says(nothing.err, "engines, paper, scale or walkers")) << nothing.err;
+  EXPECT_TRUE(says(nothing.err, "engines, labels, paper, scale or walkers")) << nothing.err;
 }
 
 TEST(BenchVerb, SaysHowToGetTheProgramWhereItIsNotInstalled) {
@@ -52,6 +53,20 @@ TEST(BenchVerb, RefusesAProgramThatCannotBeRun) {
 #ifdef ROAM_HAS_BENCH
 
 nlohmann::json json(const ProgramResult& result) { return nlohmann::json::parse(result.out, nullptr, false); }
+
+TEST(BenchLabels, WritesOverNoOtherFile) {
+  const TestFolder folder;
+  const std::string scene =
+      folder.write("scene.ply", "ply, or any other file that somebody needs, in some more than a line");
+  const ProgramResult refused = bench({"labels", scene, "--count", "9"});
+  EXPECT_EQ(refused.status, 2);
+  EXPECT_TRUE(says(refused.err, "another file")) << refused.err;
+  EXPECT_TRUE(says(folder.read("scene.ply"), "somebody needs"));
+  const std::string made = folder.file("sweeps.npy");
+  for (const char* count : {"9", "1800"}) EXPECT_EQ(bench({"labels", made, "--count", count}).status, 0) << count;
+  EXPECT_EQ(bench({"labels", made, "--count", "9", "--seed", "-1"}).status, 2);
+  EXPECT_EQ(bench({"labels", made, "--judge", scene, "--count", "9"}).status, 2);
+}
 
 const std::vector<std::string> small{"engines",  "--triangles", "10000",      "--queries", "200",
                                      "--rounds", "2",           "--patience", "100000"};

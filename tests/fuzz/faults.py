@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""tests/fuzz/faults.py [--check]: plants a fault for each fuzz target in the tree around this file, which must be a copy.
---check plants nothing. Status 1 if a fault does not fit the source, or a target has none."""
+"""tests/fuzz/faults.py [--plant]: whether each fuzz target has a fault that fits the source; status 1 if not. --plant
+plants them in the tree around this file, which must be a copy without .git."""
 
 import pathlib
 import re
@@ -33,14 +33,18 @@ FAULTS = [
      "i < count ? index_[i] : std::numeric_limits<std::uint32_t>::max()", "index_[i]"),
 ]
 
-targets = {name for file in TREE.glob("tests/fuzz/*.cpp") for name in re.findall(r"^const Known ([a-z]+)_target", file.read_text(encoding="utf-8"), re.M)}
+targets = {name for file in TREE.glob("tests/fuzz/*.cpp")
+           for name in re.findall(r"^const Known ([a-z]+)_target", file.read_text(encoding="utf-8"), re.M)}
 without = sorted(targets ^ {target for target, *_ in FAULTS})
 if without:
     sys.exit(f"These have either no fault or no target: {', '.join(without)}.")
-for target, name, good, bad in FAULTS:
-    file = TREE / name
-    text = file.read_text(encoding="utf-8")
-    if text.count(good) != 1:
-        sys.exit(f"{target}: {name} has {text.count(good)} of: {good}")
-    if sys.argv[1:] != ["--check"]:
-        file.write_text(text.replace(good, bad), encoding="utf-8")
+for target, name, good, _ in FAULTS:
+    count = (TREE / name).read_text(encoding="utf-8").count(good)
+    if count != 1:
+        sys.exit(f"{target}: {name} has {count} of: {good}")
+if sys.argv[1:] == ["--plant"]:
+    if (TREE / ".git").exists():
+        sys.exit(f"{TREE} is no copy: it has .git")
+    for _, name, good, bad in FAULTS:
+        file = TREE / name
+        file.write_text(file.read_text(encoding="utf-8").replace(good, bad), encoding="utf-8")

@@ -3,20 +3,29 @@
 import contextlib
 import os
 import pathlib
-import shutil
 import subprocess
 import sys
 
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
 
 
+class Late(Exception):
+    """A command that did not end in time, which proves nothing."""
+
+
 def ends_well(command, seconds):
-    """Whether a command ends with status 0 in time."""
+    """Whether a command ends with status 0. Raises Late if it does not end in time."""
     try:
-        return subprocess.run(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, timeout=seconds, check=False,
-                              env={**os.environ, "GTEST_FAIL_FAST": "1"}).returncode == 0
-    except subprocess.TimeoutExpired:
-        return False
+        done = subprocess.run(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, timeout=seconds,
+                              check=False, env={**os.environ, "GTEST_FAIL_FAST": "1"})
+    except subprocess.TimeoutExpired as error:
+        raise Late from error
+    return done.returncode == 0
+
+
+def listed_files():
+    listed = subprocess.run(["git", "ls-files", "-z"], cwd=SOURCE, check=True, capture_output=True, text=True).stdout
+    return [path for path in listed.split("\0") if (SOURCE / path).is_file()]
 
 
 class ChangedTree:
@@ -25,13 +34,17 @@ class ChangedTree:
         # Inside of the tree, so that paths relative to it are those of other builds, for the compiler's cache.
         self.tree, self.build, self.targets = work / "tree", work / "tree/build", targets
         self.tree.mkdir(parents=True, exist_ok=True)
-        for old in self.tree.iterdir():
-            if old.is_dir() and old != self.build:
-                shutil.rmtree(old)
-        listed = subprocess.run(["git", "ls-files", "-z"], cwd=SOURCE, check=True, capture_output=True, text=True).stdout
-        for path in filter(None, listed.split("\0")):
-            (self.tree / path).parent.mkdir(parents=True, exist_ok=True)
-            shutil.copy2(SOURCE / path, self.tree / path)
+        wanted = set(listed_files())
+        for old in self.tree.rglob("*"):
+            if old.is_file() and self.build not in old.parents and str(old.relative_to(self.tree)) not in wanted:
+                old.unlink()
+        for path in wanted:
+            # Only what differs, and with a new time: an earlier change may have been built from it.
+            content, file = (SOURCE / path).read_bytes(), self.tree / path
+            if not file.is_file() or file.read_bytes() != content:
+                file.parent.mkdir(parents=True, exist_ok=True)
+                file.write_bytes(content)
+                file.chmod((SOURCE / path).stat().st_mode)
         subprocess.run(["cmake", "-S", self.tree, "-B", self.build, "-G", "Ninja", *options], check=True,
                        stdout=subprocess.DEVNULL)
         if not self.compiles():

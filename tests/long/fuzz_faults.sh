@@ -9,7 +9,7 @@ rm -rf "$copy"
 mkdir -p "$copy"
 git ls-files -z --cached --others --exclude-standard | xargs -0 cp --parents -t "$copy"
 cd "$copy"
-python3 tests/fuzz/faults.py
+python3 tests/fuzz/faults.py --plant
 if tests/long/fuzz.sh "${1:-10}" > "$root/build-fuzz/planted.table"; then
   echo "no target finds its fault" >&2
   exit 1

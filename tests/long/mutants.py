@@ -19,7 +19,7 @@ import subprocess
 import sys
 import time
 
-from changed_tree import SOURCE, ChangedTree, ends_well
+from changed_tree import SOURCE, ChangedTree, Late, ends_well
 
 ROOMS = ("sweep", "index", "world", "motion")
 TOKEN = re.compile(r"""
@@ -87,8 +87,11 @@ class Bench(ChangedTree):
             room = pathlib.Path(path).parts[1]
             # The room's own tests first, then from the quickest.
             for program in sorted(self.programs, key=lambda p: (not p.name.startswith(f"test_{room}"), self.seconds[p])):
-                if not ends_well([program], 5 * self.seconds[program] + 10):
-                    return program.name
+                try:
+                    if not ends_well([program], 20 * self.seconds[program] + 60):
+                        return program.name
+                except Late:
+                    return f"{program.name}, which did not end"
             return None
 
 

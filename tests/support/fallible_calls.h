@@ -49,7 +49,6 @@ struct FallibleCall {
   const char* name;
   std::function<std::string()> bits;            ///< makes the call, and returns the bits of its result
   std::function<void(bool failed)> after = {};  ///< judges the state that the call leaves
-  bool error = false;                           ///< it may throw roam::Error instead of std::bad_alloc
   bool later = false;                           ///< other threads may hold memory of it for long
   long dense = 100;  ///< so many first allocations fail one by one, later ones in steps that grow
   long steps = 16;   ///< of these for each doubling, about
@@ -68,9 +67,10 @@ inline std::optional<std::string> with_failing(const FallibleCall& call, long fa
   } catch (const std::bad_alloc&) {
   } catch (const roam::Error& error) {
     failing_allocation = 0;
-    if (!call.error) other = error.what();
+    other = error.what();
   }
   failing_allocation = 0;
+  failing_on = false;
   if (!other.empty()) ADD_FAILURE() << other;
   return result;
 }

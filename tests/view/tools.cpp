@@ -99,6 +99,16 @@ TEST(Tools, BringTheDisplayBackForWhatItShows) {
   d.session->run("layers");
   d.run(0.1);
   EXPECT_TRUE(contains(d.hud(), "Objects: ")) << d.hud();
+  // What is open already appears, instead of being closed.
+  stage.set_hud(HudMode::off);
+  d.session->run("layers");
+  d.run(0.1);
+  EXPECT_TRUE(contains(d.hud(), "Objects: ")) << d.hud();
+  d.session->run("layers");
+  d.tap('t');
+  stage.set_hud(HudMode::off);
+  d.tap('t');
+  EXPECT_TRUE(contains(d.hud(), "clear: ")) << d.hud();
 }
 
 TEST(Tools, DrawTheMeasuredLine) {
@@ -225,7 +235,7 @@ TEST(Probing, FindsAWayBetweenMeasuredPoints) {
   d.tap('i');
   ASSERT_TRUE(d.until([&] { return contains(d.hud(), "probe: YES: a body 0.60 m wide"); }))
       << "from the body: " << d.hud();
-  EXPECT_TRUE(contains(d.hud(), "A: where the body was")) << d.hud();
+  EXPECT_TRUE(contains(d.hud(), "A: the body's place")) << d.hud();
   EXPECT_TRUE(contains(d.hud(), "narrowest: ")) << d.hud();
   d.click(0.3, -0.9);
   EXPECT_FALSE(contains(d.hud(), "YES")) << "that was of another question: " << d.hud();

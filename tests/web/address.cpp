@@ -23,6 +23,12 @@ TEST(Address, KeepsItsQueryToItself) {
   EXPECT_EQ(Address("http://host/a?mail=me@host").query(), "mail=me@host");
   EXPECT_FALSE(Address::is_one("./http://host"));
   EXPECT_FALSE(Address::is_one("ftp://host"));
+  for (const char* port : {"99999", "-1", "abc", "", "0"}) {
+    EXPECT_THROW(Address("http://host:" + std::string(port) + "/a"), roam::Error) << port;
+  }
+  for (const char* right : {"http://host:8080/a", "http://[::1]/a", "http://[::1]:81/a"}) {
+    EXPECT_EQ(Address(right).shown(), right);
+  }
 }
 
 TEST(Address, RefusesWhatNoServerIsAskedFor) {

@@ -57,7 +57,7 @@ void Measuring::fill(Status& status) {
   if (!shown_) return;
   Measurement& last = all_.back();
   name(last.a);
-  if (from_body_) status.tool.push_back({"A", "where the body was"});
+  if (from_body_) status.tool.push_back({"A", "the body's place"});
   status.tool.push_back({from_body_ ? "B" : "A", point_text(last.a)});
   if (!last.b) return;
   name(*last.b);

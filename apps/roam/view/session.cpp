@@ -1,8 +1,8 @@
 #include "view/session.h"
 
 #include <algorithm>
-#include <array>
 #include <chrono>
+#include <iterator>
 #include <memory>
 #include <string_view>
 #include <utility>
@@ -19,12 +19,6 @@ namespace {
 
 /// s: how long the first hint stays when the body can walk.
 constexpr double hint_seconds = 8.0;
-
-/// Whether a command's result is a part of the display, which a person who gives it wants to see.
-bool is_shown_by_display(std::string_view command) {
-  constexpr std::array shown = {"help", "layers", "bookmarks", "plan", "measure", "probe"};
-  return std::find(shown.begin(), shown.end(), command) != shown.end();
-}
 
 ViewOptions with_scene(ViewOptions options, const SceneAndStore& what) {
   options.scene = what.scene;
@@ -294,8 +288,17 @@ ListPanel* Session::shown_list() {
 
 bool Session::run(const std::string& command) {
   display_.hurry();
-  if (stage_.hud().detail() == graphics::Detail::off && is_shown_by_display(command)) stage_.set_hud(HudMode::plain);
-  return commands_.run(command);
+  if (stage_.hud().detail() != graphics::Detail::off) return commands_.run(command);
+  // The results of these are parts of the display, which a person who gives them wants to see.
+  const std::pair<std::string_view, bool> shown[] = {
+      {"help", stage_.hud().help_shown()},       {"layers", layers_->is_shown()},
+      {"bookmarks", bookmark_list_->is_shown()}, {"plan", tools_->plan().size() != graphics::PlanSize::none},
+      {"measure", tools_->is_measuring()},       {"probe", false}};
+  const auto it =
+      std::find_if(std::begin(shown), std::end(shown), [&](const auto& one) { return one.first == command; });
+  if (it == std::end(shown)) return commands_.run(command);
+  stage_.set_hud(HudMode::plain);
+  return it->second || commands_.run(command);
 }
 
 ViewReport Session::finish() {

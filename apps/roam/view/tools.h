@@ -44,6 +44,7 @@ class Tools : public osgGA::GUIEventHandler {
   void fill(ViewReport& report);
   void add_to(graphics::Marks& marks);
   [[nodiscard]] const LivePlan& plan() const { return plan_; }
+  [[nodiscard]] bool is_measuring() const { return tool_ == Tool::measure; }
   [[nodiscard]] const SectionShape& section() const { return section_.shape(); }
   [[nodiscard]] CameraView camera() const;  ///< of the window
 

@@ -1,6 +1,7 @@
 #include "store/web/address.h"
 
 #include <algorithm>
+#include <charconv>
 #include <utility>
 
 #include "roam/error.h"
@@ -14,6 +15,12 @@ constexpr std::string_view plain = "http://", secured = "https://";
 /// "host/path" of an address.
 std::string_view without_scheme(std::string_view text) {
   return text.substr(text.starts_with(secured) ? secured.size() : plain.size());
+}
+
+bool is_port(std::string_view text) {
+  unsigned number = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  return error == std::errc() && end == text.data() + text.size() && number >= 1 && number <= 65535;
 }
 
 }  // namespace
@@ -33,6 +40,11 @@ Address::Address(std::string_view text) {
     refuse("an address with a name or a password is seen by others; keep them in ~/.netrc");
   }
   if (host.empty()) refuse("this is no address of a web server: write http://HOST/STORE or https://HOST/STORE");
+  // Behind a literal address of IPv6, which is in brackets.
+  const std::size_t colon = host.find(':', std::min(host.find(']'), host.size() - 1) * (host.front() == '[' ? 1 : 0));
+  if (colon != std::string_view::npos && !is_port(host.substr(colon + 1))) {
+    refuse("this is no address of a web server: a port is a number from 1 to 65535");
+  }
   if (text.find('#') != std::string_view::npos) refuse("an address of a store has no '#'; write %23 for it");
   const auto cannot_be = [](char c) { return c <= ' ' || c >= 127 || c == '"' || c == '<' || c == '>' || c == '\\'; };
   if (std::any_of(shown_.begin(), shown_.end(), cannot_be) || std::any_of(query_.begin(), query_.end(), cannot_be)) {
