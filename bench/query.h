@@ -17,8 +17,7 @@ struct Query {
   Vec3 motion{0.0};
 };
 
-/// What the queries of a set return: the first touch of a body, that of a point, or the distance from `from` to the
-/// nearest triangle.
+/// A sweep and a ray return the first touch, of a body or of a point. The nearest point's distance is from `from`.
 enum class QueryKind { sweep, ray, nearest };
 
 /// Distances that are not smaller need not be found, metres.

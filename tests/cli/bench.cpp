@@ -54,20 +54,6 @@ TEST(BenchVerb, RefusesAProgramThatCannotBeRun) {
 
 nlohmann::json json(const ProgramResult& result) { return nlohmann::json::parse(result.out, nullptr, false); }
 
-TEST(BenchLabels, WritesOverNoOtherFile) {
-  const TestFolder folder;
-  const std::string scene =
-      folder.write("scene.ply", "ply, or any other file that somebody needs, in some more than a line");
-  const ProgramResult refused = bench({"labels", scene, "--count", "9"});
-  EXPECT_EQ(refused.status, 2);
-  EXPECT_TRUE(says(refused.err, "another file")) << refused.err;
-  EXPECT_TRUE(says(folder.read("scene.ply"), "somebody needs"));
-  const std::string made = folder.file("sweeps.npy");
-  for (const char* count : {"9", "1800"}) EXPECT_EQ(bench({"labels", made, "--count", count}).status, 0) << count;
-  EXPECT_EQ(bench({"labels", made, "--count", "9", "--seed", "-1"}).status, 2);
-  EXPECT_EQ(bench({"labels", made, "--judge", scene, "--count", "9"}).status, 2);
-}
-
 const std::vector<std::string> small{"engines",  "--triangles", "10000",      "--queries", "200",
                                      "--rounds", "2",           "--patience", "100000"};
 

@@ -110,14 +110,7 @@ TEST(WalkerAllocations, RoutesAndSearchesThrowWhereverOneFails) {
          return std::string(Bits() << place.value() << roam::standing(path, person)[1]);
        }},
       {"body settings that are wrong",
-       [&] {
-         try {
-           roam::check(roam::WalkerSettings{.radius = -1.0});
-         } catch (const roam::Error& error) {
-           return std::string(Bits() << error.what());
-         }
-         return std::string();
-       }},
+       [&] { return refusal_of([&] { roam::check(roam::WalkerSettings{.radius = -1.0}); }); }},
   });
 }
 

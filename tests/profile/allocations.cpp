@@ -14,20 +14,13 @@ TEST(ProfileAllocations, CallsThrowWhereverOneFails) {
   roam::Profile wrong = profile;
   wrong.regions[1].radius = -1.0;
   const std::array<std::filesystem::path, 2> scenes{"a folder with a long name/a.ply", "another folder/b.ply"};
-  const auto refused = [](const auto& call) {
-    try {
-      call();
-    } catch (const roam::Error& error) {
-      return std::string(Bits() << error.what());
-    }
-    return std::string();
-  };
   fail_calls({
       {"identity_of", [&] { return std::string(Bits() << roam::identity_of(made::scene()).hash); }},
       {"profile_path", [&] { return roam::profile_path(scenes).string(); }},
-      {"check", [&] { return refused([&] { roam::check(wrong); }); }},
-      {"save_profile of a wrong one", [&] { return refused([&] { save_profile(wrong, scenes[0]); }); }},
-      {"load_profile of no file", [&] { return refused([&] { static_cast<void>(roam::load_profile(scenes[0])); }); }},
+      {"check", [&] { return refusal_of([&] { roam::check(wrong); }); }},
+      {"save_profile of a wrong one", [&] { return refusal_of([&] { save_profile(wrong, scenes[0]); }); }},
+      {"load_profile of no file",
+       [&] { return refusal_of([&] { static_cast<void>(roam::load_profile(scenes[0])); }); }},
       {"find_profile and find_frame of no file",
        [&] {
          return std::string(Bits() << roam::find_profile(scenes).has_value() << roam::find_frame(scenes).has_value());

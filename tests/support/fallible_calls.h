@@ -45,6 +45,17 @@ class Bits {
   std::string text_;
 };
 
+/// The bits of the sentence by which a call is refused; empty if it is not.
+template <class Call>
+std::string refusal_of(const Call& call) {
+  try {
+    call();
+  } catch (const roam::Error& error) {
+    return Bits() << error.what();
+  }
+  return {};
+}
+
 struct FallibleCall {
   const char* name;
   std::function<std::string()> bits;            ///< makes the call, and returns the bits of its result
@@ -95,7 +106,7 @@ inline void fail_calls(const std::vector<FallibleCall>& calls) {
       for (long failing = 1, beyond = 0; beyond < (failing > call.dense ? 1 : 3) && failing <= call.most;
            failing += 1 + std::max(0L, failing - call.dense) / call.steps) {
         SCOPED_TRACE(std::to_string(failing) + (on ? " and all that follow" : ""));
-        // What is kept for the next call is kept once.
+        // A call may keep memory for the next one, but not more each time.
         for (int again = 0; again < 3; ++again) {
           const long before = held();
           const std::optional<std::string> result = with_failing(call, failing, on);

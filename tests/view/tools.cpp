@@ -99,7 +99,7 @@ TEST(Tools, BringTheDisplayBackForWhatItShows) {
   d.session->run("layers");
   d.run(0.1);
   EXPECT_TRUE(contains(d.hud(), "Objects: ")) << d.hud();
-  // What is open already appears, instead of being closed.
+  // A list that is open already is shown again, not closed.
   stage.set_hud(HudMode::off);
   d.session->run("layers");
   d.run(0.1);

@@ -52,24 +52,8 @@ TEST(WorldAllocations, BatchesAndNamesThrowWhereverOneFails) {
          world.gap_bound(queries, 12.0, gaps);
          return bits_of(impacts[0]) + bits_of(clearances[299]) + std::string(Bits() << gaps[0] << gaps[299]);
        }},
-      {"a wrong query in a batch",
-       [&] {
-         try {
-           world.sweep(wrong, impacts);
-         } catch (const Error& error) {
-           return std::string(Bits() << error.what());
-         }
-         return std::string();
-       }},
-      {"a wrong query",
-       [&] {
-         try {
-           static_cast<void>(world.sweep(wrong[250]));
-         } catch (const Error& error) {
-           return std::string(Bits() << error.what());
-         }
-         return std::string();
-       }},
+      {"a wrong query in a batch", [&] { return refusal_of([&] { world.sweep(wrong, impacts); }); }},
+      {"a wrong query", [&] { return refusal_of([&] { static_cast<void>(world.sweep(wrong[250])); }); }},
       {"object", [&] { return world.object(0).name; }},
   });
 }
@@ -158,15 +142,7 @@ TEST(WorldAllocations, InstancesAreAsBeforeWhereverOneFails) {
          return std::string();
        },
        judged(behind, 0)},
-      {"a wrong number",
-       [&] {
-         try {
-           space->remove(17);
-         } catch (const Error& error) {
-           return std::string(Bits() << error.what());
-         }
-         return std::string();
-       }},
+      {"a wrong number", [&] { return refusal_of([&] { space->remove(17); }); }},
       {"instances", [&] { return std::string(Bits() << space->instances().size()); }},
       {"object",
        [&] {
@@ -212,7 +188,7 @@ struct Course {
     ++updates;
   }
 
-  /// Of the touch of along_x, once anything is known: at the coarse wall, or earlier.
+  /// The latest time at which along_x may touch after the first update: at the coarse wall.
   static constexpr double latest = (9.0 - 1.0 - small_ball.radius) / 18.0 + 1e-3;
   std::optional<Patchwork> space;
   int updates = 0;  ///< that have ended

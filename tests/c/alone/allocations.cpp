@@ -22,6 +22,12 @@ void must(roam_status status) {
   if (status != ROAM_OK) throw roam::Error(why);
 }
 
+/// Of a call that is refused: of the status and the sentence.
+std::string status_and_text(roam_status status) {
+  if (status == ROAM_NO_MEMORY) throw std::bad_alloc();
+  return Bits() << status << roam_error();
+}
+
 template <class T>
 T sized() {
   T it{};
@@ -101,9 +107,7 @@ TEST_F(CAllocations, OfSpaces) {
       {"roam_world_open of no file",
        [&] {
          SpaceHandle world;
-         const roam_status status = roam_world_open("/nowhere/there/is/a/house.obj", nullptr, &world.it);
-         if (status == ROAM_NO_MEMORY) throw std::bad_alloc();
-         return std::string(Bits() << status << roam_error());
+         return status_and_text(roam_world_open("/nowhere/there/is/a/house.obj", nullptr, &world.it));
        }},
       {"roam_filtered_create",
        [&] {
@@ -129,9 +133,7 @@ TEST_F(CAllocations, OfSpaces) {
       {"roam_sweep of no query",
        [&] {
          auto impact = sized<roam_impact>();
-         const roam_status status = roam_sweep(room_.handle, nullptr, &impact);
-         if (status == ROAM_NO_MEMORY) throw std::bad_alloc();
-         return std::string(Bits() << status << roam_error());
+         return status_and_text(roam_sweep(room_.handle, nullptr, &impact));
        }},
       {"roam_contacts",
        [&] {
@@ -180,9 +182,7 @@ TEST_F(CAllocations, OfBatches) {
       {"roam_sweep_batch with a wrong query",
        [&] {
          const auto it = batch(true);
-         const roam_status status = roam_sweep_batch(room_.handle, &it);
-         if (status == ROAM_NO_MEMORY) throw std::bad_alloc();
-         return std::string(Bits() << status << roam_error());
+         return status_and_text(roam_sweep_batch(room_.handle, &it));
        }},
   });
 }
@@ -207,9 +207,7 @@ TEST_F(CAllocations, OfWalkers) {
       {"roam_walker_step with a wrong time",
        [&] {
          const auto input = sized<roam_walker_input>();
-         const roam_status status = roam_walker_step(walker.it, &input, -1.0, nullptr);
-         if (status == ROAM_NO_MEMORY) throw std::bad_alloc();
-         return std::string(Bits() << status << roam_error());
+         return status_and_text(roam_walker_step(walker.it, &input, -1.0, nullptr));
        }},
       {"roam_route_follow",
        [&] {
@@ -246,9 +244,7 @@ TEST_F(CAllocations, OfStores) {
       {"roam_store_open of no store",
        [&] {
          SpaceHandle store;
-         const roam_status status = roam_store_open("/nowhere/there/is/a/house.roam", nullptr, &store.it);
-         if (status == ROAM_NO_MEMORY) throw std::bad_alloc();
-         return std::string(Bits() << status << roam_error());
+         return status_and_text(roam_store_open("/nowhere/there/is/a/house.roam", nullptr, &store.it));
        }},
   });
 }
@@ -262,10 +258,6 @@ TEST_F(CAllocations, OfProfiles) {
   profile.made(roam_profile_load(file.c_str(), &profile.it));
   WalkerHandle walker;
   walker.made(roam_walker_create(room_.handle, &settings_, ROAM_WALK, {1, 0, 1}, &walker.it));
-  const auto status_and_text = [](roam_status status) {
-    if (status == ROAM_NO_MEMORY) throw std::bad_alloc();
-    return std::string(Bits() << status << roam_error());
-  };
   fail_calls({
       {"roam_walker_set_regions",
        [&] {

@@ -58,14 +58,7 @@ TEST(ImportAllocations, ASceneIsReadWholeOrNotWhereverOneFails) {
        .dense = 24,
        .steps = 6},
       {"import_scene of no file",
-       [&] {
-         try {
-           static_cast<void>(roam::import_scene("/nowhere/there/is/a/scene.obj"));
-         } catch (const roam::Error& error) {
-           return std::string(Bits() << error.what());
-         }
-         return std::string();
-       }},
+       [&] { return refusal_of([&] { static_cast<void>(roam::import_scene("/nowhere/there/is/a/scene.obj")); }); }},
   });
 }
 
