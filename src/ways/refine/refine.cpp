@@ -6,6 +6,7 @@
 
 #include "ways/lattice/walk_place.h"
 #include "ways/refine/way.h"
+#include "ways/trials/on_way.h"
 
 namespace roam::ways {
 namespace {
@@ -102,6 +103,32 @@ void polish_narrow_places(const Survey& survey, const Measure& measure, double s
   }
 }
 
+/// Whether a body of `radius` passes a way. A piece that climbs a step goes from one station to the next.
+bool passes_all(const Survey& survey, const Measure& measure, const std::vector<Vec3>& way, double radius) {
+  for (std::size_t i = 1; i < way.size(); ++i) {
+    const Vec3 &from = way[i - 1], &to = way[i];
+    if (!passes(survey, measure, from, to, radius) && !goes_straight(survey, measure, from, to, radius)) return false;
+  }
+  return true;
+}
+
+/// The narrowest place of a way that is wider than `radius`, as where straight pieces replaced narrower stations; else
+/// none. Narrower places do not count: a body crosses them by a step.
+std::optional<Station> narrowest_if_wider(const Survey& survey, const Measure& measure, const std::vector<Vec3>& way,
+                                          double radius) {
+  constexpr double apart = 0.02;  // m, as polished stations
+  const double margin = certified_margin(survey);
+  if (!passes_all(survey, measure, way, radius + 2.0 * margin)) return std::nullopt;
+  std::optional<Station> narrowest;
+  for_each_station(way, apart, [&](const Vec3& place, const Vec3&, double) {
+    const Station station = station_at(survey, measure, place);
+    if (station.free >= radius && (!narrowest || station.free < narrowest->free)) narrowest = station;
+  });
+  const bool is_wider =
+      narrowest && narrowest->free > radius + margin && passes_all(survey, measure, way, narrowest->free - margin);
+  return is_wider ? narrowest : std::nullopt;
+}
+
 }  // namespace
 
 Passage refine(const Survey& survey, const Measure& measure, double spacing, std::span<const Vec3> places) {
@@ -120,12 +147,19 @@ Passage refine(const Survey& survey, const Measure& measure, double spacing, std
   const double seen = least_free(way);
   const auto narrowest =
       std::min_element(way.begin(), way.end(), [](const Station& a, const Station& b) { return a.free < b.free; });
-  const Vec3 decides = narrowest->place;
+  Vec3 decides = narrowest->place;
   passage.radius = mend(survey, measure, way, seen, spacing);
   passage.found = passage.radius >= measure.narrowest;
-  passage.limited = passage.radius < limit - certified_margin(survey);
+  const double unlimited = limit - certified_margin(survey);
+  passage.way = straightened(survey, measure, way, passage.radius < unlimited ? passage.radius : limit);
+  if (passage.found && passage.radius < unlimited) {
+    if (const auto station = narrowest_if_wider(survey, measure, passage.way, passage.radius)) {
+      passage.radius = station->free;
+      decides = station->place;
+    }
+  }
+  passage.limited = passage.radius < unlimited;
   if (!passage.limited) passage.radius = limit;
-  passage.way = straightened(survey, measure, way, passage.radius);
   for (std::size_t i = 1; i < passage.way.size(); ++i)
     passage.length += glm::length(passage.way[i] - passage.way[i - 1]);
   if (passage.limited) passage.opening = opening_at(survey, measure, decides, passage.radius);
