@@ -82,10 +82,14 @@ std::vector<ProbedSize> matrix_sizes(const std::string& text, bool spheres) {
       throw UsageError(Error::at(error.where(), fmt::format("{}; and there is no file \"{}\"", error.what(), text)));
     }
   }
-  // A file may repeat a size a million times.
+  const std::string where = text.empty() ? "--matrix \"\"" : "--matrix " + text;
   std::set<std::pair<double, double>> seen;
-  std::erase_if(sizes, [&](const ProbedSize& size) { return !seen.emplace(size.radius, size.height).second; });
-  if (sizes.empty()) throw UsageError(text.empty() ? "--matrix \"\"" : "--matrix " + text, "there are no sizes in it");
+  for (const ProbedSize& size : sizes) {
+    if (!seen.emplace(size.radius, size.height).second) {
+      throw UsageError(where, fmt::format("it has the size {:g}x{:g} twice; leave one out", size.radius, size.height));
+    }
+  }
+  if (sizes.empty()) throw UsageError(where, "there are no sizes in it");
   return sizes;
 }
 

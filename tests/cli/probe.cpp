@@ -165,11 +165,10 @@ TEST(ProbeVerb, AnswersForManySizesInOneRun) {
   EXPECT_EQ(sizes[0]["height"], 1.8);
   EXPECT_EQ(sizes[1]["height"], 1.7);
   EXPECT_NEAR(sizes[2]["opening"]["missing_m"].get<double>(), 0.1, 1e-3);
-  const std::string file = probe.folder.write("sizes", "# a child\n0.2x1.2\n\n0.3, 0.33x1.9  # grown\n0.3x1.8,0.3\n");
+  const std::string file = probe.folder.write("sizes", "# a child\n0.2x1.2\n\n0.3, 0.33x1.9  # grown\n");
   probe.ask({"--matrix", file});
   EXPECT_EQ(probe.result.status, 0) << probe.result.err;
-  EXPECT_EQ(std::count(probe.result.out.begin(), probe.result.out.end(), '\n'),
-            4);  // a head and three sizes, each once
+  EXPECT_EQ(std::count(probe.result.out.begin(), probe.result.out.end(), '\n'), 4);  // a head and three sizes
 }
 
 TEST(ProbeVerb, DrawsTheOpening) {
@@ -213,6 +212,8 @@ TEST(ProbeVerb, RefusesWhatCannotBeMeant) {
   refused({"--radius", "nan"}, "--radius");
   refused({"--radius", "-1"}, "--radius");
   refused({"--radius", "2000"}, "radius");
+  for (const char* sizes : {",", "0.3,", ",0.3", "0.3,,0.4"}) refused({"--matrix", sizes}, "a comma has no size");
+  refused({"--matrix", "0.3,0.4x1.9,0.3x1.8"}, "it has the size 0.3x1.8 twice");
   refused({"--radius", "0.3", "--height", "inf"}, "--height");
   refused({"--radius", "0.3", "--step", "nan"}, "--step");
   refused({"--radius", "0.3", "--step", "-1"}, "--step");
