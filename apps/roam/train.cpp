@@ -66,7 +66,8 @@ std::filesystem::path profile_file(const TrainVerbOptions& o) {
     check_output(o.scene.scenes, "-o", *o.profile);
     return *o.profile;
   }
-  const std::filesystem::path beside = profile_path(o.scene.scenes);
+  demand_no_address("without -o, the profile beside", o.scene.scenes.front());
+  std::filesystem::path beside = profile_path(o.scene.scenes);
   if (const std::optional<Obstacle> found = obstacle(beside))
     throw UsageError(
         Error::at(beside.string(), fmt::format("the profile {}: {}; name a file elsewhere by -o, or say --no-profile",
