@@ -1,6 +1,7 @@
 // A patchwork whose memory runs out lets nobody through: patches are as announced, or all of it is solid.
 
 #include <gtest/gtest.h>
+#include <malloc.h>
 
 #include <optional>
 
@@ -8,6 +9,7 @@
 #include "roam/patchwork.h"
 #include "roam/walker.h"
 #include "walker_scenes.h"
+#include "world/box_tree.h"
 
 // Instrumented builds have an operator new of their own.
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
@@ -68,27 +70,62 @@ TEST(PatchworkMemory, WhereAnUpdateRunsOutOfItAllIsSolid) {
 }
 
 TEST(PatchworkMemory, WhereAMessageRunsOutOfItNothingIsAnnounced) {
-  int unannounced = 0, undelivered = 0;
-  for (long failing = 1; failing < 20; ++failing) {
-    Patchwork space;
-    unannounced += fails(failing, [&] { static_cast<void>(space.expect({Vec3(10.0), Vec3(11.0)})); }) ? 1 : 0;
-    const PatchId patch = space.expect(box);
-    space.update();
-    EXPECT_TRUE(space.sweep(ball, {-9.0, 0.0, 0.0}, {18.0, 0.0, 0.0}).unknown);
-    roam::World world = scenes::build(wall());
-    if (fails(failing, [&] { space.deliver(patch, std::move(world)); })) {
-      ++undelivered;
-      space.update();
-      EXPECT_TRUE(space.sweep(ball, {-9.0, 0.0, 0.0}, {18.0, 0.0, 0.0}).unknown);
-      space.deliver(patch, scenes::build(wall()));
-    }
-    space.update();
-    const roam::Impact met = space.sweep(ball, {-9.0, 0.0, 0.0}, {18.0, 0.0, 0.0});
-    EXPECT_TRUE(met.hit && !met.unknown);
-    EXPECT_EQ(Patchwork::patch(met.triangle), patch);
-  }
-  EXPECT_GT(unannounced, 0);
-  EXPECT_GT(undelivered, 0);
+  std::optional<Patchwork> space;
+  PatchId patch{};
+  const auto begin = [&] {
+    space.emplace();
+    patch = space->expect(box);
+    space->update();
+  };
+  const auto met = [&] {
+    space->update();
+    return space->sweep(ball, {-9.0, 0.0, 0.0}, {18.0, 0.0, 0.0});
+  };
+  std::optional<roam::World> world;
+  const auto deliver = [&] {
+    space->deliver(patch, std::move(*world));
+    return std::string("delivered");
+  };
+  const auto renew = [&] {
+    begin();
+    world = scenes::build(wall());
+  };
+  renew();
+  fail_calls({{"expect",
+               [&] {
+                 static_cast<void>(space->expect({Vec3(10.0), Vec3(11.0)}));
+                 return std::string("announced");
+               },
+               [&](bool /*failed*/) {
+                 EXPECT_TRUE(met().unknown);
+                 deliver();
+                 EXPECT_TRUE(met().hit && !met().unknown);
+                 renew();
+               }},
+              {"deliver", deliver, [&](bool failed) {
+                 EXPECT_EQ(met().unknown, failed);
+                 if (failed) {
+                   world = scenes::build(wall());
+                   deliver();
+                 }
+                 EXPECT_TRUE(met().hit && !met().unknown);
+                 EXPECT_EQ(Patchwork::patch(met().triangle), patch);
+                 renew();
+               }}});
+}
+
+TEST(BoxTreeMemory, DoesNotGrowWhereAllItemsAreReplaced) {
+  const auto bytes = [] {
+    const auto all = ::mallinfo2();
+    return all.uordblks + all.hblkhd;
+  };
+  std::vector<roam::BoxTree::Item> items;
+  for (std::uint32_t i = 0; i < 10'000; ++i) items.push_back({{Vec3(i), Vec3(i + 1.0)}, i});
+  roam::BoxTree tree;
+  tree.change(items, {});
+  const auto before = bytes();
+  for (int again = 0; again < 3; ++again) tree.change(items, {});
+  EXPECT_LE(bytes(), before + 10'000);
 }
 
 }  // namespace
