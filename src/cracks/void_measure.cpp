@@ -304,9 +304,7 @@ class Floods {
     for (const Cell& cell : cells) {
       if (cell.floor_distance < probe_.open_radius()) continue;
       const Vec3 centre = place_of(cell);
-      if (std::none_of(discs.begin(), discs.end(),
-                       [&](const Vec3& other) { return level_distance(other, centre) < 2.0 * options_.smallest; }))
-        discs.push_back(centre);
+      if (!is_near(discs, centre, 2.0 * options_.smallest)) discs.push_back(centre);
     }
     return discs;
   }
