@@ -6,14 +6,13 @@
 #include <sstream>
 
 #include "door_rooms.h"
+#include "messages.h"
 #include "program.h"
 
 namespace {
 
 using Json = nlohmann::json;
 using Words = std::vector<std::string>;
-
-bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 /// The room of door_obj as a file whose -y is up: (x, y, z) is written as (x, -z, y).
 std::string turned_room() {

@@ -5,13 +5,12 @@
 #include <nlohmann/json.hpp>
 
 #include "door_rooms.h"
+#include "messages.h"
 #include "program.h"
 
 namespace {
 
 using Json = nlohmann::json;
-
-bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 /// A room with a door, and what is asked of it: from one end to the other.
 struct Probe {

@@ -5,12 +5,11 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "messages.h"
 #include "program.h"
 #include "train_scenes.h"
 
 namespace {
-
-bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 std::string obj(const roam::Mesh& mesh) {
   std::ostringstream out;
