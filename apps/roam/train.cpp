@@ -143,6 +143,7 @@ ExitStatus train(TrainVerbOptions o) {
   print_report(o.json, json_report(report),
                text_report(report) + kept_frame_line(o.scene) + (o.stats ? stats_report(report) : ""));
   if (drawing && interrupted()) {
+    o.train.progress = {};
     tell(fmt::format("{} was not drawn: this training ended early", o.picture->string()));
   } else if (drawing) {
     const std::vector<draw::OpeningView> views = views_of(report);

@@ -391,9 +391,9 @@ std::vector<MeasuredVoid> measure_voids(const CrackOptions& options, const VoidP
   });
   std::vector<MeasuredVoid> all;
   std::vector<RimPlace> rest;
-  for (std::vector<MeasuredVoid>& part : measured) std::move(part.begin(), part.end(), std::back_inserter(all));
   for (std::vector<RimPlace>& part : left) std::move(part.begin(), part.end(), std::back_inserter(rest));
-  for (MeasuredVoid& found : climbed(options, drops, std::move(rest))) all.push_back(std::move(found));
+  measured.push_back(climbed(options, drops, std::move(rest)));
+  for (std::vector<MeasuredVoid>& part : measured) std::move(part.begin(), part.end(), std::back_inserter(all));
   return all;
 }
 
