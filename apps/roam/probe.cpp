@@ -221,6 +221,8 @@ ExitStatus probe(ProbeOptions o) {
   if (o.path) demand_one_output("--path", *o.path, o.json);
   if (o.path && !is_standard(*o.path)) check_output(o.scene.scenes, "--path", *o.path);
   if (o.picture) check_output(o.scene.scenes, "--picture", *o.picture);
+  const NamedFile outputs[] = {{"--path", o.path.value_or("")}, {"--picture", o.picture.value_or("")}};
+  demand_no_overwriting({}, outputs);
   std::optional<tbb::global_control> limit;
   if (o.scene.threads > 0) {
     limit.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(o.scene.threads));

@@ -130,6 +130,8 @@ ExitStatus train(TrainVerbOptions o) {
   constexpr double narrow_door = 0.6;  // m: width of a person without clearance
   check_spacing(scene, o.train.spacing, narrow_door);
   TrainReport report{o.scene.names(), scene.survey.triangles(), o.train, {}, {}, {}};
+  const NamedFile outputs[] = {{"-o", profile}, {"--picture", o.picture.value_or("")}};
+  demand_no_overwriting({}, outputs);
   report.frame = frame_of(o.scene);
   {
     StagedProgress progress;

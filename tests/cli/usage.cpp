@@ -85,6 +85,15 @@ TEST(Usage, SaysWhichValueIsWrongAndWhatFits) {
   });
 }
 
+TEST(Usage, RefusesAnEmptyNameOfAFile) {
+  expect_refused({
+      {{"walk", "x.obj", "--wander", "1", "--certify", ""}, "roam walk: --certify: a file needs a name"},
+      {{"walk", "x.obj", "--wander", "1", "--trace="}, "roam walk: --trace: a file needs a name"},
+      {{"make", "gallery", "-o", ""}, "roam make gallery: -o: a file needs a name"},
+      {{"build", "x.obj", "-o", ""}, "roam build: -o: a folder needs a name"},
+  });
+}
+
 TEST(Usage, TakesUnitsOfTrianglesAndBytes) {
   const TestFolder folder;
   const std::string scene = folder.file("city.obj");
