@@ -71,6 +71,18 @@ TEST(WalkVerb, DoesNotWriteItsTraceOverWhatItReads) {
   EXPECT_EQ(folder.read("scene.obj"), room_obj());
 }
 
+TEST(WalkVerb, WalksInASceneAsItReadsTheSameSceneOfAgainst) {
+  const TestFolder folder;
+  const std::string scene = folder.write("scene.obj", room_obj()), path = folder.write("p.path", "2 0 1\n3 0 1\n");
+  const ProgramResult result =
+      run_program(ROAM_PROGRAM, {"walk", scene, "--path", path, "--unit", "m", "--up=-y", "--mode", "fly", "--json",
+                                 "--against", scene});
+  const auto report = nlohmann::json::parse(result.out, nullptr, false);
+  ASSERT_TRUE(report.is_object()) << result.err;
+  EXPECT_EQ(report["frame"]["up"], "-y");
+  EXPECT_EQ(report["violations"], 0);
+}
+
 TEST(WalkVerb, WritesNoCertificateOverItsTraceOrTheSceneOfItsStore) {
   const TestFolder folder;
   const std::string scene = folder.write("scene.obj", room_obj()), store = folder.file("s.roam");
