@@ -142,6 +142,14 @@ TEST(ProbeVerb, SaysNoWhereTheBodyFallsIntoAGapOfAWayThatIsWideEnough) {
   EXPECT_TRUE(carried.out.starts_with("YES: ")) << carried.out;
 }
 
+TEST(ProbeVerb, LeavesRoomForTheBodyAboveAStepOfAnyHeight) {
+  Probe probe(0.9);
+  for (const char* height : {"1.7", "1.8", "1.9", "2.3"}) {
+    EXPECT_EQ(probe.ask({"--radius", "0.3", "--height", height, "--step", "900"}).result.status, 0)
+        << probe.result.out << probe.result.err;
+  }
+}
+
 TEST(ProbeVerb, FliesWhereAsked) {
   Probe probe(0.9);
   EXPECT_EQ(probe.ask({"--radius", "0.4", "--sphere", "--mode", "fly", "--json"}).result.status, 0) << probe.result.err;
@@ -204,6 +212,8 @@ TEST(ProbeVerb, RefusesWhatCannotBeMeant) {
   refused({"--matrix", "sizes.txt"}, "there is no file \"sizes.txt\"");
   refused({"--matrix", probe.folder.file(".")}, "folder");
   refused({"--matrix", ""}, "--matrix \"\": there are no sizes in it");
+  for (const char* sizes : {",", "0.3,", ",0.3", "0.3,,0.4"}) refused({"--matrix", sizes}, "a comma has no size");
+  refused({"--matrix", "0.3,0.4x1.9,0.3x1.8"}, "it has the size 0.3x1.8 twice");
   refused({"--matrix", "nan"}, "radius");
   refused({"--matrix", "1e-300x1.8"}, "at least 0.001");
   refused({"--matrix", "0.3x0.1"}, "--matrix, size 0.3x0.1");
@@ -211,8 +221,6 @@ TEST(ProbeVerb, RefusesWhatCannotBeMeant) {
   refused({"--radius", "nan"}, "--radius");
   refused({"--radius", "-1"}, "--radius");
   refused({"--radius", "2000"}, "radius");
-  for (const char* sizes : {",", "0.3,", ",0.3", "0.3,,0.4"}) refused({"--matrix", sizes}, "a comma has no size");
-  refused({"--matrix", "0.3,0.4x1.9,0.3x1.8"}, "it has the size 0.3x1.8 twice");
   refused({"--radius", "0.3", "--height", "inf"}, "--height");
   refused({"--radius", "0.3", "--step", "nan"}, "--step");
   refused({"--radius", "0.3", "--step", "-1"}, "--step");
