@@ -121,4 +121,11 @@ TEST_F(Frame, MayBeKeptWithoutABody) {
   EXPECT_TRUE(contains(wrong.err, "\"frame.up\" 'w' is no axis") && contains(wrong.err, "--no-profile")) << wrong.err;
 }
 
+TEST_F(Frame, OfASceneOutOfReachIsNotWhatIsNamed) {
+  const std::string name = folder.file(std::string(300, 'x'));
+  const ProgramResult result = run({"info", name});
+  EXPECT_EQ(result.status, 1);
+  EXPECT_TRUE(contains(result.err, name + ": cannot be looked at: File name too long")) << result.err;
+}
+
 }  // namespace
