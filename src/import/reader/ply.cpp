@@ -153,8 +153,7 @@ class PlyBody {
       }
     }
     if (small_faces_ > 0) {
-      sink_.report_note(
-          fmt::format("{}: {} faces with fewer than three corners were skipped.", bytes_.path(), small_faces_));
+      sink_.report_note(fmt::format("{}: {}.", bytes_.path(), skipped_faces(small_faces_)));
     }
   }
 
