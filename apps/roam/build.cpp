@@ -22,7 +22,6 @@
 #include "scenes/frame.h"
 #include "scenes/scene_options.h"
 #include "scenes/user_key.h"
-#include "text/web_address.h"
 #include "verbs.h"
 
 namespace roam::app {
@@ -247,16 +246,7 @@ void check_usage(const BuildVerb& verb) {
     throw UsageError(fmt::format("{} with {}", verb.reading, verb.shard ? "--shard" : "--merge"),
                      "how the scene is read was fixed by --plan; leave it out, or plan again with it");
   }
-  for (const auto& scene : verb.scene.scenes) {
-    if (!scheme_name(scene.native()).empty()) {
-      throw UsageError(Error::at(scene.string(), scene.string() + " is an address: download the scene first"));
-    }
-    if (Store::is_store(scene)) {
-      throw UsageError(
-          Error::at(scene.string(), scene.string() + " is a store already: name the scene that it was made of"));
-    }
-  }
-  verb.scene.check_there();
+  verb.scene.check_files_there("name the scene that it was made of");
 }
 
 ExitStatus build(BuildVerb verb) {

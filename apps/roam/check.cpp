@@ -73,12 +73,38 @@ struct Result {
 
 /// Refuses a body that is smaller than the options say.
 void demand_size(const CheckOptions& options, const checking::Certificate& certificate) {
-  for (const checking::Size& size : certificate.sizes) {
-    if (size.radius < options.radius.value_or(0.0)) throw checking::Refused("the body is thinner than --radius", 0);
-    // A capsule's height is stored as two numbers.
-    if (height_of(size) < options.height.value_or(0.0) - 1e-9) {
-      throw checking::Refused("the body is lower than --height, at least for a part of its way", 0);
+  std::uint64_t number = 0;
+  for (const checking::Segment& s : certificate.segments) {
+    ++number;
+    const double radius = options.radius.value_or(0.0), height = options.height.value_or(0.0);
+    if (s.size.radius < radius) {
+      throw checking::Refused(fmt::format("the body's radius is {} m, below --radius {}", s.size.radius, radius),
+                              number);
     }
+    // A capsule's height is stored as two numbers.
+    if (height_of(s.size) < height - 1e-9) {
+      throw checking::Refused(fmt::format("the body is {:.9g} m high, below --height {}", height_of(s.size), height),
+                              number);
+    }
+  }
+}
+
+/// The remedy for a text that is not as it was written.
+const char* remedy(std::string_view text) {
+  if (text.find('\r') != std::string_view::npos) return "its lines end with CR LF: let them end with LF alone";
+  if (text.ends_with("\n\n")) return "an empty line was added at its end: remove it";
+  return "it is damaged or cut short: copy it again";
+}
+
+checking::Certificate read(const std::filesystem::path& file) {
+  const std::string text = read_input(file, limit);
+  if (!text.starts_with("roam certificate ")) {
+    throw Error(file.string(), "this is no certificate of `roam walk --certify`; name it before SCENE");
+  }
+  try {
+    return checking::read_certificate(text);
+  } catch (const std::invalid_argument& damaged) {
+    throw Error(file.string(), fmt::format("{}; {}", damaged.what(), remedy(text)));
   }
 }
 
@@ -145,19 +171,11 @@ std::string text_report(const CheckOptions& options, const Result& result) {
 }
 
 ExitStatus check_certificate(CheckOptions options) {
-  for (const auto& scene : options.scene.scenes) {
-    if (!Store::is_store(scene)) continue;
-    throw UsageError(scene.string(), "this is a store, which keeps triangles to within 2 mm only; name its scene");
-  }
-  options.scene.check_there();
+  options.scene.check_files_there("it keeps triangles to within 2 mm only; name its scene");
   take_kept_frame(options.scene);
-  const std::string text = read_input(options.certificate, limit);
-  if (!text.starts_with("roam certificate ")) {
-    throw Error(options.certificate.string(), "this is no certificate of `roam walk --certify`; name it before SCENE");
-  }
   Result result;
   try {
-    result.certificate = checking::read_certificate(text);
+    result.certificate = read(options.certificate);
     demand_size(options, *result.certificate);
     checking::Checker checker(*result.certificate);
     check_scene(options.scene, checker);
@@ -183,7 +201,8 @@ changes them, and the checksum, has the certificate of another walk. A refusal n
 The scene must have the same triangles and the same frame (--up, --unit, --ignore). For a walk in a store, name the
 scene that the store was built from.
 
-Exit status 0 if the certificate is accepted, 3 if it is refused.
+Exit status 0 if the certificate is accepted, 3 if it is refused; 1 if the file is damaged, which says nothing about
+the walk.
 
 Examples:
   roam check tour.certificate mine.dae

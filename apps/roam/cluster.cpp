@@ -33,7 +33,7 @@ struct ClusterVerb {
 /// A word of the shell. Throws UsageError for control characters, such as line breaks.
 std::string quoted(const std::string& word) {
   if (std::any_of(word.begin(), word.end(), [](unsigned char c) { return c < 0x20 || c == 0x7F; })) {
-    throw UsageError(Error::at(word, "a name has a line break or another control character; rename it"));
+    throw UsageError(word, "this name has a line break or another control character; rename it");
   }
   std::string text = "'";
   for (const char c : word) text += c == '\'' ? std::string("'\\''") : std::string(1, c);

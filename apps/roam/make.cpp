@@ -14,6 +14,7 @@
 #include "roam/error.h"
 #include "roam/generate.h"
 #include "verbs.h"
+#include "words/measures.h"
 
 namespace roam::app {
 namespace {
@@ -71,9 +72,9 @@ ExitStatus make(const MakeOptions& options, const generate::Scene& scene, bool g
                {"seconds", seconds}});
     return done;
   }
-  std::string text =
-      fmt::format("{}: {} triangles in {} objects, {}B, made in {}\n", printable_part(options.output.string()),
-                  scene.triangles(), scene.objects(), short_count(static_cast<double>(bytes)), short_time(seconds));
+  std::string text = fmt::format("{}: {} triangles in {}, {}B, made in {}\n", printable_part(options.output.string()),
+                                 scene.triangles(), words::counted(scene.objects(), "object"),
+                                 short_count(static_cast<double>(bytes)), short_time(seconds));
   for (const std::string& path : paths) text += printable_part(path) + "\n";
   print(text);
   return done;

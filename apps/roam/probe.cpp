@@ -82,10 +82,14 @@ std::vector<ProbedSize> matrix_sizes(const std::string& text, bool spheres) {
       throw UsageError(Error::at(error.where(), fmt::format("{}; and there is no file \"{}\"", error.what(), text)));
     }
   }
-  // A file may repeat a size a million times.
+  const std::string where = text.empty() ? "--matrix \"\"" : "--matrix " + text;
   std::set<std::pair<double, double>> seen;
-  std::erase_if(sizes, [&](const ProbedSize& size) { return !seen.emplace(size.radius, size.height).second; });
-  if (sizes.empty()) throw UsageError(text.empty() ? "--matrix \"\"" : "--matrix " + text, "there are no sizes in it");
+  for (const ProbedSize& size : sizes) {
+    if (!seen.emplace(size.radius, size.height).second) {
+      throw UsageError(where, fmt::format("it has the size {:g}x{:g} twice; leave one out", size.radius, size.height));
+    }
+  }
+  if (sizes.empty()) throw UsageError(where, "there are no sizes in it");
   return sizes;
 }
 
@@ -217,6 +221,8 @@ ExitStatus probe(ProbeOptions o) {
   if (o.path) demand_one_output("--path", *o.path, o.json);
   if (o.path && !is_standard(*o.path)) check_output(o.scene.scenes, "--path", *o.path);
   if (o.picture) check_output(o.scene.scenes, "--picture", *o.picture);
+  const NamedFile outputs[] = {{"--path", o.path.value_or("")}, {"--picture", o.picture.value_or("")}};
+  demand_no_overwriting({}, outputs);
   std::optional<tbb::global_control> limit;
   if (o.scene.threads > 0) {
     limit.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(o.scene.threads));

@@ -35,7 +35,7 @@ struct TrainVerbOptions {
   std::string mode = "walk", method = "interval";
   double slope = 45.0;
   std::optional<std::filesystem::path> picture, profile;
-  std::optional<double> height, radius_max;
+  std::optional<double> height, radius_min, radius_max;
   bool sphere = false;
   bool json = false;
   bool stats = false;
@@ -66,7 +66,8 @@ std::filesystem::path profile_file(const TrainVerbOptions& o) {
     check_output(o.scene.scenes, "-o", *o.profile);
     return *o.profile;
   }
-  const std::filesystem::path beside = profile_path(o.scene.scenes);
+  demand_no_address("without -o, the profile beside", o.scene.scenes.front());
+  std::filesystem::path beside = profile_path(o.scene.scenes);
   if (const std::optional<Obstacle> found = obstacle(beside))
     throw UsageError(
         Error::at(beside.string(), fmt::format("the profile {}: {}; name a file elsewhere by -o, or say --no-profile",
@@ -95,6 +96,7 @@ void write_profile(const TrainVerbOptions& o, const std::filesystem::path& file,
 /// Sets the trained body: a person of a fixed height, or a sphere, which has none.
 void describe_body(TrainVerbOptions& o) {
   if (o.train.mode == Mode::fly && !o.sphere) throw UsageError("--mode fly", flight_is_for_spheres);
+  o.train.radius_min = o.radius_min.value_or(o.train.radius_min);
   if (o.sphere) {
     o.train.radius_max = o.radius_max.value_or(o.train.radius_max);
     return;
@@ -118,11 +120,18 @@ ExitStatus train(TrainVerbOptions o) {
   o.train.method = o.method == "paper" ? Method::paper : Method::interval;
   o.train.threads = o.scene.threads;
   describe_body(o);
+  if (o.radius_min.value_or(0.0) > o.train.radius_max)
+    throw UsageError(
+        fmt::format("--radius-min {:g}", *o.radius_min),
+        fmt::format("the largest radius is {:g} m; take a smaller one, or a larger --radius-max or --height",
+                    o.train.radius_max));
   o.scene.check_there();
   if (o.scene.no_profile && o.profile) throw UsageError("-o and --no-profile", "one of them");
   const std::filesystem::path profile = profile_file(o);
   take_kept_frame(o.scene);
   if (o.picture) check_output(o.scene.scenes, "--picture", *o.picture);
+  const NamedFile outputs[] = {{"-o", profile}, {"--picture", o.picture.value_or("")}};
+  demand_no_overwriting({}, outputs);
   std::optional<draw::PictureFile> drawing;
   if (o.picture) drawing.emplace(*o.picture, draw::PictureFile::Views::in_metres);
   const Surveyed scene = survey_scene(o.scene, o.slope);
@@ -134,6 +143,7 @@ ExitStatus train(TrainVerbOptions o) {
     StagedProgress progress;
     o.train.progress = [&](TrainStage stage, double done) { return progress.at(stage, done); };
     report.training = train(scene.survey, o.train);
+    o.train.progress = {};
   }
   for (const words::Decisive& d : words::decisive(report.training))
     report.names.push_back(scene.names_at(d.point, d.direction, d.width));
@@ -185,7 +195,7 @@ void add_train(CLI::App& program, Run& run) {
       ->check(from_to(0.1, 100.0))
       ->type_name("H");
   add_sphere_to(*verb, o.sphere);
-  verb->add_option("--radius-min", o.train.radius_min, "Smallest radius; narrower openings are ignored (default: 0.15)")
+  verb->add_option("--radius-min", o.radius_min, "Smallest radius; narrower openings are ignored (default: 0.15)")
       ->check(from_to(0.01, 100.0))
       ->type_name("R");
   verb->add_option("--radius-max", o.radius_max, "Largest radius, at most H / 2 (default: 1, or H / 2 if less)")

@@ -251,11 +251,15 @@ ExitStatus walk(WalkOptions options) {
   check_way(options);
   take_kept_frame(options.scene);
   if (!options.against.scenes.empty()) {
-    // For a store, these options can only apply to the scene of --against.
     SceneOptions& scene = options.scene;
-    options.against.up = std::exchange(scene.up, {});
-    options.against.unit = std::exchange(scene.unit, {});
-    options.against.ignore = std::exchange(scene.ignore, {});
+    options.against.up = scene.up;
+    options.against.unit = scene.unit;
+    options.against.ignore = scene.ignore;
+    if (scene.name_a_store()) {  // to which these options cannot apply
+      scene.up.clear();
+      scene.unit.clear();
+      scene.ignore.clear();
+    }
     check_against(options.against);
   }
   const RecordedPath recorded = load_recorded_path(options.path);

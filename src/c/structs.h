@@ -27,9 +27,9 @@ inline void check_size(std::size_t size, std::size_t least, const char* name) {
 
 /// The size of a struct in the interface in which it was new. Members that came later are zero in older programs.
 template <class T>
-constexpr std::size_t first_size = sizeof(T);
+inline constexpr std::size_t first_size = sizeof(T);
 template <>
-constexpr std::size_t first_size<roam_store_options> = offsetof(roam_store_options, cache);
+inline constexpr std::size_t first_size<roam_store_options> = offsetof(roam_store_options, cache);
 
 /// A struct of the caller, with zeros in the members that it does not have. Throws Invalid for null, for a wrong size,
 /// and for members that this library does not know, unless they are zero.

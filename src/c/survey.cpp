@@ -31,7 +31,8 @@ roam_survey* new_survey(std::vector<Mesh> meshes, const roam_world_options& opti
   how.threads = options.threads;
   how.lossless = true;
   how.progress = [&](double done) { return progress.goes_on(done); };
-  return new roam_survey{Survey::build(std::move(meshes), how)};
+  Survey survey = Survey::build(std::move(meshes), how);
+  return new roam_survey{std::move(survey)};
 }
 
 int32_t limit_of(const std::optional<ProbeLimit>& limit) {

@@ -50,7 +50,7 @@ struct Refused : std::runtime_error {
 inline constexpr const char* first_line = "roam certificate 1";
 /// The last line of a certificate that begins with `text`.
 [[nodiscard]] std::string checksum_line(std::string_view text);
-/// Throws Refused for a text that does not hold together, whatever the scene.
+/// Throws std::invalid_argument for a damaged text, Refused for one that does not hold together, whatever the scene.
 [[nodiscard]] Certificate read_certificate(std::string_view text);
 
 /// Whether the axis is at least `distance` (> 0) from the triangle all along. True is certain; false is wrong by a few

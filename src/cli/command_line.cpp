@@ -49,8 +49,20 @@ ExitStatus refuse(const CLI::App& app, const Error& error, const Arguments& argu
   return bad_usage;
 }
 
+/// Refuses an empty name of a file or folder, as from a variable of a shell that is not set: nothing would be written.
+void demand_names(CLI::App& app) {
+  for (CLI::Option* option : app.get_options()) {
+    const std::string kind = option->get_type_name();
+    if (kind != "FILE" && kind != "FOLDER" && kind != "DIR") continue;
+    const char* const what = kind == "FILE" ? "a file" : "a folder";
+    option->check({[what](std::string& name) { return name.empty() ? std::string(what) + " needs a name" : ""; }, ""});
+  }
+  for (CLI::App* below : app.get_subcommands({})) demand_names(*below);
+}
+
 ExitStatus run(CLI::App& program, const Run& chosen, const Arguments& arguments) {
   set_up_help(program);
+  demand_names(program);
   try {
     program.parse(reversed(arguments));
   } catch (const CLI::CallForHelp&) {

@@ -20,6 +20,7 @@ std::optional<Obstacle> obstacle(const std::filesystem::path& file) {
   if (!fs::is_directory(folder, none))
     return Obstacle{"there is no folder " + folder.string(), "make it first, or name a file elsewhere"};
   const bool there = fs::exists(file, none);
+  if (there && !fs::is_regular_file(file, none)) return Obstacle{"that is a pipe or a device", "name a file"};
   if (::access(there ? file.c_str() : folder.c_str(), W_OK) == 0) return std::nullopt;
   return Obstacle{fmt::format("{} cannot be written: {}", there ? "it" : "its folder", std::strerror(errno)),
                   "name a file elsewhere"};
@@ -31,18 +32,40 @@ void demand_no_address(const std::string& option, const std::filesystem::path& o
       Error(option + " " + output.string(), "a web server cannot be written to; name a place on the disk"));
 }
 
+std::vector<NamedFile> named_scenes(std::span<const std::filesystem::path> scenes) {
+  std::vector<NamedFile> named;
+  for (const auto& scene : scenes) named.push_back({"the scene", scene});
+  return named;
+}
+
+void demand_no_overwriting(std::span<const NamedFile> inputs, std::span<const NamedFile> outputs) {
+  namespace fs = std::filesystem;
+  const auto same = [](const fs::path& a, const fs::path& b) {
+    std::error_code none;
+    if (a.empty() || b.empty()) return false;
+    const fs::path whole = fs::weakly_canonical(fs::absolute(a, none), none);
+    return fs::equivalent(a, b, none) || (!whole.empty() && whole == fs::weakly_canonical(fs::absolute(b, none), none));
+  };
+  for (std::size_t i = 0; i < outputs.size(); ++i) {
+    const auto demand_other = [&](const fs::path& file, const std::string& what) {
+      if (!same(file, outputs[i].file)) return;
+      throw UsageError(fmt::format("{} {}", outputs[i].name, outputs[i].file.string()),
+                       fmt::format("this would overwrite {}; name another file", what));
+    };
+    for (const NamedFile& input : inputs) demand_other(input.file, input.name);
+    for (const NamedFile& other : outputs.first(i)) demand_other(other.file, "what " + other.name + " writes");
+  }
+}
+
 void check_output(std::span<const std::filesystem::path> scenes, const std::string& option,
                   const std::filesystem::path& file) {
-  namespace fs = std::filesystem;
-  if (file.empty()) throw UsageError(option, "a file needs a name");
   if (is_standard(file)) throw UsageError(option + " -", "standard output takes paths and traces only; name a file");
   demand_no_address(option, file);
-  const std::string where = option + " " + file.string();
-  std::error_code none;
-  for (const fs::path& scene : scenes) {
-    if (fs::equivalent(scene, file, none)) throw UsageError(where, "this would overwrite the scene; name another file");
+  const NamedFile output{option, file};
+  demand_no_overwriting(named_scenes(scenes), {&output, 1});
+  if (const std::optional<Obstacle> found = obstacle(file)) {
+    throw UsageError(option + " " + file.string(), found->what + "; " + found->advice);
   }
-  if (const std::optional<Obstacle> found = obstacle(file)) throw UsageError(where, found->what + "; " + found->advice);
 }
 
 }  // namespace roam::app

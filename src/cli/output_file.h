@@ -7,6 +7,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "roam/error.h"
 
@@ -22,8 +23,19 @@ struct Obstacle {
 /// Throws UsageError, naming the option, for the address of a web server.
 void demand_no_address(const std::string& option, const std::filesystem::path& output);
 
-/// Throws UsageError, naming the option, for a file that cannot be written: one without a name, an address, a folder,
-/// one of the scenes, or one in a folder that does not exist or is not writable.
+/// A file, and its name in a sentence ("the path") or the option that names it. Empty: not given.
+struct NamedFile {
+  std::string name;
+  std::filesystem::path file;
+};
+/// Those of a scene.
+[[nodiscard]] std::vector<NamedFile> named_scenes(std::span<const std::filesystem::path> scenes);
+
+/// Throws UsageError for an output that is an input, too, or an output before it.
+void demand_no_overwriting(std::span<const NamedFile> inputs, std::span<const NamedFile> outputs);
+
+/// Throws UsageError, naming the option, for a file that cannot be written: an address, a folder, a pipe, one of the
+/// scenes, or one in a folder that does not exist or is not writable.
 void check_output(std::span<const std::filesystem::path> scenes, const std::string& option,
                   const std::filesystem::path& file);
 

@@ -5,9 +5,11 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <charconv>
 #include <cstdint>
 #include <limits>
 #include <string>
+#include <system_error>
 #include <type_traits>
 #include <vector>
 
@@ -23,7 +25,11 @@ template <class Number>
 [[nodiscard]] CLI::Validator from_to(Number least, Number most) {
   return {[=](std::string& text) {
             Number value{};
-            const bool within = CLI::detail::lexical_cast(text, value) && value >= least && value <= most;
+            bool within = CLI::detail::lexical_cast(text, value) && value >= least && value <= most;
+            if constexpr (std::is_integral_v<Number>) {  // CLI11 takes what is too great for one as the greatest
+              const auto read = std::from_chars(text.data(), text.data() + text.size(), value);
+              within = within && read.ec != std::errc::result_out_of_range;
+            }
             return within ? std::string()
                           : fmt::format("'{}' is not a {} from {} to {}", text,
                                         std::is_integral_v<Number> ? "whole number" : "number", least, most);

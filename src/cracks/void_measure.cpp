@@ -304,9 +304,7 @@ class Floods {
     for (const Cell& cell : cells) {
       if (cell.floor_distance < probe_.open_radius()) continue;
       const Vec3 centre = place_of(cell);
-      if (std::none_of(discs.begin(), discs.end(),
-                       [&](const Vec3& other) { return level_distance(other, centre) < 2.0 * options_.smallest; }))
-        discs.push_back(centre);
+      if (!is_near(discs, centre, 2.0 * options_.smallest)) discs.push_back(centre);
     }
     return discs;
   }
@@ -393,9 +391,9 @@ std::vector<MeasuredVoid> measure_voids(const CrackOptions& options, const VoidP
   });
   std::vector<MeasuredVoid> all;
   std::vector<RimPlace> rest;
-  for (std::vector<MeasuredVoid>& part : measured) std::move(part.begin(), part.end(), std::back_inserter(all));
   for (std::vector<RimPlace>& part : left) std::move(part.begin(), part.end(), std::back_inserter(rest));
-  for (MeasuredVoid& found : climbed(options, drops, std::move(rest))) all.push_back(std::move(found));
+  measured.push_back(climbed(options, drops, std::move(rest)));
+  for (std::vector<MeasuredVoid>& part : measured) std::move(part.begin(), part.end(), std::back_inserter(all));
   return all;
 }
 

@@ -46,7 +46,7 @@ Part street(const City& city, int row, int col) {
   Grid grid{.rows = static_cast<int>(xs.size()) - 1, .cols = static_cast<int>(ys.size()) - 1};
   grid.points = [xs, ys, corner = city.corner(row, col), origin = city.origin](int r, std::span<Vec3> out) {
     for (std::size_t k = 0; k < out.size(); ++k) {
-      out[k] = Vec3{corner.x + xs[static_cast<std::size_t>(r)], corner.y + ys[k], 0.0} + origin;
+      out[k] = Vec3(corner.x + xs[static_cast<std::size_t>(r)], corner.y + ys[k], 0.0) + origin;
     }
   };
   const Hole block{index_of(xs, marks[1]), index_of(xs, marks[2]), index_of(ys, marks[1]), index_of(ys, marks[2])};

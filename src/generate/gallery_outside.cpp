@@ -98,7 +98,7 @@ Part dam(const GalleryOptions& options, const GalleryDetail& detail) {
   const auto row_points = [axis, section, stations, origin = options.origin](int row, std::span<Vec3> out) {
     const Axis::Frame f = axis->frame(stations[static_cast<std::size_t>(row)]);
     for (std::size_t k = 0; k < out.size(); ++k) {
-      out[k] = Vec3{f.origin.x + f.left.x * section[k].y, f.origin.y + f.left.y * section[k].y, section[k].z} + origin;
+      out[k] = Vec3(f.origin.x + f.left.x * section[k].y, f.origin.y + f.left.y * section[k].y, section[k].z) + origin;
     }
   };
   Part part{"dam", {}, {}};
@@ -136,7 +136,7 @@ Part ground(const GalleryOptions& options, const GalleryDetail& detail) {
       const double share = smooth((std::fabs(p.offset) - plain_from - margin) / plain_over);
       double z = bank_height(axis->length(), p.station, margin);
       if (share > 0.0) z += share * hills(seed, x, y);
-      out[static_cast<std::size_t>(col)] = Vec3{x, y, z} + origin;
+      out[static_cast<std::size_t>(col)] = Vec3(x, y, z) + origin;
     }
   };
   return {"terrain", {std::move(grid)}, {}};

@@ -80,7 +80,7 @@ Scene terrain(const TerrainOptions& options) {
       const double x = size * (static_cast<double>(row0 + row) / cells);
       for (std::size_t k = 0; k < out.size(); ++k) {
         const double y = size * (static_cast<double>(col0 + static_cast<int>(k)) / cells);
-        out[k] = Vec3{x, y, relief.height(x, y)} + origin;
+        out[k] = Vec3(x, y, relief.height(x, y)) + origin;
       }
     };
     return Part{fmt::format("terrain/{:03}_{:03}", tile_row, tile_col), {std::move(grid)}, {}};

@@ -53,6 +53,7 @@ Page Page::of(float width, float height) {
 
 void StatusPanel::lay_out(const Page& page, const std::vector<StatusLine>& lines) {
   std::vector<std::string> labels;
+  labels.reserve(lines.size());
   for (const StatusLine& line : lines) labels.push_back(line.label);
   const bool rebuilt = page != page_ || labels != labels_;
   if (rebuilt) {

@@ -32,7 +32,7 @@ struct Page {
 /// into up to three lines, or fewer if there is no room for all of them.
 class StatusPanel {
  public:
-  explicit StatusPanel(osg::ref_ptr<osg::StateSet> plates) : plates_(std::move(plates)) {}
+  explicit StatusPanel(const osg::ref_ptr<osg::StateSet>& plates) : plates_(plates) {}
   [[nodiscard]] osg::Node* node() const { return group_.get(); }
   void lay_out(const Page& page, const std::vector<StatusLine>& lines);
   /// The plate; empty without lines.

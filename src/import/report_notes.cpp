@@ -36,10 +36,11 @@ void add_count_notes(ImportReport& report, const ImportOptions& options, const s
         report.bad_triangles, report.bad_vertices, listed(report.bad_objects)));
   }
   if (report.missing_pages > 0) {
-    notes.push_back(
-        fmt::format("{} files that the scene refers to are absent or unreadable; coarser geometry stands in where "
-                    "there is one: {}.",
-                    report.missing_pages, listed(report.missing_page_files)));
+    const bool one = report.missing_pages == 1;
+    notes.push_back(fmt::format(
+        "{} {} that the scene refers to {} absent or unreadable; coarser geometry stands in where there is "
+        "one: {}.",
+        report.missing_pages, one ? "file" : "files", one ? "is" : "are", listed(report.missing_page_files)));
   }
   if (report.outside_references > 0) {
     const bool one = report.outside_references == 1;

@@ -57,6 +57,7 @@ void take_kept_frame(SceneOptions& scene) {
   try {
     kept = find_frame(scene.scenes);
   } catch (const Error& error) {
+    scene.check_there();  // the profile may be out of reach because the scene is
     throw Error::at(error.where(), std::string(error.what()) + "; --no-profile does without it");
   }
   if (!kept || kept == frame_of(scene)) return;

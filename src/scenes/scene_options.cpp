@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <chrono>
 
+#include "cli/exit_status.h"
 #include "cli/help.h"
 #include "cli/interrupt.h"
 #include "cli/progress.h"
@@ -35,6 +36,25 @@ World index(const SceneOptions& options, const ImportedScene& scene) {
     return progress.goes_on(static_cast<std::uint64_t>(done), scene.report.triangles);
   };
   return World::build(scene.meshes, build);
+}
+
+void check_is_there(const std::filesystem::path& scene) {
+  std::error_code none;
+  if (scene.empty()) throw Error("the name of a scene is empty; name a file or a folder");
+  if (!std::filesystem::exists(scene, none)) {
+    if (none && none != std::errc::no_such_file_or_directory && none != std::errc::not_a_directory) {
+      throw Error(scene.string(), "cannot be looked at: " + none.message());
+    }
+    const std::filesystem::path target = std::filesystem::read_symlink(scene, none);
+    throw Error(scene.string(), target.empty() ? "there is no such file or folder. " + help_for_missing(scene.native())
+                                               : "is a link to " + target.string() + ", which is not there.");
+  }
+  // An incomplete store, or one without CURRENT, is no folder of photogrammetry. Opening it gives the reason.
+  int folders_of_stores = 0;
+  for (const char* name : {"manifests", "packs", "parts"}) {
+    folders_of_stores += std::filesystem::is_directory(scene / name, none) ? 1 : 0;
+  }
+  if (folders_of_stores > 1) static_cast<void>(Store::open(scene));
 }
 
 }  // namespace
@@ -133,25 +153,17 @@ bool SceneOptions::name_a_store() const {
 }
 
 void SceneOptions::check_there() const {
-  std::error_code none;
   for (const auto& scene : scenes) {
-    if (Store::is_address(scene.native())) continue;
-    if (scene.empty()) throw Error("the name of a scene is empty; name a file or a folder");
-    if (!std::filesystem::exists(scene, none)) {
-      if (none && none != std::errc::no_such_file_or_directory && none != std::errc::not_a_directory) {
-        throw Error(scene.string(), "cannot be looked at: " + none.message());
-      }
-      const std::filesystem::path target = std::filesystem::read_symlink(scene, none);
-      throw Error(scene.string(), target.empty()
-                                      ? "there is no such file or folder. " + help_for_missing(scene.native())
-                                      : "is a link to " + target.string() + ", which is not there.");
+    if (!Store::is_address(scene.native())) check_is_there(scene);
+  }
+}
+
+void SceneOptions::check_files_there(const std::string& advice) const {
+  for (const auto& scene : scenes) {
+    if (!Store::is_address(scene.native()) && Store::is_store(scene)) {
+      throw UsageError(scene.string(), "this is a store; " + advice);
     }
-    // An incomplete store, or one without CURRENT, is no folder of photogrammetry. Opening it gives the reason.
-    int folders_of_stores = 0;
-    for (const char* name : {"manifests", "packs", "parts"}) {
-      folders_of_stores += std::filesystem::is_directory(scene / name, none) ? 1 : 0;
-    }
-    if (folders_of_stores > 1) static_cast<void>(Store::open(scene));
+    check_is_there(scene);
   }
 }
 

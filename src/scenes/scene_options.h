@@ -54,6 +54,9 @@ struct SceneOptions {
   [[nodiscard]] bool name_a_store() const;
   /// Throws roam::Error for a missing scene, and for a store that is still being built.
   void check_there() const;
+  /// The same for scenes that must be files, or folders of them: UsageError for a store, with `advice` ("name its
+  /// scene"), Error for an address.
+  void check_files_there(const std::string& advice) const;
   /// The file names for display, separated by ", ".
   [[nodiscard]] std::string names() const;
   /// The same without folders, for the title of a picture.

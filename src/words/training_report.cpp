@@ -1,5 +1,6 @@
 // The report of `roam train`: the answer in one line, and labelled lines.
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 #include "text/printable.h"
@@ -100,7 +101,7 @@ std::string left_out(const Training& t) {
   }
   if (count == 0) return {};
   std::string text = counted(count, "part");
-  if (area > 0.0) text += fmt::format(" with {} m2 of floor", grouped(static_cast<std::uint64_t>(area + 0.5)));
+  if (area > 0.0) text += fmt::format(" with {} m2 of floor", grouped(static_cast<std::uint64_t>(std::llround(area))));
   text += ":";
   for (const std::string& reason : reasons) text += (reason == *reasons.begin() ? " " : "; ") + reason;
   return text + " (--stats lists them)";

@@ -19,10 +19,11 @@ Box united(const Box& a, const Box& b) {
 void BoxTree::change(const std::vector<Item>& put, const std::vector<std::uint32_t>& erased) {
   if (put.empty() && erased.empty()) return;
   const bool many = (put.size() + erased.size()) * many_part > size_;
-  const std::size_t most = size_ + put.size();
+  const auto is_new = [&](const Item& item) { return leaf_of(item.number) == none; };
+  const auto added = static_cast<std::size_t>(std::count_if(put.begin(), put.end(), is_new));
   std::vector<Item> all;
-  if (many || nodes_[root_].height + put.size() >= deepest_tree) all.reserve(most);
-  make_room(put, most);
+  if (many || nodes_[root_].height + put.size() >= deepest_tree) all.reserve(size_ + added);
+  make_room(put, many ? 2 * (size_ + added) : nodes_.size() + 2 * added);
   // Nothing from here on allocates, so nothing fails halfway.
   for (const std::uint32_t number : erased) erase(number);
   if (many) {
@@ -41,14 +42,13 @@ void BoxTree::change(const std::vector<Item>& put, const std::vector<std::uint32
   }
 }
 
-void BoxTree::make_room(const std::vector<Item>& put, std::size_t most) {
+void BoxTree::make_room(const std::vector<Item>& put, std::size_t nodes) {
   // More than needed, as push_back does: many changes of one item each take constant time on average.
   const auto grow = [](auto& list, std::size_t size) {
     if (list.capacity() < size) list.reserve(std::max(size, 2 * list.capacity()));
   };
-  const std::size_t nodes = std::max(2 * most, nodes_.size() + 2 * put.size());
   grow(nodes_, nodes);
-  grow(unused_, nodes);
+  grow(unused_, std::max(nodes, nodes_.size()));
   for (const Item& item : put) {
     if (item.number >= leaves_.size()) leaves_.resize(item.number + 1, none);
   }

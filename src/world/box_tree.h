@@ -142,8 +142,8 @@ class BoxTree {
     }
   }
 
-  /// For a change that puts these items: `most` items in all. Nothing else allocates.
-  void make_room(const std::vector<Item>& put, std::size_t most);
+  /// For a change that puts these items, to so many nodes in all. Nothing else allocates.
+  void make_room(const std::vector<Item>& put, std::size_t nodes);
   void build(std::vector<Item>& items);
   std::uint32_t split(std::vector<Item>& items, std::size_t begin, std::size_t end);
   void insert(const Item& item);

@@ -54,6 +54,8 @@ std::string refusal(const std::string& text, const std::vector<Triangle>& triang
     checker.finish();
   } catch (const Refused& refused) {
     return std::to_string(refused.segment) + ": " + refused.what();
+  } catch (const std::invalid_argument& damaged) {
+    return damaged.what();
   }
   return "";
 }

@@ -4,6 +4,7 @@
 
 #include <future>
 
+#include "messages.h"
 #include "program.h"
 
 namespace {
@@ -49,6 +50,29 @@ TEST(Addresses, NothingIsWrittenToThem) {
     EXPECT_NE(told.err.find("a web server cannot be written to"), std::string::npos) << told.err;
   }
   EXPECT_EQ(run_program(ROAM_PROGRAM, {"publish", file, ""}).status, 2) << "nor to a folder without a name";
+}
+
+TEST(Addresses, AreRefusedAlikeWhereAFileIsNeeded) {
+  const TestFolder folder;
+  const std::string file = folder.write("a.ply", "ply\n");
+  for (const auto& [address, help] :
+       {std::pair<std::string, std::string>{"http://127.0.0.1:1/a", "a scene is downloaded first"},
+        {"ftp://127.0.0.1:1/a", "all else is copied here first"}}) {
+    for (const std::vector<std::string>& arguments : std::vector<std::vector<std::string>>{
+             {"build", address}, {"check", file, address}, {"walk", file, "--path", file, "--against", address}}) {
+      const ProgramResult told = run_program(ROAM_PROGRAM, arguments);
+      EXPECT_EQ(told.status, 1) << told.err;
+      EXPECT_TRUE(contains(told.err, address + ": there is no such file or folder. ")) << told.err;
+      EXPECT_TRUE(contains(told.err, help)) << told.err;
+    }
+  }
+}
+
+TEST(Addresses, HaveNoProfileBesideThem) {
+  const ProgramResult told = run_program(ROAM_PROGRAM, {"train", "http://127.0.0.1:1/a"});
+  EXPECT_EQ(told.status, 2) << told.err;
+  EXPECT_TRUE(contains(told.err, "without -o, the profile beside http://127.0.0.1:1/a: a web server cannot be written"))
+      << told.err;
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include <set>
 #include <thread>
 
+#include "messages.h"
 #include "program.h"
 
 namespace {
@@ -20,16 +21,14 @@ ProgramResult bench(std::vector<std::string> arguments) {
   return run_program(ROAM_PROGRAM, arguments);
 }
 
-bool says(const std::string& text, const std::string& words) { return text.find(words) != std::string::npos; }
-
 TEST(BenchVerb, ListsWhatItMeasuresAndAsksWhich) {
   const ProgramResult help = bench({"--help"});
   EXPECT_EQ(help.status, 0) << help.err;
   for (const char* verb : {"engines", "labels", "paper", "scale", "walkers"})
-    EXPECT_TRUE(says(help.out, verb)) << help.out;
+    EXPECT_TRUE(contains(help.out, verb)) << help.out;
   const ProgramResult nothing = bench({});
   EXPECT_EQ(nothing.status, 2);
-  EXPECT_TRUE(says(nothing.err, "engines, labels, paper, scale or walkers")) << nothing.err;
+  EXPECT_TRUE(contains(nothing.err, "engines, labels, paper, scale or walkers")) << nothing.err;
 }
 
 TEST(BenchVerb, SaysHowToGetTheProgramWhereItIsNotInstalled) {
@@ -38,8 +37,8 @@ TEST(BenchVerb, SaysHowToGetTheProgramWhereItIsNotInstalled) {
   std::filesystem::copy_file(ROAM_PROGRAM, alone);
   const ProgramResult result = run_program(alone, {"bench", "engines"});
   EXPECT_EQ(result.status, 1);
-  EXPECT_TRUE(says(result.err, "roam-bench")) << result.err;
-  EXPECT_TRUE(says(result.err, "cmake --preset bench")) << result.err;
+  EXPECT_TRUE(contains(result.err, "roam-bench")) << result.err;
+  EXPECT_TRUE(contains(result.err, "cmake --preset bench")) << result.err;
 }
 
 TEST(BenchVerb, RefusesAProgramThatCannotBeRun) {
@@ -47,12 +46,18 @@ TEST(BenchVerb, RefusesAProgramThatCannotBeRun) {
   const ProgramResult result = bench({"engines"});
   ::unsetenv("ROAM_BENCH");
   EXPECT_EQ(result.status, 1);
-  EXPECT_TRUE(says(result.err, "/no/such/program")) << result.err;
+  EXPECT_TRUE(contains(result.err, "/no/such/program")) << result.err;
 }
 
 #ifdef ROAM_HAS_BENCH
 
-nlohmann::json json(const ProgramResult& result) { return nlohmann::json::parse(result.out, nullptr, false); }
+/// The report of a run that succeeds.
+nlohmann::json report_of(std::vector<std::string> arguments) {
+  arguments.emplace_back("--json");
+  const ProgramResult result = bench(std::move(arguments));
+  EXPECT_EQ(result.status, 0) << result.err;
+  return nlohmann::json::parse(result.out, nullptr, false);
+}
 
 const std::vector<std::string> small{"engines",  "--triangles", "10000",      "--queries", "200",
                                      "--rounds", "2",           "--patience", "100000"};
@@ -63,9 +68,8 @@ std::vector<std::string> with(std::vector<std::string> arguments, const std::vec
 }
 
 TEST(BenchEngines, TellsWrongAnswersAndTimesOfEachEngineOnEachSet) {
-  const ProgramResult result = bench(with(small, {"--json", "--sets", "random,capsule", "--engines", "roam,paper"}));
-  ASSERT_EQ(result.status, 0) << result.err;
-  const nlohmann::json report = json(result)["scenes"][0];
+  const nlohmann::json report =
+      report_of(with(small, {"--sets", "random,capsule", "--engines", "roam,paper"}))["scenes"][0];
   EXPECT_NEAR(report["triangles"].get<double>(), 10'000, 300);
   ASSERT_EQ(report["engines"].size(), 2U);
   EXPECT_EQ(report["engines"][0]["engine"], "roam");
@@ -84,9 +88,7 @@ TEST(BenchEngines, TellsWrongAnswersAndTimesOfEachEngineOnEachSet) {
 
 TEST(BenchEngines, MeasuresRaysAndNearestPointsBesideTheSweeps) {
   const std::vector<std::string> more{"--sets", "random,rays,walkrays,nearest", "--engines", "roam,paper"};
-  const ProgramResult result = bench(with(with(small, more), {"--json"}));
-  ASSERT_EQ(result.status, 0) << result.err;
-  const nlohmann::json report = json(result);
+  const nlohmann::json report = report_of(with(small, more));
   std::vector<std::string> sets;
   for (const auto& run : report["scenes"][0]["runs"]) {
     sets.push_back(run["set"]);
@@ -107,12 +109,10 @@ TEST(BenchEngines, MeasuresRaysAndNearestPointsBesideTheSweeps) {
 
 TEST(BenchEngines, MeasuresSeveralScenesAndComparesOverAllRows) {
   const std::vector<std::string> scenes{"--scene", "gallery:10k", "--scene", "terrain", "--sets", "random,long"};
-  const ProgramResult result = bench(with(with(small, scenes), {"--json", "--engines", "roam,polytope,paper"}));
-  ASSERT_EQ(result.status, 0) << result.err;
-  const nlohmann::json report = json(result);
+  const nlohmann::json report = report_of(with(with(small, scenes), {"--engines", "roam,polytope,paper"}));
   ASSERT_EQ(report["scenes"].size(), 2U);
-  EXPECT_TRUE(says(report["scenes"][0]["scene"], "gallery")) << report;
-  EXPECT_TRUE(says(report["scenes"][1]["scene"], "terrain")) << report;
+  EXPECT_TRUE(contains(report["scenes"][0]["scene"], "gallery")) << report;
+  EXPECT_TRUE(contains(report["scenes"][1]["scene"], "terrain")) << report;
   ASSERT_EQ(report["leads"]["rows"].size(), 4U);
   double product = 1.0, least = 1e9;
   for (const auto& row : report["leads"]["rows"]) {
@@ -124,25 +124,25 @@ TEST(BenchEngines, MeasuresSeveralScenesAndComparesOverAllRows) {
   EXPECT_EQ(report["leads"]["all"]["p99"]["worst"], least);
 
   const ProgramResult text = bench(with(with(small, scenes), {"--engines", "roam,paper"}));
-  for (const char* words : {"geometric mean", "worst row by hit p50"}) EXPECT_TRUE(says(text.out, words)) << text.out;
-  EXPECT_EQ(bench({"engines", "--scene", "gallery:many"}).status, 2);
+  for (const char* words : {"geometric mean", "worst row by hit p50"})
+    EXPECT_TRUE(contains(text.out, words)) << text.out;
 }
 
 TEST(BenchEngines, NamesEnginesThatAreNotHereAndWhatToInstall) {
   const ProgramResult result =
       bench(with(small, {"--sets", "random", "--engines", "roam,physx-wasm,jolt-wasm,three-mesh-bvh"}));
   ASSERT_EQ(result.status, 0) << result.err;
-  EXPECT_TRUE(says(result.out, "physx")) << result.out;
-  EXPECT_TRUE(says(result.out, "npm install --prefix DIR physx-js-webidl")) << result.out;
-  EXPECT_TRUE(says(result.out, "npm install --prefix DIR jolt-physics")) << result.out;
-  EXPECT_TRUE(says(result.out, "npm install --prefix DIR three three-mesh-bvh")) << result.out;
+  EXPECT_TRUE(contains(result.out, "physx")) << result.out;
+  EXPECT_TRUE(contains(result.out, "npm install --prefix DIR physx-js-webidl")) << result.out;
+  EXPECT_TRUE(contains(result.out, "npm install --prefix DIR jolt-physics")) << result.out;
+  EXPECT_TRUE(contains(result.out, "npm install --prefix DIR three three-mesh-bvh")) << result.out;
 
   const TestFolder folder;
   const ProgramResult elsewhere =
       bench(with(small, {"--engines", "physx-wasm", "--wasm-engines", folder.file("nothing")}));
   EXPECT_EQ(elsewhere.status, 1);
-  EXPECT_TRUE(says(elsewhere.err, "none of the chosen engines")) << elsewhere.err;
-  EXPECT_TRUE(says(elsewhere.err, "npm install --prefix " + folder.file("nothing"))) << elsewhere.err;
+  EXPECT_TRUE(contains(elsewhere.err, "none of the chosen engines")) << elsewhere.err;
+  EXPECT_TRUE(contains(elsewhere.err, "npm install --prefix " + folder.file("nothing"))) << elsewhere.err;
 }
 
 TEST(BenchEngines, PrintsATableAndDrawsBars) {
@@ -152,29 +152,23 @@ TEST(BenchEngines, PrintsATableAndDrawsBars) {
       bench(with(small, {"--sets", "random", "--engines", "roam,paper", "--picture", picture}));
   ASSERT_EQ(result.status, 0) << result.err;
   for (const char* head : {"missed", "late", "early", "deepest", "p50", "p99", "max", "B/triangle", "build 1, s"}) {
-    EXPECT_TRUE(says(result.out, head)) << result.out;
+    EXPECT_TRUE(contains(result.out, head)) << result.out;
   }
   const std::string svg = folder.read("engines.svg");
-  EXPECT_TRUE(says(svg, "<svg"));
+  EXPECT_TRUE(contains(svg, "<svg"));
   std::size_t letters = 0;
   for (std::size_t k = 0; (k = svg.find("xlink:href", k)) != std::string::npos; ++k) ++letters;
   EXPECT_GT(letters, 100U) << svg;
 }
 
-TEST(BenchEngines, RefusesWhatItDoesNotKnow) {
-  EXPECT_EQ(bench({"engines", "--engines", "unity"}).status, 2);
-  EXPECT_EQ(bench({"engines", "--sets", "sideways"}).status, 2);
-  EXPECT_EQ(bench({"engines", "--patience", "0"}).status, 2);
+TEST(BenchEngines, RefusesASceneThatIsNotThere) {
   const ProgramResult missing = bench({"engines", "--scene", "/no/such/scene.ply"});
   EXPECT_EQ(missing.status, 1);
-  EXPECT_TRUE(says(missing.err, "/no/such/scene.ply")) << missing.err;
+  EXPECT_TRUE(contains(missing.err, "/no/such/scene.ply")) << missing.err;
 }
 
 TEST(BenchWalkers, WalksThreeWaysAndSaysWhoCameIntoWalls) {
-  const ProgramResult result =
-      bench({"walkers", "--triangles", "50k", "--rounds", "1", "--controllers", "roam", "--json"});
-  ASSERT_EQ(result.status, 0) << result.err;
-  const nlohmann::json report = json(result);
+  const nlohmann::json report = report_of({"walkers", "--triangles", "50k", "--rounds", "1", "--controllers", "roam"});
   ASSERT_EQ(report["walks"].size(), 3U);
   for (const auto& walk : report["walks"]) {
     EXPECT_EQ(walk["outcome"], "completed") << walk;
@@ -182,7 +176,6 @@ TEST(BenchWalkers, WalksThreeWaysAndSaysWhoCameIntoWalls) {
     EXPECT_GT(walk["steps"], 2000) << walk;
     EXPECT_GE(walk["p99_us"], walk["p50_us"]);
   }
-  EXPECT_EQ(bench({"walkers", "--controllers", "unity"}).status, 2);
 }
 
 nlohmann::json row_of(const nlohmann::json& rows, const std::string& name) {
@@ -193,10 +186,8 @@ nlohmann::json row_of(const nlohmann::json& rows, const std::string& name) {
 }
 
 TEST(BenchPaper, MeasuresBothTablesAndNamesRowsThatCannotBeRun) {
-  const ProgramResult result =
-      bench({"paper", "--triangles", "50k", "--rows", "roam,osg-bullet,polytope-kdtree,ogre-bullet,unity", "--json"});
-  ASSERT_EQ(result.status, 0) << result.err;
-  const nlohmann::json report = json(result);
+  const nlohmann::json report =
+      report_of({"paper", "--triangles", "50k", "--rows", "roam,osg-bullet,polytope-kdtree,ogre-bullet,unity"});
   const bool with_bullet = row_of(report["absent"], "osg-bullet").is_null();
   const bool with_ogre = row_of(report["absent"], "ogre-bullet").is_null();
   ASSERT_EQ(report["table_1"].size(), 6U * (2U + (with_bullet ? 1U : 0U) + (with_ogre ? 1U : 0U))) << "six ways a row";
@@ -239,9 +230,7 @@ TEST(BenchPaper, MeasuresBothTablesAndNamesRowsThatCannotBeRun) {
 
 // The finer the wall, the more of its triangles touch who is held within Bullet's tolerance of it.
 TEST(BenchPaper, KeepsBulletFarEnoughOffAWallToFallAlongIt) {
-  const ProgramResult result = bench({"paper", "--triangles", "300k", "--rows", "roam-sweep,osg-bullet", "--json"});
-  ASSERT_EQ(result.status, 0) << result.err;
-  const nlohmann::json report = json(result);
+  const nlohmann::json report = report_of({"paper", "--triangles", "300k", "--rows", "roam-sweep,osg-bullet"});
   if (!row_of(report["absent"], "osg-bullet").is_null()) GTEST_SKIP() << "no Bullet here";
   std::map<std::string, int> steps;
   for (const auto& cell : report["table_1"]) {
@@ -254,14 +243,12 @@ TEST(BenchPaper, KeepsBulletFarEnoughOffAWallToFallAlongIt) {
 }
 
 TEST(BenchPaper, EndsARowThatTakesMoreThanItMay) {
-  const std::vector<std::string> row{"paper", "--triangles", "50k", "--rows", "polytope-kdtree,physx", "--json"};
+  const std::vector<std::string> row{"paper", "--triangles", "50k", "--rows", "polytope-kdtree,physx"};
   for (const auto& [option, least, why] : {std::array{"--memory", "10MiB", "more than 10 MiB of memory"},
                                            std::array{"--loading", "0.001", "not loaded the scene in 0.001 s"}}) {
-    const ProgramResult result = bench(with(row, {option, least}));
-    ASSERT_EQ(result.status, 0) << result.err << "others may fail";
-    const nlohmann::json report = json(result);
-    EXPECT_TRUE(says(row_of(report["failed"], "polytope-kdtree")["why"], why)) << report["failed"];
-    EXPECT_TRUE(says(row_of(report["absent"], "physx")["why"], "npm install")) << report["absent"];
+    const nlohmann::json report = report_of(with(row, {option, least}));
+    EXPECT_TRUE(contains(row_of(report["failed"], "polytope-kdtree")["why"], why)) << report["failed"];
+    EXPECT_TRUE(contains(row_of(report["absent"], "physx")["why"], "npm install")) << report["absent"];
     EXPECT_TRUE(report["table_1"].empty());
   }
 }
@@ -299,7 +286,7 @@ TEST(BenchPaper, LaysOutOnlyWhatTheRowsRead) {
       result = bench({"paper", "--triangles", "50k", "--rows", row, "--scratch", folder.file("")});
     });
     if (row == std::string("ogre-bullet") && result.status == 1) {
-      EXPECT_TRUE(says(result.err, "libogre")) << result.err;
+      EXPECT_TRUE(contains(result.err, "libogre")) << result.err;
       continue;
     }
     ASSERT_EQ(result.status, 0) << result.err;
@@ -313,9 +300,9 @@ TEST(BenchPaper, LaysOutOnlyWhatTheRowsRead) {
 TEST(BenchPaper, SaysAtOnceThatNoneOfItsRowsCanBeRun) {
   const ProgramResult result = bench({"paper", "--rows", "unity,physx"});
   EXPECT_EQ(result.status, 1);
-  EXPECT_TRUE(says(result.err, "unity: it cannot be run")) << result.err;
-  EXPECT_TRUE(says(result.err, "physx: `npm install")) << result.err;
-  EXPECT_FALSE(says(result.err, "laying out")) << result.err;
+  EXPECT_TRUE(contains(result.err, "unity: it cannot be run")) << result.err;
+  EXPECT_TRUE(contains(result.err, "physx: `npm install")) << result.err;
+  EXPECT_FALSE(contains(result.err, "laying out")) << result.err;
 }
 
 /// Interrupts that command after each of some times, and looks at what is left.
@@ -327,7 +314,7 @@ void expect_to_end_on_ctrl_c(std::vector<std::string> arguments, const std::vect
     if (all[1] != "engines") all.insert(all.end(), {"--scratch", folder.file("")});
     const ProgramResult result = run_program(ROAM_PROGRAM, all, {.input = {}, .interrupt_after = after});
     EXPECT_EQ(result.status, 130) << result.err;
-    EXPECT_TRUE(says(result.err, "cancelled")) << result.err;
+    EXPECT_TRUE(contains(result.err, "cancelled")) << result.err;
     EXPECT_TRUE(std::filesystem::is_empty(folder.file(""))) << "after " << after << " s";
   }
 }
@@ -349,16 +336,13 @@ TEST(BenchPaper, RefusesASceneThatIsNotAtThePlaceOfTable1) {
   const std::string elsewhere = folder.write("triangle.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
   const ProgramResult result = bench({"paper", "--scene", elsewhere});
   EXPECT_EQ(result.status, 1);
-  EXPECT_TRUE(says(result.err, "Table 1")) << result.err;
-  EXPECT_EQ(bench({"paper", "--rows", "unreal"}).status, 2);
+  EXPECT_TRUE(contains(result.err, "Table 1")) << result.err;
 }
 
 TEST(BenchScale, GoesFromMemoryToAStoreAndDrawsIt) {
   const TestFolder folder;
-  const ProgramResult result = bench({"scale", "--least", "10k", "--triangles", "50k", "--memory", "0.001", "--rounds",
-                                      "1", "--json", "--picture", folder.file("scale.svg")});
-  ASSERT_EQ(result.status, 0) << result.err;
-  const nlohmann::json sizes = json(result)["sizes"];
+  const nlohmann::json sizes = report_of({"scale", "--least", "10k", "--triangles", "50k", "--memory", "0.001",
+                                          "--rounds", "1", "--picture", folder.file("scale.svg")})["sizes"];
   ASSERT_EQ(sizes.size(), 2U);
   EXPECT_TRUE(sizes[0]["in_memory"]);
   EXPECT_FALSE(sizes[1]["in_memory"]);
@@ -366,8 +350,7 @@ TEST(BenchScale, GoesFromMemoryToAStoreAndDrawsIt) {
     EXPECT_GT(size["bytes"], 0);
     for (const char* what : {"sweep", "clearance", "step"}) EXPECT_GE(size[what]["p99_us"], size[what]["p50_us"]);
   }
-  EXPECT_TRUE(says(folder.read("scale.svg"), "<svg"));
-  EXPECT_EQ(bench({"scale", "--least", "2M", "--triangles", "1M"}).status, 2);
+  EXPECT_TRUE(contains(folder.read("scale.svg"), "<svg"));
 }
 
 TEST(BenchVerbs, RefuseBeforeAnyWorkWhatCanOnlyFail) {
@@ -375,27 +358,40 @@ TEST(BenchVerbs, RefuseBeforeAnyWorkWhatCanOnlyFail) {
   for (const char* verb : {"engines", "paper", "scale", "walkers"}) {
     const ProgramResult nowhere = bench({verb, "--picture", folder.file("no/such/folder.svg")});
     EXPECT_EQ(nowhere.status, 2) << nowhere.err;
-    EXPECT_TRUE(says(nowhere.err, "there is no folder")) << nowhere.err;
+    EXPECT_TRUE(contains(nowhere.err, "there is no folder")) << nowhere.err;
     const ProgramResult no_format = bench({verb, "--picture", folder.file("chart.txt")});
     EXPECT_EQ(no_format.status, 2) << no_format.err;
-    EXPECT_TRUE(says(no_format.err, ".svg or a .png")) << no_format.err;
+    EXPECT_TRUE(contains(no_format.err, ".svg or a .png")) << no_format.err;
     for (const char* count : {"0", "-5", "9999", "2000M", "many"}) {
       const ProgramResult result = bench({verb, "--triangles", count});
       EXPECT_EQ(result.status, 2) << verb << " " << count << ": " << result.err;
-      EXPECT_TRUE(says(result.err, "--triangles")) << result.err;
+      EXPECT_TRUE(contains(result.err, "--triangles")) << result.err;
     }
   }
   using Words = std::vector<std::string>;
-  for (const Words& words :
-       {Words{"engines", "--queries", "0"}, Words{"engines", "--queries", "1000000000000"},
-        Words{"engines", "--rounds", "-1"}, Words{"engines", "--origin", "nan,0,0"},
-        Words{"engines", "--origin", "1e300,0,0"}, Words{"paper", "--triangles", "49k"},
-        Words{"paper", "--radius", "5"}, Words{"paper", "--split-radius", "nan"}, Words{"paper", "--memory", "8"},
-        Words{"paper", "--triangles", "1M", "--scene", "own.ply"}, Words{"scale", "--rounds", "0"},
-        Words{"scale", "--pager", "1"}, Words{"scale", "--speed", "1e-9"}}) {
+  for (const Words& words : {Words{"engines", "--queries", "0"},
+                             Words{"engines", "--queries", "1000000000000"},
+                             Words{"engines", "--rounds", "-1"},
+                             Words{"engines", "--origin", "nan,0,0"},
+                             Words{"engines", "--origin", "1e300,0,0"},
+                             Words{"engines", "--engines", "unity"},
+                             Words{"engines", "--sets", "sideways"},
+                             Words{"engines", "--patience", "0"},
+                             Words{"engines", "--scene", "gallery:many"},
+                             Words{"walkers", "--controllers", "unity"},
+                             Words{"paper", "--rows", "unreal"},
+                             Words{"scale", "--least", "2M", "--triangles", "1M"},
+                             Words{"paper", "--triangles", "49k"},
+                             Words{"paper", "--radius", "5"},
+                             Words{"paper", "--split-radius", "nan"},
+                             Words{"paper", "--memory", "8"},
+                             Words{"paper", "--triangles", "1M", "--scene", "own.ply"},
+                             Words{"scale", "--rounds", "0"},
+                             Words{"scale", "--pager", "1"},
+                             Words{"scale", "--speed", "1e-9"}}) {
     const ProgramResult result = bench(words);
     EXPECT_EQ(result.status, 2) << words[0] << " " << words[1] << " " << words[2] << ": " << result.err;
-    EXPECT_TRUE(says(result.err, words[1])) << result.err;
+    EXPECT_TRUE(contains(result.err, words[1])) << result.err;
   }
 }
 

@@ -4,14 +4,13 @@
 #include <nlohmann/json.hpp>
 
 #include "door_rooms.h"
+#include "messages.h"
 #include "program.h"
 
 namespace {
 
 using Json = nlohmann::json;
 using Words = std::vector<std::string>;
-
-bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 /// Each verb that has a body, in a room with a door.
 class BodyOfAVerb : public testing::Test {

@@ -56,7 +56,7 @@ TEST(Cluster, RefusesNamesThatTheShellWouldRead) {
   const std::string scene = write_ply(folder.file("a\nEND\n.ply"), field(2, 0.5, {0.0, 0.0, 0.0}));
   const auto refused = roam({"cluster", "slurm", scene, "--shards", "3"});
   EXPECT_EQ(refused.status, 2);
-  EXPECT_NE(refused.err.find("line break"), std::string::npos) << refused.err;
+  EXPECT_NE(refused.err.find("this name has a line break"), std::string::npos) << refused.err;
   EXPECT_EQ(roam({"cluster", "slurm", folder.file("absent.ply"), "--shards", "3"}).status, 1);
   EXPECT_EQ(roam({"cluster", "slurm", scene}).status, 2);
   EXPECT_EQ(roam({"cluster"}).status, 2);

@@ -6,14 +6,13 @@
 #include <sstream>
 
 #include "door_rooms.h"
+#include "messages.h"
 #include "program.h"
 
 namespace {
 
 using Json = nlohmann::json;
 using Words = std::vector<std::string>;
-
-bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 /// The room of door_obj as a file whose -y is up: (x, y, z) is written as (x, -z, y).
 std::string turned_room() {
@@ -120,6 +119,13 @@ TEST_F(Frame, MayBeKeptWithoutABody) {
   const ProgramResult wrong = run({"info", scene});
   EXPECT_EQ(wrong.status, 1);
   EXPECT_TRUE(contains(wrong.err, "\"frame.up\" 'w' is no axis") && contains(wrong.err, "--no-profile")) << wrong.err;
+}
+
+TEST_F(Frame, OfASceneOutOfReachIsNotWhatIsNamed) {
+  const std::string name = folder.file(std::string(300, 'x'));
+  const ProgramResult result = run({"info", name});
+  EXPECT_EQ(result.status, 1);
+  EXPECT_TRUE(contains(result.err, name + ": cannot be looked at: File name too long")) << result.err;
 }
 
 }  // namespace

@@ -58,6 +58,12 @@ TEST(MakeVerb, GivesTheSameBitsForTheSameSeed) {
   EXPECT_NE(first, make("c.ply", "6"));
 }
 
+TEST(MakeVerb, CountsOneObjectAsOne) {
+  const TestFolder folder;
+  const std::string told = roam({"make", "terrain", "-o", folder.file("t.ply"), "--triangles", "10k"}).out;
+  EXPECT_NE(told.find(" triangles in 1 object, "), std::string::npos) << told;
+}
+
 TEST(MakeVerb, ShiftsTheGalleryAndItsPathsTogether) {
   const TestFolder folder;
   const ProgramResult made =

@@ -5,13 +5,12 @@
 #include <nlohmann/json.hpp>
 
 #include "door_rooms.h"
+#include "messages.h"
 #include "program.h"
 
 namespace {
 
 using Json = nlohmann::json;
-
-bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 /// A room with a door, and what is asked of it: from one end to the other.
 struct Probe {
@@ -143,6 +142,14 @@ TEST(ProbeVerb, SaysNoWhereTheBodyFallsIntoAGapOfAWayThatIsWideEnough) {
   EXPECT_TRUE(carried.out.starts_with("YES: ")) << carried.out;
 }
 
+TEST(ProbeVerb, LeavesRoomForTheBodyAboveAStepOfAnyHeight) {
+  Probe probe(0.9);
+  for (const char* height : {"1.7", "1.8", "1.9", "2.3"}) {
+    EXPECT_EQ(probe.ask({"--radius", "0.3", "--height", height, "--step", "900"}).result.status, 0)
+        << probe.result.out << probe.result.err;
+  }
+}
+
 TEST(ProbeVerb, FliesWhereAsked) {
   Probe probe(0.9);
   EXPECT_EQ(probe.ask({"--radius", "0.4", "--sphere", "--mode", "fly", "--json"}).result.status, 0) << probe.result.err;
@@ -165,11 +172,10 @@ TEST(ProbeVerb, AnswersForManySizesInOneRun) {
   EXPECT_EQ(sizes[0]["height"], 1.8);
   EXPECT_EQ(sizes[1]["height"], 1.7);
   EXPECT_NEAR(sizes[2]["opening"]["missing_m"].get<double>(), 0.1, 1e-3);
-  const std::string file = probe.folder.write("sizes", "# a child\n0.2x1.2\n\n0.3, 0.33x1.9  # grown\n0.3x1.8,0.3\n");
+  const std::string file = probe.folder.write("sizes", "# a child\n0.2x1.2\n\n0.3, 0.33x1.9  # grown\n");
   probe.ask({"--matrix", file});
   EXPECT_EQ(probe.result.status, 0) << probe.result.err;
-  EXPECT_EQ(std::count(probe.result.out.begin(), probe.result.out.end(), '\n'),
-            4);  // a head and three sizes, each once
+  EXPECT_EQ(std::count(probe.result.out.begin(), probe.result.out.end(), '\n'), 4);  // a head and three sizes
 }
 
 TEST(ProbeVerb, DrawsTheOpening) {
@@ -206,6 +212,8 @@ TEST(ProbeVerb, RefusesWhatCannotBeMeant) {
   refused({"--matrix", "sizes.txt"}, "there is no file \"sizes.txt\"");
   refused({"--matrix", probe.folder.file(".")}, "folder");
   refused({"--matrix", ""}, "--matrix \"\": there are no sizes in it");
+  for (const char* sizes : {",", "0.3,", ",0.3", "0.3,,0.4"}) refused({"--matrix", sizes}, "a comma has no size");
+  refused({"--matrix", "0.3,0.4x1.9,0.3x1.8"}, "it has the size 0.3x1.8 twice");
   refused({"--matrix", "nan"}, "radius");
   refused({"--matrix", "1e-300x1.8"}, "at least 0.001");
   refused({"--matrix", "0.3x0.1"}, "--matrix, size 0.3x0.1");

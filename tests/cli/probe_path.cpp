@@ -5,13 +5,12 @@
 
 #include "cli_scenes.h"
 #include "door_rooms.h"
+#include "messages.h"
 #include "program.h"
 
 namespace {
 
 using Json = nlohmann::json;
-
-bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 /// A floor under the sky, 20 m long in x and 4 m wide, with a wall across it at x = 10, 2 m high.
 std::string yard_obj() {

@@ -5,13 +5,12 @@
 #include <nlohmann/json.hpp>
 
 #include "door_rooms.h"
+#include "messages.h"
 #include "program.h"
 
 namespace {
 
 using Json = nlohmann::json;
-
-bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 ProgramResult ask(const std::string& scene, const std::string& from, const std::vector<std::string>& more) {
   std::vector<std::string> arguments{"probe", scene, "--from", from, "--to", "18,-0.4,1"};

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "messages.h"
 #include "probe/text.h"
 #include "words/probe.h"
 
@@ -13,8 +14,6 @@ namespace {
 
 using namespace roam;
 using Kind = ProbeLimit::Kind;
-
-bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 const ProbeQuestion question{.from = {2, 0, 1}, .to = {18, 0, 1}};
 

@@ -7,13 +7,12 @@
 #include <nlohmann/json.hpp>
 
 #include "door_rooms.h"
+#include "messages.h"
 #include "program.h"
 
 namespace {
 
 using Json = nlohmann::json;
-
-bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 Json parsed(const ProgramResult& result) { return Json::parse(result.out, nullptr, false); }
 

@@ -5,12 +5,11 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "messages.h"
 #include "program.h"
 #include "train_scenes.h"
 
 namespace {
-
-bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 std::string obj(const roam::Mesh& mesh) {
   std::ostringstream out;
@@ -95,6 +94,11 @@ TEST(TrainVerb, RefusesWhatCannotBeMeant) {
   EXPECT_EQ(Train({}, {"--paths", "0"}).result.status, 2);
   EXPECT_EQ(Train({}, {"--height", "0.05"}).result.status, 2);
   EXPECT_EQ(Train({}, {"--radius-min", "0.001"}).result.status, 2);
+  for (const char* option : {"--radius-max", "--height"}) {
+    const Train narrow({}, {"--radius-min", "0.5", option, option == std::string("--height") ? "0.9" : "0.4"});
+    EXPECT_EQ(narrow.result.status, 2) << option;
+    EXPECT_TRUE(contains(narrow.result.err, "--radius-min 0.5: the largest radius is 0.4")) << narrow.result.err;
+  }
   EXPECT_EQ(Train({}, {"--height", "500"}).result.status, 2);
   EXPECT_EQ(Train({}, {"--seed", "-1"}).result.status, 2);
   const Train step({}, {"--height", "1.8", "--step", "1.75"});

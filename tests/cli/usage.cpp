@@ -82,6 +82,17 @@ TEST(Usage, SaysWhichValueIsWrongAndWhatFits) {
       {{"make", "city"}, "roam make city: --output FILE is missing"},
       {{"make", "city", "-o", "c.ply", "--triangles", "4q"},
        "roam make city: --triangles: '4q' is not a whole number such as 5000, 500k or 20M"},
+      {{"make", "city", "-o", "c.ply", "--seed", "99999999999999999999"},
+       "roam make city: --seed: '99999999999999999999' is not a whole number from 0 to 9223372036854775807"},
+  });
+}
+
+TEST(Usage, RefusesAnEmptyNameOfAFile) {
+  expect_refused({
+      {{"walk", "x.obj", "--wander", "1", "--certify", ""}, "roam walk: --certify: a file needs a name"},
+      {{"walk", "x.obj", "--wander", "1", "--trace="}, "roam walk: --trace: a file needs a name"},
+      {{"make", "gallery", "-o", ""}, "roam make gallery: -o: a file needs a name"},
+      {{"build", "x.obj", "-o", ""}, "roam build: -o: a folder needs a name"},
   });
 }
 

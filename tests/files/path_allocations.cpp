@@ -4,7 +4,7 @@
 
 #include <sstream>
 
-#include "failing_allocations.h"
+#include "fallible_calls.h"
 #include "import_files.h"
 #include "roam/path_file.h"
 
@@ -13,27 +13,30 @@ namespace {
 
 TEST(PathAllocations, APathIsReadWholeOrNotWhereverOneFails) {
   const std::string text = "0 0 0\n1 2 3\n4 5 6\n7 8 9\n1 1 1 # a comment\n2 2 x";
-  for (const std::string& some : {text.substr(0, text.rfind('\n')), text}) {
-    EXPECT_GT(fail_each([&] {
-                std::istringstream in(some);
-                EXPECT_EQ(roam::read_path(in, "a name that is too long for no allocation").size(), 5U);
-              }),
-              3);
-  }
+  const auto read = [](const std::string& some) {
+    std::istringstream in(some);
+    return roam::read_path(in, "a name that is too long for no allocation").size();
+  };
+  fail_calls({
+      {"read_path", [&] { return std::string(Bits() << read(text.substr(0, text.rfind('\n')))); }},
+      {"read_path of a wrong line", [&] { return refusal_of([&] { static_cast<void>(read(text)); }); }},
+  });
 }
 
 TEST(PathAllocations, AFileIsWholeOrAsItWasWhereverOneFails) {
   const roam::test::TemporaryFolder folder;
   const std::filesystem::path file = folder.write("a.path", "1 2 3\n4 5 6\n");
   const std::vector<roam::Vec3> before{{1, 2, 3}, {4, 5, 6}}, wanted{{7, 8, 9}, {0, 0, 0}, {1, 1, 1}};
-  EXPECT_GT(fail_each([&] { roam::save_path(file, wanted); }, 1,
-                      [&] {
-                        const auto held = roam::positions(roam::load_path(file));
-                        EXPECT_TRUE(held == before || held == wanted);
-                        EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 1);
-                        roam::save_path(file, before);
-                      }),
-            5);
+  fail_calls({{"save_path",
+               [&] {
+                 roam::save_path(file, wanted);
+                 return std::string("saved");
+               },
+               [&](bool failed) {
+                 EXPECT_EQ(roam::positions(roam::load_path(file)), failed ? before : wanted);
+                 EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 1);
+                 roam::save_path(file, before);
+               }}});
 }
 
 }  // namespace

@@ -17,11 +17,9 @@ TEST(GenerateAllocations, ASceneIsMadeAndWrittenWholeOrNotWhereverOneFails) {
   const roam::test::TemporaryFolder folder;
   const std::filesystem::path file = folder.write("scene.ply", "as it was");
   const auto text_of = [&] {
-    const bool before = std::exchange(spared, true);
+    const Spare spare;
     std::ifstream in(file);
-    std::string text(std::istreambuf_iterator<char>(in), {});
-    spared = before;
-    return text;
+    return std::string(std::istreambuf_iterator<char>(in), {});
   };
   const auto made = [](const roam::generate::Scene& scene) {
     std::uint64_t triangles = 0;

@@ -129,6 +129,8 @@ TEST(ImportObj, SkipsFacesOfTwoCornersAndSaysSo) {
   const ImportedScene scene = import_scene(folder.write("two.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2\nf 1 2 3\nf 3\n"));
   EXPECT_EQ(scene.report.triangles, 1u);
   EXPECT_TRUE(notes_contain(scene, "2 faces with fewer than three corners were skipped, the first in line 4"));
+  const ImportedScene one = import_scene(folder.write("one.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2\nf 1 2 3\n"));
+  EXPECT_TRUE(notes_contain(one, "1 face with fewer than three corners was skipped, the first in line 4"));
 }
 
 TEST(ImportObj, KeepsTrianglesThatArePointsOrSegments) {

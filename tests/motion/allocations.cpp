@@ -5,7 +5,6 @@
 #include <array>
 #include <optional>
 
-#include "failing_allocations.h"
 #include "fallible_calls.h"
 #include "moving_stage.h"
 #include "roam/standing.h"
@@ -21,16 +20,16 @@ TEST(WalkerAllocations, AWalkerIsMadeOrRefusedWhereverOneFails) {
   const scenes::World world = scenes::build(scenes::floor_mesh());
   const std::vector<SizeRegion> regions{
       {{{-1, -1, -1}, {1, 1, 3}}, 0.2, 0.0, "a reason that is too long for no allocation"}};
-  EXPECT_GT(fail_each([&] {
-              scenes::Walker walker(world, {}, scenes::Mode::walk, {0, 0, 1});
-              walker.set_regions(regions);
-              scenes::Walker copy(walker);
-              copy.resize(0.25, 0.4);
-              copy.set_mode(scenes::Mode::fly);
-              for (int i = 0; i < 9; ++i) copy.step({{1, 0, 0}}, scenes::frame);
-              walker = copy;
-            }),
-            4);
+  fail_calls({{"Walker, its copy and its steps", [&] {
+                 scenes::Walker walker(world, {}, scenes::Mode::walk, {0, 0, 1});
+                 walker.set_regions(regions);
+                 scenes::Walker copy(walker);
+                 copy.resize(0.25, 0.4);
+                 copy.set_mode(scenes::Mode::fly);
+                 for (int i = 0; i < 9; ++i) copy.step({{1, 0, 0}}, scenes::frame);
+                 walker = copy;
+                 return std::string(Bits() << walker.position());
+               }}});
 }
 
 TEST(WalkerAllocations, RegionsStayAsTheyWereWhereverOneFails) {
@@ -41,22 +40,17 @@ TEST(WalkerAllocations, RegionsStayAsTheyWereWhereverOneFails) {
   };
   const std::vector<SizeRegion> before{region(0.2)}, wanted{region(0.25), region(0.1)};
   walker.set_regions(before);
-  bool whole = false;
-  EXPECT_GT(fail_each(
-                [&] {
-                  whole = false;
-                  walker.set_regions(wanted);
-                  whole = true;
-                },
-                1,
-                [&] {
-                  const double radius = whole ? 0.25 : 0.2;
-                  ASSERT_EQ(walker.regions().size(), whole ? 2U : 1U);
-                  EXPECT_EQ(walker.regions()[0].radius, radius);
-                  EXPECT_EQ(walker.regions()[0].why, wanted[0].why);
-                  walker.set_regions(before);
-                }),
-            2);
+  fail_calls({{"set_regions",
+               [&] {
+                 walker.set_regions(wanted);
+                 return std::string("set");
+               },
+               [&](bool failed) {
+                 ASSERT_EQ(walker.regions().size(), failed ? 1U : 2U);
+                 EXPECT_EQ(walker.regions()[0].radius, failed ? 0.2 : 0.25);
+                 EXPECT_EQ(walker.regions()[0].why, wanted[0].why);
+                 walker.set_regions(before);
+               }}});
 }
 
 std::string bits_of(const roam::RouteResult& result) {

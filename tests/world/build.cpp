@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "clutter.h"
-#include "counted_allocations.h"
+#include "fallible_calls.h"
 #include "roam/error.h"
 #include "roam/world.h"
 
@@ -174,25 +174,12 @@ TEST(WorldBuild, ThrowsWhereverAnAllocationFails) {
   const Mesh mesh = clutter::make(random, {2000, 40.0, 0.01, 20.0, Vec3(0.0)});
   for (const int threads : {1, 2}) {
     const auto make = [&] { return build(mesh, {.threads = threads, .lossless = false, .progress = {}}); };
-    const World whole = make();
-    ASSERT_GT(whole.stats().tiles, 1U);
-    long failing = 0, thrown = 0;
-    for (bool reached = true; reached;) {
-      allocations = 0;
-      failing_allocation = ++failing;
-      try {
-        const World world = make();
-        failing_allocation = 0;
-        reached = allocations >= failing;
-        // Nothing may hide that memory ran out, unless the world is whole all the same.
-        ASSERT_EQ(world.stats().triangles, whole.stats().triangles) << failing;
-        ASSERT_EQ(world.stats().bytes, whole.stats().bytes) << failing;
-      } catch (const std::bad_alloc&) {
-        failing_allocation = 0;
-        ++thrown;
-      }
-    }
-    EXPECT_GT(thrown, 20) << threads;
+    // Nothing may hide that memory ran out, unless the world is whole all the same.
+    fail_calls({{"build", [&] {
+                   const World world = make();
+                   EXPECT_GT(world.stats().tiles, 1U);
+                   return std::string(Bits() << world.stats().triangles << world.stats().bytes);
+                 }}});
   }
 }
 #endif

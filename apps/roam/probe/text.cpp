@@ -31,8 +31,13 @@ bool is_number(const std::string& text, double& value) {
 std::vector<ProbedSize> parse_sizes(const std::string& text, const std::string& where, bool spheres) {
   std::vector<ProbedSize> sizes;
   for (std::size_t i = 0; i < text.size();) {
-    const std::size_t begin = text.find_first_not_of(", \t\r", i);
-    if (begin == std::string::npos) break;
+    const std::size_t begin = std::min(text.find_first_not_of(", \t\r", i), text.size());
+    const bool between = !sizes.empty() && begin < text.size();
+    if (std::count(text.begin() + static_cast<std::ptrdiff_t>(i), text.begin() + static_cast<std::ptrdiff_t>(begin),
+                   ',') > (between ? 1 : 0)) {
+      throw UsageError(where, "a comma has no size before or behind it; leave it out, or add the size");
+    }
+    if (begin == text.size()) break;
     const std::size_t end = std::min(text.find_first_of(", \t\r", begin), text.size());
     const std::string item = text.substr(begin, end - begin);
     const std::size_t cross = item.find('x');

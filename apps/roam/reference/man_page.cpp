@@ -82,7 +82,7 @@ std::string synopsis(std::string_view usage) {
   return out;
 }
 
-std::string heading(const char* macro, std::string title) {
+std::string heading(const char* macro, const std::string& title) {
   return fmt::format(".{} \"{}\"\n", macro, escaped(title, false));
 }
 

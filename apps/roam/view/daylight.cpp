@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "view/pick.h"
 #include "view/surroundings.h"
 
 namespace roam::app {

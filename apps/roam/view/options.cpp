@@ -12,6 +12,7 @@
 
 #include "cli/exit_status.h"
 #include "cli/help.h"
+#include "cli/output_file.h"
 #include "cli/standard_streams.h"
 #include "cli/values.h"
 #include "files/extension.h"
@@ -79,12 +80,6 @@ WalkerSettings walker_settings(const ViewOptions& options, const ViewSettings& s
   return walker;
 }
 
-/// A file that a session writes, and the option that names it.
-struct Written {
-  const char* option;
-  const std::filesystem::path& file;
-};
-
 bool ends_in(const std::filesystem::path& file, std::initializer_list<const char*> extensions) {
   return std::find(extensions.begin(), extensions.end(), files::lower_extension(file)) != extensions.end();
 }
@@ -115,39 +110,23 @@ int film_rate(const ViewOptions& options) {
 
 /// Refuses outputs that would overwrite an input or another output, or whose folder does not exist.
 void check_files(const ViewOptions& options, const ViewSettings& settings) {
-  const auto same = [](const std::filesystem::path& a, const std::filesystem::path& b) {
-    std::error_code none;
-    if (a.empty() || b.empty()) return false;
-    return std::filesystem::equivalent(a, b, none) ||
-           std::filesystem::weakly_canonical(std::filesystem::absolute(a), none) ==
-               std::filesystem::weakly_canonical(std::filesystem::absolute(b), none);
-  };
-  const Written outputs[] = {{"--screenshot", options.screenshot},
-                             {"--record", options.record},
-                             {"--record-path", options.record_path},
-                             {"--trace", options.trace}};
+  const NamedFile outputs[] = {{"--screenshot", options.screenshot},
+                               {"--record", options.record},
+                               {"--record-path", options.record_path},
+                               {"--trace", options.trace}};
   if (is_standard(options.record_path))
     throw UsageError("--record-path -", "standard output does not take a path; name a file");
   demand_one_output("--trace", options.trace, options.json);
-  for (const Written& output : outputs) {
-    if (output.file.empty()) continue;
-    const std::string where = fmt::format("{} {}", output.option, output.file.string());
-    const auto refuse = [&](const std::string& what) {
-      throw UsageError(where, fmt::format("this would overwrite {}; name another file", what));
-    };
-    for (const auto& scene : options.scene.scenes) {
-      if (same(scene, output.file)) refuse("the scene");
-    }
-    if (same(options.path, output.file)) refuse("the path");
-    if (same(settings.file, output.file)) refuse("the settings");
-    for (const Written& other : outputs) {
-      if (&other == &output) break;
-      if (same(other.file, output.file)) refuse(std::string("what ") + other.option + " writes");
-    }
+  std::vector<NamedFile> inputs = named_scenes(options.scene.scenes);
+  inputs.push_back({"the path", options.path});
+  inputs.push_back({"the settings", settings.file});
+  demand_no_overwriting(inputs, outputs);
+  for (const NamedFile& output : outputs) {
     const std::filesystem::path folder = output.file.parent_path();
     std::error_code none;
     if (!folder.empty() && !std::filesystem::is_directory(folder, none)) {
-      throw UsageError(where, fmt::format("there is no folder {}; make it, or name another", folder.string()));
+      throw UsageError(fmt::format("{} {}", output.name, output.file.string()),
+                       fmt::format("there is no folder {}; make it, or name another", folder.string()));
     }
   }
 }

@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "osgroam/vectors.h"
-#include "view/surroundings.h"
 
 namespace roam::app {
 namespace {
@@ -50,6 +49,12 @@ std::optional<std::array<double, 2>> seen_at(const CameraView& camera, const Vec
   const osg::Vec4d clip = osg::Vec4d(p.x, p.y, p.z, 1.0) * camera.view * camera.projection;
   if (!(clip.w() > 0.0)) return std::nullopt;
   return std::array{clip.x() / clip.w(), clip.y() / clip.w()};
+}
+
+double sight(const Space& space, const Vec3& eye) {
+  constexpr double farthest = 1e5;
+  const Box box = space.bounds();
+  return box.empty() ? 0.0 : std::min(glm::distance(eye, box.center()) + glm::length(box.size()), farthest);
 }
 
 std::optional<Pick> seen_along(const Space& space, const Sightline& line, std::span<const HalfSpace> hidden) {

@@ -41,6 +41,9 @@ struct Sightline {
 /// The point of the picture where a point of the scene is seen; none behind the eye.
 [[nodiscard]] std::optional<std::array<double, 2>> seen_at(const CameraView& camera, const Vec3& point);
 
+/// A length that from `eye` reaches beyond everything in the space, m.
+[[nodiscard]] double sight(const Space& space, const Vec3& eye);
+
 /// The first known surface along a line. Surfaces in the half spaces are not found.
 [[nodiscard]] std::optional<Pick> seen_along(const Space& space, const Sightline& line,
                                              std::span<const HalfSpace> hidden = {});

@@ -12,12 +12,6 @@ Vec3 gaze(double yaw, double pitch) {
   return {std::cos(yaw) * std::cos(pitch), std::sin(yaw) * std::cos(pitch), std::sin(pitch)};
 }
 
-double sight(const Space& space, const Vec3& eye) {
-  constexpr double farthest = 1e5;
-  const Box box = space.bounds();
-  return box.empty() ? 0.0 : std::min(glm::distance(eye, box.center()) + glm::length(box.size()), farthest);
-}
-
 Surroundings surroundings(const osgRoam::Manipulator& roamer, const Space& visible, std::span<const HalfSpace> hidden) {
   const Walker& walker = *roamer.walker();
   Surroundings found;

@@ -27,7 +27,4 @@ struct Surroundings {
 /// The unit vector of a gaze. Radians, as in osgRoam::Manipulator.
 [[nodiscard]] Vec3 gaze(double yaw, double pitch);
 
-/// A length that from `eye` reaches beyond everything in the space, m.
-[[nodiscard]] double sight(const Space& space, const Vec3& eye);
-
 }  // namespace roam::app

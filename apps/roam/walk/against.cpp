@@ -4,20 +4,13 @@
 
 #include <algorithm>
 
-#include "cli/exit_status.h"
 #include "cli/tell.h"
 #include "walk/certificate.h"
 
 namespace roam::app {
 
 void check_against(const SceneOptions& scene) {
-  for (const auto& path : scene.scenes) {
-    if (Store::is_store(path)) {
-      throw UsageError("--against " + path.string(),
-                       "this is a store; name the scene, or say --verify to check against the store itself");
-    }
-  }
-  scene.check_there();
+  scene.check_files_there("--against takes its scene; say --verify to check against the store itself");
 }
 
 verification::Verification verify_against(const SceneOptions& scene, const OpenScene& walked,

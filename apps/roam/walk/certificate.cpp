@@ -21,6 +21,9 @@ using verification::Piece;
 /// Pieces in memory at a time: 0.4 MB.
 constexpr std::size_t together = 4096;
 
+/// More are refused by read_certificate.
+constexpr std::uint64_t most_segments = 5'000'000;
+
 std::string numbers(const Vec3& p) { return fmt::format("{} {} {}", p.x, p.y, p.z); }
 std::string numbers(const Body& body) { return fmt::format("{} {}", body.radius, body.half_height); }
 bool same(const Body& a, const Body& b) { return a.radius == b.radius && a.half_height == b.half_height; }
@@ -41,7 +44,7 @@ class Segments {
                    numbers(piece.to), numbers(piece.body), piece.clearance);
   }
 
-  [[nodiscard]] bool empty() const { return count_ == 0; }
+  [[nodiscard]] std::uint64_t count() const { return count_; }
   [[nodiscard]] std::string certificate(const checking::SceneSum& scene) const {
     std::string text = fmt::format("{}\nscene {} {:016x}\nway {} {} {}\n", checking::first_line, scene.triangles,
                                    scene.hash, count_, numbers(start_), numbers(last_->to));
@@ -75,7 +78,14 @@ void certify(const std::filesystem::path& file, const OpenScene& scene, const ve
   pieces.each(together, [&](std::span<const Piece> some) {
     for (const Piece& piece : some) segments.add(piece);
   });
-  if (segments.empty()) throw Error("--certify " + file.string(), "the body was never free: nothing can be certified");
+  if (segments.count() == 0) {
+    throw Error("--certify " + file.string(), "the body was never free: nothing can be certified");
+  }
+  if (segments.count() > most_segments) {
+    throw Error("--certify " + file.string(),
+                fmt::format("the walk has {} segments, and a certificate at most {}; certify it in parts",
+                            segments.count(), most_segments));
+  }
   const std::string text = segments.certificate(sum);
   try {
     (void)checking::read_certificate(text);

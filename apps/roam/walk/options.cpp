@@ -15,23 +15,6 @@
 #include "scenes/web_options.h"
 
 namespace roam::app {
-namespace {
-
-/// Refuses to overwrite an input.
-void check_output(const WalkOptions& options, const char* option, const std::filesystem::path& output) {
-  const auto is_output = [&](const std::filesystem::path& file) {
-    std::error_code none;
-    return !file.empty() && std::filesystem::equivalent(file, output, none);
-  };
-  if (output.empty()) return;
-  const std::string where = std::string(option) + " " + output.string();
-  for (const auto& scene : options.scene.scenes) {
-    if (is_output(scene)) throw UsageError(where, "this would overwrite the scene; name another file");
-  }
-  if (is_output(options.path)) throw UsageError(where, "this would overwrite the path; name another file");
-}
-
-}  // namespace
 
 void take_profile(WalkOptions& options) {
   if (options.scene.no_profile || options.body.describe_a_body()) return;
@@ -77,20 +60,16 @@ void check_way(const WalkOptions& options) {
 
 void check_outputs(const WalkOptions& options) {
   demand_one_output("--trace", options.trace, options.json);
-  check_output(options, "--trace", options.trace);
-  check_output(options, "--picture", options.picture);
-  check_output(options, "--certify", options.certify);
-  if (!options.certify.empty()) {
-    app::check_output(options.scene.scenes, "--certify", options.certify);
-    if (options.scene.name_a_store() && options.against.scenes.empty()) {
-      throw UsageError("--certify", "a store keeps triangles to within 2 mm only; name its scene by --against, too");
-    }
-  }
-  if (options.picture.empty()) return;
-  std::error_code none;
-  if (std::filesystem::weakly_canonical(options.picture, none) ==
-      std::filesystem::weakly_canonical(options.trace, none)) {
-    throw UsageError("--picture " + options.picture.string(), "this would overwrite the trace; name another file");
+  std::vector<NamedFile> inputs = named_scenes(options.scene.scenes);
+  for (const NamedFile& scene : named_scenes(options.against.scenes)) inputs.push_back(scene);
+  inputs.push_back({"the path", options.path});
+  const NamedFile outputs[] = {
+      {"--trace", options.trace}, {"--picture", options.picture}, {"--certify", options.certify}};
+  demand_no_overwriting(inputs, outputs);
+  if (options.certify.empty()) return;
+  check_output(options.scene.scenes, "--certify", options.certify);
+  if (options.scene.name_a_store() && options.against.scenes.empty()) {
+    throw UsageError("--certify", "a store keeps triangles to within 2 mm only; name its scene by --against, too");
   }
 }
 

@@ -66,4 +66,11 @@ class Lines {
   std::uint64_t number_ = 0;
 };
 
+/// For a note about a file: "2 faces with fewer than three corners were skipped".
+[[nodiscard]] inline std::string skipped_faces(std::uint64_t count) {
+  const bool one = count == 1;
+  return std::to_string(count) + (one ? " face" : " faces") + " with fewer than three corners " +
+         (one ? "was" : "were") + " skipped";
+}
+
 }  // namespace roam::reader

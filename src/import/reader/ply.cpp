@@ -153,8 +153,7 @@ class PlyBody {
       }
     }
     if (small_faces_ > 0) {
-      sink_.report_note(
-          fmt::format("{}: {} faces with fewer than three corners were skipped.", bytes_.path(), small_faces_));
+      sink_.report_note(fmt::format("{}: {}.", bytes_.path(), skipped_faces(small_faces_)));
     }
   }
 
@@ -222,7 +221,8 @@ class PlyBody {
       if (element.properties[position].type != type || is_integer(type)) return 0;
       for (std::size_t p = 0; p < position; ++p) offset[k] += bytes_of(element.properties[p].type);
     }
-    const auto as = [&]<class T>(T) {
+    const auto as = [&](auto zero) {
+      using T = decltype(zero);
       return values_.records(element.least_bytes(), most, [&](const char* vertex) {
         sink_.add_vertex({values_.template value<T>(vertex + offset[0]), values_.template value<T>(vertex + offset[1]),
                           values_.template value<T>(vertex + offset[2])});

@@ -46,7 +46,7 @@ struct Message {
   Kind kind = Kind::come;
   PagedItem item;
   std::uint32_t unit = 0;  ///< of a tile, for `come`
-  PageInMemory page;       ///< for `come`
+  PageInMemory page{};     ///< for `come`
 };
 
 /// The result of a request to evict an item.

@@ -291,10 +291,7 @@ Run Planner::clear(const Candidate& candidate, std::uint32_t units, const Tracke
   for (const bool pages : {false, true}) {
     units_.for_each(run, [&](const Run& of, const PagedItem& item) {
       if (item.is_page() != pages) return;
-      Message message;
-      message.kind = Message::Kind::go;
-      message.item = item;
-      handover_.messages.push(message);
+      handover_.messages.push({.kind = Message::Kind::go, .item = item});
       state_of(item).leaving = true;
       units_.set_worth(of.unit, infinite);
       if (!pages) return;
@@ -356,12 +353,10 @@ void Planner::done(const Work& work, const Outcome& outcome) {
     }
   }
   const std::lock_guard lock(handover_.mutex);
-  Message message;
-  message.kind = outcome.why ? Message::Kind::failed : Message::Kind::come;
-  message.item = work.item;
-  message.unit = run.unit;
-  message.page = outcome.page;
-  handover_.messages.push(message);
+  handover_.messages.push({.kind = outcome.why ? Message::Kind::failed : Message::Kind::come,
+                           .item = work.item,
+                           .unit = run.unit,
+                           .page = outcome.page});
   PagerStats& stats = handover_.stats;
   stats.bytes_read += outcome.bytes;
   stats.longest_read = std::max(stats.longest_read, outcome.read_s);

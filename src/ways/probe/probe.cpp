@@ -108,7 +108,8 @@ const char* to_string(ProbeLimit::Kind kind) {
 
 double climbed(const ProbeQuestion& question, const ProbedSize& size) {
   const DefaultFloatingPoint guard;
-  return std::min(question.step, is_sphere(size) ? size.radius : size.height - 2.0 * size.radius);
+  // Rounded down, so that the body itself still fits above its knee.
+  return std::min(question.step, is_sphere(size) ? size.radius : std::nextafter(size.height - 2.0 * size.radius, 0.0));
 }
 
 WalkerSettings probed_body(const ProbeQuestion& question, const ProbedSize& size, double slope_degrees) {

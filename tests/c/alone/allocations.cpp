@@ -16,9 +16,8 @@ using roam::Vec3;
 /// Throws as C++ would.
 void must(roam_status status) {
   if (status == ROAM_NO_MEMORY) throw std::bad_alloc();
-  const bool before = std::exchange(spared, true);
+  const Spare spare;
   const std::string why = std::to_string(status) + ": " + roam_error();
-  spared = before;
   if (status != ROAM_OK) throw roam::Error(why);
 }
 

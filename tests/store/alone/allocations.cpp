@@ -4,7 +4,7 @@
 
 #include <stdexcept>
 
-#include "failing_allocations.h"
+#include "fallible_calls.h"
 #include "pager_made.h"
 
 namespace {
@@ -33,50 +33,49 @@ class StoreAllocations : public testing::Test {
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 
 TEST_F(StoreAllocations, OpeningReturnsWhereverOneFails) {
-  EXPECT_GT(fail_each([&] { static_cast<void>(Store::open(folder_.path())); }), 30);
-  // And of a manifest that is refused in the middle.
+  fail_calls({{"open", [&] { return std::string(Bits() << Store::open(folder_.path())->info().triangles); }}});
   store::Manifest manifest = store::read_manifest(*store::files_of(folder_.path()), "s");
   manifest.shards[0].pages[1].tiles = 0;
   store::publish(folder_.path(), manifest);
-  EXPECT_GT(fail_each([&] { static_cast<void>(Store::open(folder_.path())); }), 30);
+  fail_calls({{"open of a manifest that is refused in the middle",
+               [&] { return refusal_of([&] { static_cast<void>(Store::open(folder_.path())); }); }}});
 }
 
-TEST_F(StoreAllocations, VerifyingReturnsWhereverOneFails) {
-  EXPECT_GT(fail_each([&] { static_cast<void>(verify_store(folder_.path())); }, 20), 100);
-}
-
-TEST_F(StoreAllocations, FindingTheSourceOfATriangleReturnsWhereverOneFails) {
+TEST_F(StoreAllocations, VerifyingFindingASourceAndMakingAPagerReturnWhereverOneFails) {
   TriangleId some = 0;
   store_->for_each_triangle(store_->info().bounds, [&](auto, auto ids) { some = ids[0]; });
-  EXPECT_GT(fail_each([&] { static_cast<void>(Store::open(folder_.path())->source(some)); }), 40);
-}
-
-TEST_F(StoreAllocations, APagerIsMadeOrRefusedWhereverOneFails) {
-  EXPECT_GT(fail_each([&] { const Pager pager(store_, {.memory = Pager::least_memory, .loaders = 3}); }, 20), 10);
+  fail_calls({
+      {.name = "verify_store",
+       .bits = [&] { return std::string(Bits() << verify_store(folder_.path()).whole()); },
+       .dense = 50},
+      {"source", [&] { return std::string(Bits() << Store::open(folder_.path())->source(some).number); }},
+      {"a pager",
+       [&] {
+         const Pager pager(store_, {.memory = Pager::least_memory, .loaders = 3});
+         return std::string(Bits() << pager.stats().tiles);
+       }},
+  });
 }
 
 TEST_F(StoreAllocations, ALoadingThreadGoesOnWhereverOneFails) {
-  for (long failing = 1; failing < 60; ++failing) {
+  const auto load = [&] {
+    const Spare spare;
     const auto bytes = std::make_shared<made::TroubledBytes>(folder_.path());  // which has no file open yet
     const auto opened = store::open_store(bytes, "s");
     bytes->hold();
     Pager pager(opened, {.memory = Pager::least_memory});
-    spared = true;
-    ASSERT_TRUE(made::update_until(pager, {0.3, 0.0}, pager.bounds().center(), [&] { return bytes->waiting() > 0; }));
-    allocations = 0;
-    failing_allocation = failing;
+    const auto until = [&](const std::function<bool()>& done) {
+      return made::update_until(pager, {0.3, 0.0}, pager.bounds().center(), done);
+    };
+    EXPECT_TRUE(until([&] { return bytes->waiting() > 0; }));
     bytes->let_go();
-    const bool all = made::update_until(pager, {0.3, 0.0}, pager.bounds().center(), [&] {
-      static_cast<void>(pager.object_name(0));
-      return pager.stats().tiles == opened->info().tiles;
-    });
+    const auto all = [&] { return pager.object_name(0) == "square" && pager.stats().tiles == opened->info().tiles; };
+    EXPECT_TRUE(until([&] { return all() || (failing_allocation > 0 && allocations >= failing_allocation); }));
     failing_allocation = 0;
-    ASSERT_TRUE(all) << failing;
-    // The name, too, comes in the end.
-    EXPECT_TRUE(made::update_until(pager, {0.3, 0.0}, pager.bounds().center(),
-                                   [&] { return pager.object_name(0) == "square"; }));
-    spared = false;
-  }
+    EXPECT_TRUE(until(all));
+    return std::string("all");
+  };
+  fail_calls({{.name = "a thread that loads", .bits = load, .most = 59}});
 }
 
 #endif

@@ -12,11 +12,10 @@ namespace {
 using namespace store_builds;
 
 std::string bits_of(const std::string& store) {
-  const bool before = std::exchange(spared, true);
+  const Spare spare;
   std::string all;
   for (const auto& [name, text] : content(store))
     all += name + " " + std::to_string(std::hash<std::string>()(text)) + "\n";
-  spared = before;
   return all;
 }
 
@@ -29,25 +28,46 @@ class StoreBuildAllocations : public testing::Test {
   StoreBuildAllocations() {
     write_ply(a_, field(24, 0.5, {0.0, 0.0, 0.0}));
     write_ply(b_, field(16, 0.5, {40.0, 0.0, 0.0}));
+    write_ply(c_, field(16, 0.5, {60.0, 0.0, 0.0}));
   }
-  [[nodiscard]] std::string built() const {
-    roam::StoreBuildOptions how = options({a_, b_}, store_);
+  [[nodiscard]] std::string built(const std::string& second) const {
+    roam::StoreBuildOptions how = options({a_, second}, store_);
     how.threads = 2;
     roam::build_store(how);
     return bits_of(store_);
   }
 
   const TestFolder folder_;
-  const std::string a_ = folder_.file("a.ply"), b_ = folder_.file("b.ply"), store_ = folder_.file("s");
+  const std::string a_ = folder_.file("a.ply"), b_ = folder_.file("b.ply"), c_ = folder_.file("c.ply"),
+                    store_ = folder_.file("s");
 };
 
-TEST_F(StoreBuildAllocations, AStoreIsBegunOrNot) {
+TEST_F(StoreBuildAllocations, AStoreIsBegunOrNotAndGoesOn) {
   fail_calls({{.name = "build_store",
-               .bits = [&] { return built(); },
+               .bits = [&] { return built(b_); },
                .after =
                    [&](bool failed) {
                      EXPECT_EQ(fs::exists(store_ + "/CURRENT"), !failed);
+                     if (!failed) fs::remove_all(store_);  // a store that was begun is gone on with
+                   },
+               .dense = 5,
+               .steps = 2,
+               .most = most_allocations}});
+}
+
+TEST_F(StoreBuildAllocations, AnOldStoreStaysOrIsReplaced) {
+  const std::string kept = folder_.file("kept");
+  static_cast<void>(built(b_));
+  const auto old = roam::Store::open(store_)->info().hash;
+  fs::copy(store_, kept, fs::copy_options::recursive);
+  fail_calls({{.name = "build_store of another scene",
+               .bits = [&] { return built(c_); },
+               .after =
+                   [&](bool failed) {
+                     EXPECT_TRUE(roam::verify_store(store_).whole());
+                     EXPECT_EQ(roam::Store::open(store_)->info().hash == old, failed);
                      fs::remove_all(store_);
+                     fs::copy(kept, store_, fs::copy_options::recursive);
                    },
                .dense = 5,
                .steps = 2,
@@ -55,7 +75,7 @@ TEST_F(StoreBuildAllocations, AStoreIsBegunOrNot) {
 }
 
 TEST_F(StoreBuildAllocations, ACopyIsPublishedOrNotAndGoesOn) {
-  const std::string whole = built(), copy = folder_.file("copy");
+  const std::string whole = built(b_), copy = folder_.file("copy");
   fail_calls({{.name = "publish_store",
                .bits =
                    [&] {
@@ -78,7 +98,7 @@ TEST_F(StoreBuildAllocations, ACopyIsPublishedOrNotAndGoesOn) {
 }
 
 TEST_F(StoreBuildAllocations, ReadingThrowsAndThePagerGoesOn) {
-  static_cast<void>(built());
+  static_cast<void>(built(b_));
   const auto store = roam::Store::open(store_);
   roam::Pager pager(store, {.memory = roam::Pager::least_memory});
   made::load_all(pager);
