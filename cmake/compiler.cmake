@@ -27,8 +27,8 @@ function(roam_unity)
   endif()
 endfunction()
 
-# Link the list of races in foreign libraries into programs under the thread sanitizer.
-if(CMAKE_CXX_FLAGS MATCHES "-fsanitize=[a-z,]*thread")
+# Link what sanitizers need to know about foreign libraries into programs.
+if(CMAKE_CXX_FLAGS MATCHES "-fsanitize=[a-z,]*(thread|address)")
   add_library(roam_sanitizer OBJECT ${CMAKE_CURRENT_LIST_DIR}/sanitizers.cpp)
   link_libraries($<$<STREQUAL:$<TARGET_PROPERTY:TYPE>,EXECUTABLE>:roam_sanitizer>)
 endif()
