@@ -198,6 +198,7 @@ class SweepTraversal {
     const Leaf& leaf = in.leaves[number].leaf;
     const FineLeaf* const low = in.low == nullptr ? nullptr : in.low + number;
     const auto each = [&](std::uint32_t left, const auto& visit) {
+      if (left != 0) prefetch_ids(index_, in.tile, leaf);
       for (; left != 0; left &= left - 1) {
         const auto i = static_cast<std::uint32_t>(std::countr_zero(left));
         const Place place{in.number, in.tile.leaves + number, i};
