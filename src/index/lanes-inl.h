@@ -94,6 +94,7 @@ HWY_INLINE std::uint32_t bits_of(MF mask) {
   std::uint8_t bits[8] = {};
   hn::StoreMaskBits(kF, mask, bits);
   if constexpr (lane_count <= 8) return bits[0];
+  // In one read, which is not waited for. Only processors with the least byte first have sixteen lanes.
   std::uint16_t both = 0;
   std::memcpy(&both, bits, sizeof both);
   return both;

@@ -213,14 +213,14 @@ class SweepTraversal {
       in.entered = true;
       each(pierced(leaf, low, line_),
            [&](std::uint32_t, const Place& place) { decide(in.tile, place, double(entry)); });
-      return;
+    } else {
+      Met met;
+      sweep_leaf<!skips>(leaf, low, in.frame, motion_, in.radius, in.hit_limit, entry, t_max_, met);
+      each(met.arrived, [&](std::uint32_t i, const Place& place) { take(double(met.time[i]), place); });
+      each(met.open, [&](std::uint32_t i, const Place& place) {
+        if (double(met.time[i]) < best_.time) decide(in.tile, place, double(met.time[i]));
+      });
     }
-    Met met;
-    sweep_leaf<!skips>(leaf, low, in.frame, motion_, in.radius, in.hit_limit, entry, t_max_, met);
-    each(met.arrived, [&](std::uint32_t i, const Place& place) { take(double(met.time[i]), place); });
-    each(met.open, [&](std::uint32_t i, const Place& place) {
-      if (double(met.time[i]) < best_.time) decide(in.tile, place, double(met.time[i]));
-    });
   }
 
   void decide(const Tile& t, const Place& place, double from) {
