@@ -98,7 +98,7 @@ TEST(CertifiedSweep, ToleranceIsKeptAndStopsEarlier) {
 TEST(CertifiedSweep, OfARayKeepsTheSamePromises) {
   std::mt19937_64 random(12);
   std::uniform_real_distribution<double> share(0.0, 1.0);
-  int hits = 0, quick = 0;
+  int hits = 0;
   for_each_query([&](Query q) {
     q.body.half_height = 0.0;
     // A sphere as it comes, then a thin one that runs onto the face, or about onto an edge or a corner.
@@ -118,14 +118,12 @@ TEST(CertifiedSweep, OfARayKeepsTheSamePromises) {
       }
       if (time == 1.0) continue;
       ++hits;
-      quick += time != certified::sweep(q.body, q.motion, t, 0.0, 1.0, tolerance).time ? 1 : 0;
       const Quad at = oracle::distance_on_the_way<Quad>(q.body, q.from, q.motion, time, q.triangle);
       EXPECT_LE(at - Quad(q.body.radius),
                 Quad(std::max(tolerance, certified::hit_resolution(q.body, q.motion, t, 1.0))));
     }
   });
   EXPECT_GT(hits, queries / 5);
-  EXPECT_GT(quick, queries / 20) << "the face alone decides nothing";
 }
 
 TEST(CertifiedSweep, CanBeginAtAnyTimeThatIsKnownToBeFree) {
