@@ -9,6 +9,8 @@
 #define ROAM_INDEX_LANES_INL_H_
 #endif
 
+#include <cstring>
+
 #include "index/frame-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -91,7 +93,11 @@ HWY_INLINE float grown_radius(float radius, float half_height, float longest, fl
 HWY_INLINE std::uint32_t bits_of(MF mask) {
   std::uint8_t bits[8] = {};
   hn::StoreMaskBits(kF, mask, bits);
-  return std::uint32_t{bits[0]} | std::uint32_t{lane_count > 8 ? bits[1] : std::uint8_t{0}} << 8;
+  if constexpr (lane_count <= 8) return bits[0];
+  // In one read, which is not waited for. Only processors with the least byte first have sixteen lanes.
+  std::uint16_t both = 0;
+  std::memcpy(&both, bits, sizeof both);
+  return both;
 }
 
 /// The planes across axis `k` through which the centre of a body enters and leaves lane_count child boxes. On the

@@ -10,7 +10,7 @@
 
 #include <limits>
 
-#include "index/ray-inl.h"
+#include "index/triangles-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace roam::index::HWY_NAMESPACE {
@@ -95,11 +95,11 @@ HWY_INLINE void keep_off_planes(const Triangles& t, const V3& way, VF end, VF ke
 
 /// Advances the body against all triangles of a leaf from t_entry, until which they are known to be free, to t_max. A
 /// triangle counts as arrived within hit_limit of the axis; a negative hit_limit leaves all decisions to double
-/// precision. A Ray first drops the triangles that its line certainly misses. With `first_only`, an arrival drops the
-/// triangles whose turn certainly comes later: the earliest impact stays the same to the bit.
-template <class Line, bool first_only>
+/// precision. With `first_only`, an arrival drops the triangles whose turn certainly comes later: the earliest impact
+/// stays the same to the bit.
+template <bool first_only>
 HWY_INLINE void sweep_leaf(const Leaf& leaf, const FineLeaf* low, const Frame& frame, const Motion& motion,
-                           const Line& line, float radius, float hit_limit, float t_entry, float t_max, Met& out) {
+                           float radius, float hit_limit, float t_entry, float t_max, Met& out) {
   out.arrived = out.open = 0;
   const V3 way{set(motion.way[0]), set(motion.way[1]), set(motion.way[2])};
   const VF keep = set(radius * (1.0F + radius_roundings * float_unit));
@@ -108,20 +108,11 @@ HWY_INLINE void sweep_leaf(const Leaf& leaf, const FineLeaf* low, const Frame& f
   const Vertices vertices(leaf, low, frame);
   for (int first = 0; first < leaf.triangle_count; first += lane_count) {
     MF active = hn::FirstN(kF, static_cast<std::size_t>(leaf.triangle_count - first));
-    if constexpr (Line::is_ray) {
-      active = pierced(leaf, vertices, line, first, active);
-      if (hn::AllFalse(kF, active)) continue;
-    }
     Triangles t = load_triangles(leaf, vertices, first);
     VF time = set(t_entry);
     keep_off_planes(t, way, end, keep, leaf_error(t, set(t_max * motion.longest), frame, motion.half_height),
                     motion.longest, motion.half_height, time, active);
     if (hn::AllFalse(kF, active)) continue;
-    if (Line::is_ray && hit_limit < 0.0F) {  // rounds could not settle the rest
-      hn::Store(time, kF, out.time + first);
-      out.open |= bits_of(active) << first;
-      continue;
-    }
     t.prepare();
     MF arrived = hn::FirstN(kF, 0), open = hn::FirstN(kF, 0);
     for (int round = 0; round < round_count; ++round) {

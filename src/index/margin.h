@@ -20,7 +20,7 @@ inline constexpr float node_roundings = 40.0F;
 /// distance. 31.4 are counted: for a capsule, with the triangle's own plane.
 inline constexpr float leaf_roundings = 32.0F;
 
-/// Roundings charged to each metre of the farthest coordinate of a tile, when a ray drops a triangle. 35 are counted.
+/// Roundings charged to each metre of the farthest coordinate of a tile, when a ray drops a triangle. 26 are counted.
 inline constexpr float ray_roundings = 64.0F;
 
 /// Roundings charged to each metre of the whole motion, for the speed of approach to a leaf or a node. 9 are counted.

@@ -178,6 +178,7 @@ class NearTraversal {
     };
     const auto look_at_leaf = [&](std::uint32_t leaf) {
       looked_ = true;
+      if constexpr (!Bounds::is_loose) prefetch_ids(index_, t, leaves[leaf].leaf);
       Children triangles;
       alignas(64) float most[node_width];
       near_leaf(leaves[leaf].leaf, low == nullptr ? nullptr : low + leaf, frame, way_, leaf_reach, bounds,

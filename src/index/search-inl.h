@@ -24,6 +24,11 @@ HWY_INLINE void prefetch(const Block* block) {
   hwy::Prefetch(reinterpret_cast<const char*>(block) + 64);
 }
 
+/// Prefetches the numbers of a leaf's triangles. The result needs one of them, and would wait for it at the end.
+HWY_INLINE void prefetch_ids(const Index& index, const Tile& tile, const Leaf& leaf) {
+  if (index.ids != nullptr) hwy::Prefetch(index.ids + tile.ids + leaf.ids);
+}
+
 /// Pushes the remaining children of a node. `nodes` and `leaves` are the bases of their numbers.
 HWY_INLINE void push_children(const Node& node, const Children& children, const Block* nodes, const Block* leaves,
                               Stack& stack) {

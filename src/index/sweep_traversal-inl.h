@@ -7,7 +7,10 @@
 #define ROAM_INDEX_SWEEP_TRAVERSAL_INL_H_
 #endif
 
+#include <type_traits>
+
 #include "index/leaf-inl.h"
+#include "index/ray-inl.h"
 #include "index/search-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -30,7 +33,7 @@ class SweepTraversal {
     const Frame frame(index_.grid.origin, index_.grid.step, piece_.start);
     const double radius = piece_.body.radius + margin_of(index_);
     const Swept swept = swept_in(frame, round_up(margin_of(index_)));
-    const float grown = grown_for(round_up(radius), top_steps, frame);
+    const Seen seen(frame, motion_, line_, grown_for(round_up(radius), top_steps, frame));
     Stack stack;
     search(
         stack, [this](float key) { return key >= t_max_; },
@@ -39,7 +42,7 @@ class SweepTraversal {
             prefetch_roots(index_, stack);
             return tile(e.number);
           }
-          const Descent met = descend(index_.top, e.number, frame, swept, grown, few_tiles(index_));
+          const Descent met = descend(index_.top, e.number, seen, swept, few_tiles(index_));
           if (met.single) return tile(met.first);
           push_children(*met.node, met.children, index_.top, nullptr, stack);
           prefetch_tiles(index_, *met.node, met.children);
@@ -54,6 +57,9 @@ class SweepTraversal {
   }
 
  private:
+  /// The line in a frame, as node tests need it.
+  using Seen = std::conditional_t<Line::is_ray, RayFrame, NoRayFrame>;
+
   [[nodiscard]] float grown_for(float radius, float steps, const Frame& frame) const {
     return grown_radius(radius, motion_.half_height, motion_.longest, steps * frame.step, frame.step);
   }
@@ -70,20 +76,21 @@ class SweepTraversal {
     Inside in(t, number, index_, piece_);
     const Swept swept = swept_in(in.frame, t.error);
     // Boxes enclose the vertices without their low bits.
-    const float grown = grown_for(round_up(piece_.body.radius + double(t.error)), tile_steps, in.frame);
+    const Seen seen(in.frame, motion_, line_,
+                    grown_for(round_up(piece_.body.radius + double(t.error)), tile_steps, in.frame));
     const Block* nodes = index_.blocks + t.nodes;
     const auto beyond = [this](float key) { return key >= t_max_; };
     const auto visit = [&](const Stack::Entry& e) {
       std::uint32_t only = e.number;
       if (!e.leaf) {
-        const Descent met = descend(nodes, e.number, in.frame, swept, grown, 1);
+        const Descent met = descend(nodes, e.number, seen, swept, 1);
         if (!met.single) return push_children(*met.node, met.children, nodes, in.leaves, stack_);
         only = met.first;
       }
       leaf(in, only, e.key);
     };
     if (gathered == nullptr) return search(stack_, beyond, visit);
-    begin(*gathered, in.frame, swept, grown, nodes, in.leaves);
+    begin(*gathered, seen, swept, nodes, in.leaves);
     go_on(stack_, beyond, visit);
   }
 
@@ -115,28 +122,28 @@ class SweepTraversal {
   };
 
   /// Starts from the gathered root of a tile.
-  HWY_INLINE void begin(const Root& root, const Frame& frame, const Swept& swept, float grown, const Block* nodes,
+  HWY_INLINE void begin(const Root& root, const Seen& seen, const Swept& swept, const Block* nodes,
                         const Block* leaves) {
     Children children;
     const std::uint32_t met = met_children(root.node, swept);
     if ((met & (met - 1)) == 0) {
       children.take(met);
     } else {
-      choose(root.node, frame, met, grown, children);
+      choose(root.node, seen, met, children);
     }
     stack_.clear();
     push_children(root, children, nodes, leaves, stack_);
   }
 
   /// Selects among the children `met`, and computes times.
-  HWY_INLINE void choose(const Node& node, const Frame& frame, std::uint32_t met, float grown, Children& out) const {
+  HWY_INLINE void choose(const Node& node, const Seen& seen, std::uint32_t met, Children& out) const {
     if constexpr (Line::is_ray) {
-      ray_node(node, frame, motion_, line_, grown, t_max_, out);
+      ray_node(node, seen, motion_, t_max_, out);
       out.mask &= met;
     } else {
-      sweep_node(node, frame, motion_, grown, t_max_, out);
+      sweep_node(node, seen.frame, motion_, seen.grown, t_max_, out);
       out.mask &= met;
-      if ((out.mask & (out.mask - 1)) != 0) delay_children(node, frame, motion_, grown, t_max_, out);
+      if ((out.mask & (out.mask - 1)) != 0) delay_children(node, seen.frame, motion_, seen.grown, t_max_, out);
     }
   }
 
@@ -151,13 +158,12 @@ class SweepTraversal {
   /// Visits a node and, as long as there is only one child, that child, without a detour through the stack: a visit is
   /// latency. Integer boxes settle most visits of short motions at a third of the cost. Times of entry matter only
   /// where more than `few` children are met.
-  HWY_INLINE Descent descend(const Block* nodes, std::uint32_t number, const Frame& frame, const Swept& swept,
-                             float grown, int few) {
+  HWY_INLINE Descent descend(const Block* nodes, std::uint32_t number, const Seen& seen, const Swept& swept, int few) {
     Descent out;
     out.single = false;
     out.node = &nodes[number].node;
     if (!Line::is_ray && !short_) {
-      choose(*out.node, frame, ~0U, grown, out.children);
+      choose(*out.node, seen, ~0U, out.children);
       return out;
     }
     for (;;) {
@@ -165,7 +171,7 @@ class SweepTraversal {
       if (short_) {
         out.children.mask = met_children(node, swept);
       } else {
-        choose(node, frame, ~0U, grown, out.children);  // a long ray
+        choose(node, seen, ~0U, out.children);  // a long ray
       }
       const std::uint32_t met = out.children.mask;
       if (met == 0) return out;
@@ -183,49 +189,59 @@ class SweepTraversal {
     if (std::popcount(met) <= few) {
       out.children.take(met);
     } else {
-      choose(*out.node, frame, met, grown, out.children);
+      choose(*out.node, seen, met, out.children);
     }
     return out;
   }
 
   void leaf(Inside& in, std::uint32_t number, float entry) {
+    const Leaf& leaf = in.leaves[number].leaf;
+    const FineLeaf* const low = in.low == nullptr ? nullptr : in.low + number;
+    const auto each = [&](std::uint32_t left, const auto& visit) {
+      if (left != 0) prefetch_ids(index_, in.tile, leaf);
+      for (; left != 0; left &= left - 1) {
+        const auto i = static_cast<std::uint32_t>(std::countr_zero(left));
+        const Place place{in.number, in.tile.leaves + number, i};
+        if constexpr (skips) {
+          if (index_.skip->skips(index_.skip->context, place)) continue;
+        }
+        visit(i, place);
+      }
+    };
     if constexpr (Line::is_ray) {
       if (!in.entered) line_.enter(in.frame, motion_, in.radius, tile_steps);
       in.entered = true;
-    }
-    Met met;
-    sweep_leaf<Line, !skips>(in.leaves[number].leaf, in.low == nullptr ? nullptr : in.low + number, in.frame, motion_,
-                             line_, in.radius, in.hit_limit, entry, t_max_, met);
-    for (std::uint32_t left = met.arrived; left != 0; left &= left - 1) {
-      const auto i = static_cast<std::uint32_t>(std::countr_zero(left));
-      const Place place{in.number, in.tile.leaves + number, i};
-      if constexpr (skips) {
-        if (index_.skip->skips(index_.skip->context, place)) continue;
-      }
-      take(double(met.time[i]), place);
-    }
-    for (std::uint32_t left = met.open; left != 0; left &= left - 1) {
-      const auto i = static_cast<std::uint32_t>(std::countr_zero(left));
-      if (double(met.time[i]) >= best_.time) continue;
-      const Place place{in.number, in.tile.leaves + number, i};
-      if constexpr (skips) {
-        if (index_.skip->skips(index_.skip->context, place)) continue;
-      }
-      decide(in.tile, place, double(met.time[i]));
+      each(pierced(leaf, low, line_),
+           [&](std::uint32_t, const Place& place) { decide(in.tile, place, double(entry)); });
+    } else {
+      Met met;
+      sweep_leaf<!skips>(leaf, low, in.frame, motion_, in.radius, in.hit_limit, entry, t_max_, met);
+      each(met.arrived, [&](std::uint32_t i, const Place& place) { take(double(met.time[i]), place); });
+      each(met.open, [&](std::uint32_t i, const Place& place) {
+        if (double(met.time[i]) < best_.time) decide(in.tile, place, double(met.time[i]));
+      });
     }
   }
 
   void decide(const Tile& t, const Place& place, double from) {
-    Body body = piece_.body;
-    body.radius += double(t.fine_error);
+    const Body body{piece_.body.radius + double(t.fine_error), piece_.body.half_height};
     const auto triangle = local_triangle(index_, place, piece_.start);
-    const SweepResult s = certified::sweep(body, piece_.motion, triangle, from, best_.time, arrival_exact);
-    if (s.hit) take(s.time, place);
+    if constexpr (Line::is_ray) {
+      take(certified::sweep_ray(body, piece_.motion, triangle, from, best_.time, arrival_exact), place);
+    } else {
+      const SweepResult s = certified::sweep(body, piece_.motion, triangle, from, best_.time, arrival_exact);
+      if (s.hit) take(s.time, place);
+    }
   }
 
   void take(double time, const Place& place) {
     if (time >= best_.time) return;
-    best_ = {true, time, place};
+    // Number by number: a wider store would wait for those of a temporary.
+    best_.hit = true;
+    best_.time = time;
+    best_.place.tile = place.tile;
+    best_.place.leaf = place.leaf;
+    best_.place.triangle = place.triangle;
     t_max_ = round_up(time);
   }
 

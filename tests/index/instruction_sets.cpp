@@ -13,7 +13,7 @@
 namespace {
 
 struct Answers {
-  std::vector<roam::Impact> sweeps;
+  std::vector<roam::Impact> sweeps, rays;
   std::vector<roam::Clearance> clearances;
   std::vector<double> gaps, floors;
   std::vector<roam::Contact> contacts;
@@ -40,11 +40,12 @@ Answers ask(const roam::World& world) {
   Answers out;
   for (int q = 0; q < 20000; ++q) {
     const double radius = random.between(0.0, 0.5), half_height = random.between(0.0, 1.0);
-    const roam::Body body{q % 3 == 0 ? 0.0 : radius, q % 2 == 0 ? 0.0 : half_height};  // one in six is a ray
+    const roam::Body body{q % 3 == 0 ? 0.0 : radius, q % 2 == 0 ? 0.0 : half_height};  // one in six is a short ray
     constexpr double longest[] = {0.001, 0.01, 0.1, 1.0, 10.0, 30.0};
     const roam::Vec3 from = random.in_box(22.0), direction = random.direction();
     const roam::Vec3 motion = random.between(0.0, longest[q % 6]) * direction;
     out.sweeps.push_back(world.sweep(body, from, motion));
+    out.rays.push_back(world.ray(from, 30.0 * direction));
     const roam::Vec3 way = q % 5 == 0 ? roam::Vec3(0.0) : motion;
     out.clearances.push_back(world.clearance(body, from, way, 0.5));
     out.gaps.push_back(world.gap_bound(body, from, way, 0.5));
@@ -65,14 +66,18 @@ std::uint64_t digest(const Answers& answers) {
   const auto add_vector = [&](const roam::Vec3& v) {
     for (int k = 0; k < 3; ++k) add_real(v[k]);
   };
-  for (const roam::Impact& impact : answers.sweeps) {
-    add(static_cast<std::uint64_t>(impact.hit));
-    if (!impact.hit) continue;
-    add(impact.triangle);
-    add_real(impact.time);
-    add_vector(impact.point);
-    add_vector(impact.normal);
-  }
+  const auto add_impacts = [&](const std::vector<roam::Impact>& impacts) {
+    for (const roam::Impact& impact : impacts) {
+      add(static_cast<std::uint64_t>(impact.hit));
+      if (!impact.hit) continue;
+      add(impact.triangle);
+      add_real(impact.time);
+      add_vector(impact.point);
+      add_vector(impact.normal);
+    }
+  };
+  add_impacts(answers.sweeps);
+  add_impacts(answers.rays);
   for (const roam::Clearance& clearance : answers.clearances) {
     add_real(clearance.distance);
     add(clearance.triangle);
@@ -127,8 +132,8 @@ void expect_the_same_bits(bool lossless, std::uint64_t expected) {
   EXPECT_GT(tried, 0);
 }
 
-TEST(InstructionSets, GiveTheSameBits) { expect_the_same_bits(false, 9905473526795508770U); }
+TEST(InstructionSets, GiveTheSameBits) { expect_the_same_bits(false, 18055254882522728647U); }
 
-TEST(InstructionSets, GiveTheSameBitsInALosslessWorld) { expect_the_same_bits(true, 15580039134457725838U); }
+TEST(InstructionSets, GiveTheSameBitsInALosslessWorld) { expect_the_same_bits(true, 11035967529364366896U); }
 
 }  // namespace

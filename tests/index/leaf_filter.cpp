@@ -4,12 +4,14 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 
 #include "clutter.h"
 #include "graze.h"
 #include "index/leaf-inl.h"
+#include "index/ray-inl.h"
 #include "oracle.h"
 
 namespace {
@@ -113,10 +115,10 @@ void sweep_every_triangle(bool capsule) {
     const float beyond = has_low ? roam::index::fine_hit_distance : roam::index::hit_limit_distance;
     const float limit = q % 2 == 0 ? -1.0F : touch.radius + beyond;
     lanes::Met met, all;
-    lanes::sweep_leaf<lanes::NoRay, true>(touch.scene.leaf, touch.scene.low, touch.frame, motion, lanes::NoRay(motion),
-                                          touch.radius, limit, 0.0F, 1.0F, met);
-    lanes::sweep_leaf<lanes::NoRay, false>(touch.scene.leaf, touch.scene.low, touch.frame, motion, lanes::NoRay(motion),
-                                           touch.radius, limit, 0.0F, 1.0F, all);
+    lanes::sweep_leaf<true>(touch.scene.leaf, touch.scene.low, touch.frame, motion, touch.radius, limit, 0.0F, 1.0F,
+                            met);
+    lanes::sweep_leaf<false>(touch.scene.leaf, touch.scene.low, touch.frame, motion, touch.radius, limit, 0.0F, 1.0F,
+                             all);
     expect_same_first(met, all);
     for (int i = 0; i < node_width; ++i) {
       ++tested;
@@ -254,8 +256,7 @@ TEST(LeafFilter, ArrivesAtASliverInTime) {
     const float delta = 0.00085F, radius = static_cast<float>(body.radius) + delta;
     const float limit = static_cast<float>(body.radius) + 0.00114F;
     lanes::Met met;
-    lanes::sweep_leaf<lanes::NoRay, true>(sliver.leaf, nullptr, frame, motion, lanes::NoRay(motion), radius, limit,
-                                          0.0F, 1.0F, met);
+    lanes::sweep_leaf<true>(sliver.leaf, nullptr, frame, motion, radius, limit, 0.0F, 1.0F, met);
     const bool here = (met.arrived & 1U) != 0;
     arrived += here ? 1 : 0;
     const double free = here || (met.open & 1U) != 0 ? double(met.time[0]) : double(met.until);
@@ -270,26 +271,46 @@ TEST(LeafFilter, ArrivesAtASliverInTime) {
   EXPECT_GT(arrived, 5000);
 }
 
-/// What a ray leaves out rests on it: the vectors across are rounded, and so not quite across the way.
-TEST(LeafFilter, KnowsHowFarARayLeadsAlongTheVectorsAcrossIt) {
+/// What a ray leaves out rests on it: the slopes are rounded, and so their vectors are not quite across the way.
+TEST(LeafFilter, KnowsHowFarARayLeadsInItsProjection) {
   clutter::Random random(53);
   for (int q = 0; q < 10000; ++q) {
     Vec3 way = random.direction() * std::pow(10.0, random.between(-3.0, 1.8));
     if (q % 5 == 0) way[q % 3] *= 1e-6;
     const lanes::Motion motion(way, 0.0);
-    lanes::Ray ray(motion);
-    ray.look_along(motion);
+    const lanes::Ray ray(motion);
     for (int i = 0; i < 2; ++i) {
-      long double along = 0.0L, square = 0.0L;
-      for (int k = 0; k < 3; ++k) {
-        const long double w = ray.across[i][k];
-        along += w * (long double)(way[k]);
-        square += w * w;
-      }
-      ASSERT_GE((long double)(ray.drift[i]), std::abs(along)) << q;
-      ASSERT_GE((long double)(ray.length[i]), std::sqrt(square)) << q;
+      const long double slope = ray.slope[i];
+      ASSERT_LE(std::abs((long double)(way[ray.axis[i]]) - slope * (long double)(way[ray.axis[2]])),
+                roam::index::speed_roundings * roam::index::float_unit * motion.longest)
+          << q;
+      ASSERT_LE(1.0L + slope * slope, (long double)(lanes::Ray::longest_across)*lanes::Ray::longest_across) << q;
     }
   }
+}
+
+/// Through corners, edges and faces of triangles far off.
+TEST(LeafFilter, LeavesEveryTriangleThatARayPierces) {
+  clutter::Random random(54);
+  int left = 0;
+  for (int q = 0; q < 4000; ++q) {
+    const Scene scene(random, q % 2 == 0);
+    for (int i = 0; i < node_width; ++i) {
+      const Triangle& t = scene.triangles[i];
+      const double u = i % 3 == 0 ? 0.0 : random.unit(), v = i % 3 == 2 ? random.unit() * (1.0 - u) : 0.0;
+      Vec3 way = random.direction() * std::pow(10.0, random.between(-3.0, 1.8));
+      if (i % 5 == 0) way[i % 3] = 0.0;
+      const Vec3 from = t[0] + u * (t[1] - t[0]) + v * (t[2] - t[0]) - random.unit() * way;
+      const lanes::Frame frame(curve_origin, step_size, from);
+      const lanes::Motion motion(way, 0.0);
+      lanes::Ray ray(motion);
+      ray.enter(frame, motion, 0.0F, 0x1p16F);
+      const std::uint32_t pierced = lanes::pierced(scene.leaf, scene.low, ray);
+      ASSERT_NE(pierced >> i & 1U, 0U) << "query " << q << " triangle " << i;
+      left += std::popcount(pierced);
+    }
+  }
+  EXPECT_LT(left, 4000 * node_width * node_width / 2) << "the leaf tests tell nothing";
 }
 
 }  // namespace

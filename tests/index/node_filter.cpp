@@ -12,8 +12,8 @@
 namespace {
 
 using roam::Vec3;
-using roam::index::node_width;
 using roam::index::Node;
+using roam::index::node_width;
 namespace lanes = roam::index::HWY_NAMESPACE;
 
 /// Child boxes and the start of a query, far off in a tile or in the tree over tiles.
@@ -106,7 +106,7 @@ void touch_every_child(bool top) {
       ASSERT_NE(children.mask >> i & 1U, 0U) << "query " << q << " child " << i;
       ASSERT_LE((long double)(children.key[i]), t * (1.0L + 1e-9L) + 1e-9L) << "query " << q << " child " << i;
       if (h == 0.0) {
-        lanes::ray_node(scene.node, frame, motion, lanes::Ray(motion), grown, 1.0F, children);
+        lanes::ray_node(scene.node, lanes::RayFrame(frame, motion, lanes::Ray(motion), grown), motion, 1.0F, children);
         ASSERT_NE(children.mask >> i & 1U, 0U) << "query " << q << " child " << i;
         ASSERT_LE((long double)(children.key[i]), t * (1.0L + 1e-9L) + 1e-9L) << "query " << q << " child " << i;
       }
@@ -221,7 +221,7 @@ void pierce_every_child(bool top) {
       const lanes::Motion motion(way, 0.0);
       const float grown = scene.grown(0.0F, motion);
       lanes::Children children;
-      lanes::ray_node(scene.node, frame, motion, lanes::Ray(motion), grown, 1.0F, children);
+      lanes::ray_node(scene.node, lanes::RayFrame(frame, motion, lanes::Ray(motion), grown), motion, 1.0F, children);
       ASSERT_NE(children.mask >> i & 1U, 0U) << "query " << q << " child " << i;
     }
   }

@@ -95,6 +95,37 @@ TEST(CertifiedSweep, ToleranceIsKeptAndStopsEarlier) {
   EXPECT_GT(sooner, 10);
 }
 
+TEST(CertifiedSweep, OfARayKeepsTheSamePromises) {
+  std::mt19937_64 random(12);
+  std::uniform_real_distribution<double> share(0.0, 1.0);
+  int hits = 0;
+  for_each_query([&](Query q) {
+    q.body.half_height = 0.0;
+    // A sphere as it comes, then a thin one that runs onto the face, or about onto an edge or a corner.
+    for (const bool aimed : {false, true}) {
+      const double tolerance = share(random) < 0.5 ? 1e-6 : 0.0;
+      if (aimed) {
+        const double u = std::min(share(random), 1.2 * share(random)),
+                     v = share(random) < 0.3 ? 0.0 : (1.0 - u) * share(random);
+        const Vec3 at = q.triangle[0] + u * (q.triangle[1] - q.triangle[0]) + v * (q.triangle[2] - q.triangle[0]);
+        q.body.radius = 1e-7;
+        q.motion = (1.0 + share(random)) * (at - q.from);
+      }
+      const auto t = local(q);
+      const double time = certified::sweep_ray(q.body, q.motion, t, 0.0, 1.0, tolerance);
+      if (time > 0.0) {
+        EXPECT_GE(oracle::least_distance<Quad>(q.body, q.from, q.motion, time, q.triangle), Quad(q.body.radius));
+      }
+      if (time == 1.0) continue;
+      ++hits;
+      const Quad at = oracle::distance_on_the_way<Quad>(q.body, q.from, q.motion, time, q.triangle);
+      EXPECT_LE(at - Quad(q.body.radius),
+                Quad(std::max(tolerance, certified::hit_resolution(q.body, q.motion, t, 1.0))));
+    }
+  });
+  EXPECT_GT(hits, queries / 5);
+}
+
 TEST(CertifiedSweep, CanBeginAtAnyTimeThatIsKnownToBeFree) {
   int begun = 0;
   for_each_query([&](const Query& q) {
