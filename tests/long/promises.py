@@ -88,7 +88,7 @@ PROMISES = [
     ("generate", "GenerateAllocations.*", "src/files/whole_file.cpp",
      "WholeFile::~WholeFile() {\n  if (!temporary_.empty()) ", "WholeFile::~WholeFile() {\n  if (temporary_.empty()) "),
     ("import_allocations", "ImportAllocations.*", "src/process/child.cpp", "Child::~Child() { end(); }",
-     "Child::~Child() { signal(SIGKILL); }"),
+     "Child::~Child() {\n  if (pid_ > 0) signal(SIGKILL);\n}"),
     ("profile", "ProfileAllocations.*", "src/profile/profile.cpp",
      "(const Error& error) {\n    throw Error(fmt::format(", "(const std::exception& error) {\n    throw Error(fmt::format("),
     ("store_build_allocations", "StoreBuildAllocations.*", "src/store/build/output_folder.cpp",
