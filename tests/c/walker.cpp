@@ -31,14 +31,22 @@ TEST(CWalker, MovesAsCppDoes) {
   step.size = sizeof step;
   unsigned events = 0;
   for (int i = 0; i < 300; ++i) {
-    const Vec3 velocity(2.0 * std::cos(0.004 * i), 2.0 * std::sin(0.004 * i), 0.0);
-    const bool jump = i == 100;
+    roam::WalkerInput wish;
+    // It stops and goes on, at times as slowly as limits make it.
+    if (i % 40 < 30) wish.velocity = Vec3(2.0 * std::cos(0.004 * i), 2.0 * std::sin(0.004 * i), 0.0);
+    wish.jump = i == 100;
+    wish.crouch = i >= 150 && i < 180;
+    if (i >= 10 && i < 50) wish.acceleration = 5.0;
+    if (i >= 60 && i < 90) wish.braking = 4.0;
     roam_walker_input input{};
     input.size = sizeof input;
-    input.velocity = c_rig::of(velocity);
-    input.jump = jump ? 1 : 0;
+    input.velocity = c_rig::of(wish.velocity);
+    input.jump = wish.jump ? 1 : 0;
+    input.crouch = wish.crouch ? 1 : 0;
+    if (i >= 10 && i < 50) input.acceleration = wish.acceleration;
+    if (i >= 60 && i < 90) input.braking = wish.braking;
     ASSERT_EQ(roam_walker_step(walker, &input, 1.0 / 60, &step), ROAM_OK) << roam_error();
-    const roam::StepReport& report = expected.step({.velocity = velocity, .jump = jump}, 1.0 / 60);
+    const roam::StepReport& report = expected.step(wish, 1.0 / 60);
     EXPECT_SAME_VEC(step.to, report.to);
     EXPECT_EQ(step.least_gap, report.least_gap);
     EXPECT_EQ(step.grounded != 0, report.grounded);

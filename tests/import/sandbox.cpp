@@ -21,6 +21,7 @@ class ImportSandbox : public testing::TestWithParam<int> {
  protected:
   void SetUp() override {
     folder_.write("scene/victim", "");
+    folder_.write("neighbour", "");
     const auto script = folder_.write_script(
         "reader.sh", "exec '" MISBEHAVING_READER "' --highest-landlock " + std::to_string(GetParam()) + " \"$@\"\n");
     options_.reader = script;
@@ -66,7 +67,7 @@ TEST_P(ImportSandbox, RefusesMoreRights) {
 
 TEST_P(ImportSandbox, KeepsAReaderToTheScenesFolder) {
   EXPECT_EQ(error_of("scene"), "scene was done");
-  for (const char* deed : {"secret", "list", "proc"}) {
+  for (const char* deed : {"secret", "neighbour", "list", "proc"}) {
     const std::string error = error_of(deed);
     // Without Landlock nothing but roam's own checks says which files are read.
     EXPECT_EQ(error, std::string(deed) + (GetParam() > 0 ? " was refused: Permission denied" : " was done"));
@@ -99,8 +100,8 @@ class ImportSandboxWithoutSeccomp : public ImportSandbox {
 
 TEST_P(ImportSandboxWithoutSeccomp, StillKeepsAReaderToTheScenesFolder) {
   if (reader_confinement().landlock < 3) GTEST_SKIP() << "this kernel has no Landlock that knows truncation";
-  for (const char* deed : {"secret", "list", "proc", "write", "overwrite", "append", "unnamed", "truncate", "unlink",
-                           "rename", "link", "symlink", "mkdir"}) {
+  for (const char* deed : {"secret", "neighbour", "list", "proc", "write", "overwrite", "append", "unnamed", "truncate",
+                           "unlink", "rename", "link", "symlink", "mkdir"}) {
     EXPECT_TRUE(contains(error_of(deed), std::string(deed) + " was refused: ")) << error_of(deed);
     expect_untouched(deed);
   }

@@ -18,6 +18,7 @@
 #include <cstddef>
 #include <cstdlib>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <functional>
 #include <map>
@@ -105,6 +106,8 @@ const std::map<std::string, std::function<long()>> misdeeds{
     // A descriptor that the program which started this one has left open.
     {"inherited", [] { return fcntl(9, F_GETFD); }},
     {"secret", [] { return open("/etc/passwd", O_RDONLY); }},
+    {"neighbour",
+     [] { return open((std::filesystem::path(beside).parent_path() / "../neighbour").c_str(), O_RDONLY); }},
     {"list", [] { return open("/etc", O_RDONLY | O_DIRECTORY); }},
     {"proc", [] { return open("/proc/self/environ", O_RDONLY); }},
     {"scene", [] { return open((beside + ".victim").c_str(), O_RDONLY); }},

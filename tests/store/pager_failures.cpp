@@ -96,7 +96,7 @@ TEST(PagerFailures, WithReadsThatNeverEndTheBodyIsHeldAndNothingWaits) {
   for (int i = 0; i < 100; ++i) {
     (void)pager->update(w.body(), w.position(), w.velocity());
     w.step({.velocity = {1.4, 0.0, 0.0}}, frame);
-    ASSERT_EQ(w.position(), middle);
+    EXPECT_EQ(w.position(), middle);
   }
   EXPECT_LT(pager->facts().speed_limit, 1.0);
   EXPECT_EQ(pager->stats().tiles, 0u);

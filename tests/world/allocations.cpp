@@ -119,6 +119,9 @@ TEST(WorldAllocations, InstancesAreAsBeforeWhereverOneFails) {
   const auto judged = [&](double done, std::size_t count) {
     return [&, done, count](bool failed) {
       EXPECT_EQ(time(), failed ? as_made : done);
+      if (failed) {
+        EXPECT_EQ(space->pose(first).position.x, -4.0);
+      }
       EXPECT_EQ(space->instances().size(), failed ? 1U : count);
       with_one(failed);
     };

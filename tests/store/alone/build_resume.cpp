@@ -25,13 +25,13 @@ std::atomic<int> calls{0};
 std::atomic<int> fatal_call{0};
 /// Whether the fatal call is still done.
 std::atomic<bool> dies_after{false};
-/// The n-th such call and all after it fail with this error. 0: none does.
+/// The n-th such call and all after it fail with this error: with ENOSPC those that write. 0: none does.
 std::atomic<int> failing_call{0}, failure{0};
 
 template <class Call>
-auto counted(Call&& call) {
+auto counted(Call&& call, bool writes = false) {
   const int number = ++calls;
-  if (failing_call > 0 && number >= failing_call) {
+  if (failing_call > 0 && number >= failing_call && (writes || failure != ENOSPC)) {
     errno = failure;
     return static_cast<decltype(call())>(-1);
   }
@@ -52,7 +52,7 @@ extern "C" int renameat(int from_folder, const char* from, int to_folder, const 
   return counted([&] { return static_cast<int>(::syscall(SYS_renameat, from_folder, from, to_folder, to)); });
 }
 extern "C" ssize_t write(int fd, const void* bytes, std::size_t size) {
-  return counted([&] { return static_cast<ssize_t>(::syscall(SYS_write, fd, bytes, size)); });
+  return counted([&] { return static_cast<ssize_t>(::syscall(SYS_write, fd, bytes, size)); }, true);
 }
 extern "C" int unlinkat(int folder, const char* file, int flags) noexcept {
   return counted([&] { return static_cast<int>(::syscall(SYS_unlinkat, folder, file, flags)); });
