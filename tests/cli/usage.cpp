@@ -90,9 +90,9 @@ TEST(Usage, SaysWhichValueIsWrongAndWhatFits) {
 TEST(Usage, RefusesAnEmptyNameOfAFile) {
   expect_refused({
       {{"walk", "x.obj", "--wander", "1", "--certify", ""}, "roam walk: --certify: a file needs a name"},
-      {{"walk", "x.obj", "--wander", "1", "--trace="}, "roam walk: --trace: a file needs a name"},
-      {{"make", "gallery", "-o", ""}, "roam make gallery: -o: a file needs a name"},
-      {{"build", "x.obj", "-o", ""}, "roam build: -o: a folder needs a name"},
+      {{"walk", "x.obj", "--wander", "1", "--trace", ""}, "roam walk: --trace: a file needs a name"},
+      {{"make", "gallery", "-o", ""}, "roam make gallery: --output: a file needs a name"},
+      {{"build", "x.obj", "-o", ""}, "roam build: --output: a folder needs a name"},
   });
 }
 

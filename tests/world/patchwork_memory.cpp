@@ -33,7 +33,7 @@ roam::Mesh wall() {
 TEST(PatchworkMemory, WhereAnUpdateRunsOutOfItAllIsSolid) {
   std::optional<Patchwork> space;
   std::optional<roam::Walker> walker;
-  std::uint64_t revision = 0;
+  std::optional<std::uint64_t> revision;
   const auto begin = [&] {
     walker.reset();
     space.emplace();

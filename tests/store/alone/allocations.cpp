@@ -47,6 +47,7 @@ TEST_F(StoreAllocations, VerifyingFindingASourceAndMakingAPagerReturnWhereverOne
   fail_calls({
       {.name = "verify_store",
        .bits = [&] { return std::string(Bits() << verify_store(folder_.path()).whole()); },
+       .later = true,
        .dense = 50},
       {"source", [&] { return std::string(Bits() << Store::open(folder_.path())->source(some).number); }},
       {"a pager",
@@ -69,13 +70,17 @@ TEST_F(StoreAllocations, ALoadingThreadGoesOnWhereverOneFails) {
     };
     EXPECT_TRUE(until([&] { return bytes->waiting() > 0; }));
     bytes->let_go();
-    const auto all = [&] { return pager.object_name(0) == "square" && pager.stats().tiles == opened->info().tiles; };
-    EXPECT_TRUE(until([&] { return all() || (failing_allocation > 0 && allocations >= failing_allocation); }));
+    std::string name;
+    const auto loaded = [&] {
+      name = pager.object_name(0);
+      return pager.stats().tiles == opened->info().tiles;
+    };
+    EXPECT_TRUE(until([&] { return loaded() || (failing_allocation > 0 && allocations >= failing_allocation); }));
     failing_allocation = 0;
-    EXPECT_TRUE(until(all));
+    EXPECT_TRUE(until([&] { return loaded() && name == "square"; }));
     return std::string("all");
   };
-  fail_calls({{.name = "a thread that loads", .bits = load, .most = 59}});
+  fail_calls({{.name = "a thread that loads", .bits = load, .dense = 12, .steps = 2, .most = 59}});
 }
 
 #endif
