@@ -96,7 +96,7 @@ const char* remedy(std::string_view text) {
   return "it is damaged or cut short: copy it again";
 }
 
-checking::Certificate read(const std::filesystem::path& file) {
+checking::Certificate certificate_in(const std::filesystem::path& file) {
   const std::string text = read_input(file, limit);
   if (!text.starts_with("roam certificate ")) {
     throw Error(file.string(), "this is no certificate of `roam walk --certify`; name it before SCENE");
@@ -175,7 +175,7 @@ ExitStatus check_certificate(CheckOptions options) {
   take_kept_frame(options.scene);
   Result result;
   try {
-    result.certificate = read(options.certificate);
+    result.certificate = certificate_in(options.certificate);
     demand_size(options, *result.certificate);
     checking::Checker checker(*result.certificate);
     check_scene(options.scene, checker);

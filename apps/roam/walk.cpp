@@ -9,7 +9,6 @@
 #include <glm/geometric.hpp>
 #include <memory>
 #include <nlohmann/json.hpp>
-#include <utility>
 
 #include "cli/histogram.h"
 #include "cli/interrupt.h"
@@ -250,18 +249,7 @@ void check_moves(const WalkOptions& options, const OpenScene& scene, const verif
 ExitStatus walk(WalkOptions options) {
   check_way(options);
   take_kept_frame(options.scene);
-  if (!options.against.scenes.empty()) {
-    SceneOptions& scene = options.scene;
-    options.against.up = scene.up;
-    options.against.unit = scene.unit;
-    options.against.ignore = scene.ignore;
-    if (scene.name_a_store()) {  // to which these options cannot apply
-      scene.up.clear();
-      scene.unit.clear();
-      scene.ignore.clear();
-    }
-    check_against(options.against);
-  }
+  if (!options.against.scenes.empty()) check_against(options.scene, options.against);
   const RecordedPath recorded = load_recorded_path(options.path);
   options.recorded = recorded.body;
   take_profile(options);

@@ -262,4 +262,22 @@ TEST_F(CheckVerb, SaysWhatIsNoCertificate) {
   EXPECT_TRUE(contains(ghost.err, "--certify with --mode ghost")) << ghost.err;
 }
 
+TEST(Certify, WritesOverNoTraceAndNoSceneOfAStore) {
+  const TestFolder folder;
+  const std::string scene = folder.write("scene.obj", room_obj()), store = folder.file("s.roam");
+  ASSERT_EQ(run_program(ROAM_PROGRAM, {"build", scene, "-o", store}).status, 0);
+  const auto expect_refused = [&](const std::vector<std::string>& more, const std::string& why) {
+    std::vector<std::string> all{"walk", store, "--wander", "1", "--against", scene};
+    all.insert(all.end(), more.begin(), more.end());
+    const ProgramResult result = run_program(ROAM_PROGRAM, all);
+    EXPECT_EQ(result.status, 2);
+    EXPECT_TRUE(contains(result.err, why)) << result.err;
+  };
+  expect_refused({"--certify", scene}, "this would overwrite the scene");
+  expect_refused({"--certify", "/dev/null"}, "--certify /dev/null: that is a pipe or a device; name a file");
+  const std::string both = folder.file("both");
+  expect_refused({"--trace", both, "--certify", both}, "this would overwrite what --trace writes");
+  EXPECT_EQ(folder.read("scene.obj"), room_obj());
+}
+
 }  // namespace

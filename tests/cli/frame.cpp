@@ -121,6 +121,13 @@ TEST_F(Frame, MayBeKeptWithoutABody) {
   EXPECT_TRUE(contains(wrong.err, "\"frame.up\" 'w' is no axis") && contains(wrong.err, "--no-profile")) << wrong.err;
 }
 
+TEST_F(Frame, OfASceneIsThatOfTheSameSceneOfAgainst) {
+  const Json walked = report({"walk", scene, "--path", path, "--up=-y", "--against", scene, "--json"});
+  EXPECT_EQ(walked["frame"]["up"], "-y");
+  EXPECT_EQ(walked["outcome"], "reached");
+  EXPECT_EQ(walked["violations"], 0);
+}
+
 TEST_F(Frame, OfASceneOutOfReachIsNotWhatIsNamed) {
   const std::string name = folder.file(std::string(300, 'x'));
   const ProgramResult result = run({"info", name});

@@ -142,14 +142,6 @@ TEST(ProbeVerb, SaysNoWhereTheBodyFallsIntoAGapOfAWayThatIsWideEnough) {
   EXPECT_TRUE(carried.out.starts_with("YES: ")) << carried.out;
 }
 
-TEST(ProbeVerb, LeavesRoomForTheBodyAboveAStepOfAnyHeight) {
-  Probe probe(0.9);
-  for (const char* height : {"1.7", "1.8", "1.9"}) {
-    EXPECT_EQ(probe.ask({"--radius", "0.3", "--height", height, "--step", "900"}).result.status, 0)
-        << probe.result.out << probe.result.err;
-  }
-}
-
 TEST(ProbeVerb, FliesWhereAsked) {
   Probe probe(0.9);
   EXPECT_EQ(probe.ask({"--radius", "0.4", "--sphere", "--mode", "fly", "--json"}).result.status, 0) << probe.result.err;

@@ -71,36 +71,6 @@ TEST(WalkVerb, DoesNotWriteItsTraceOverWhatItReads) {
   EXPECT_EQ(folder.read("scene.obj"), room_obj());
 }
 
-TEST(WalkVerb, WalksInASceneAsItReadsTheSameSceneOfAgainst) {
-  const TestFolder folder;
-  const std::string scene = folder.write("scene.obj", room_obj()), path = folder.write("p.path", "2 0 1\n3 0 1\n");
-  const ProgramResult result =
-      run_program(ROAM_PROGRAM, {"walk", scene, "--path", path, "--unit", "m", "--up=-y", "--mode", "fly", "--json",
-                                 "--against", scene});
-  const auto report = nlohmann::json::parse(result.out, nullptr, false);
-  ASSERT_TRUE(report.is_object()) << result.err;
-  EXPECT_EQ(report["frame"]["up"], "-y");
-  EXPECT_EQ(report["violations"], 0);
-}
-
-TEST(WalkVerb, WritesNoCertificateOverItsTraceOrTheSceneOfItsStore) {
-  const TestFolder folder;
-  const std::string scene = folder.write("scene.obj", room_obj()), store = folder.file("s.roam");
-  ASSERT_EQ(run_program(ROAM_PROGRAM, {"build", scene, "-o", store}).status, 0);
-  const auto expect_refused = [&](const std::vector<std::string>& more, const std::string& why) {
-    std::vector<std::string> all{"walk", store, "--wander", "1", "--against", scene};
-    all.insert(all.end(), more.begin(), more.end());
-    const ProgramResult result = run_program(ROAM_PROGRAM, all);
-    EXPECT_EQ(result.status, 2);
-    EXPECT_TRUE(contains(result.err, why)) << result.err;
-  };
-  expect_refused({"--certify", scene}, "this would overwrite the scene");
-  expect_refused({"--certify", "/dev/null"}, "--certify /dev/null: that is a pipe or a device; name a file");
-  const std::string both = folder.file("both");
-  expect_refused({"--trace", both, "--certify", both}, "this would overwrite what --trace writes");
-  EXPECT_EQ(folder.read("scene.obj"), room_obj());
-}
-
 TEST(WalkVerb, RefusesWhatWouldNeverEnd) {
   const Walk far(room_obj(), "2 0 1\n1e300 0 1\n", {"--mode", "fly"});
   EXPECT_EQ(far.result.status, 1);

@@ -52,6 +52,15 @@ TEST(Probe, SaysYesOfAWayThatAWalkerHasGone) {
   EXPECT_EQ(follow(walker, path).outcome, Outcome::reached);
 }
 
+TEST(Probe, LeavesRoomForTheBodyAboveAStepOfAnyHeight) {
+  const Survey survey = survey_of(room(0.9));
+  ProbeQuestion question = across;
+  question.step = 900.0;
+  for (const double height : {1.7, 1.8, 1.9}) {
+    EXPECT_TRUE(probe(survey, question, {.radius = 0.3, .height = height}).passable) << height;
+  }
+}
+
 TEST(Probe, SaysNoAndWhatIsMissing) {
   const ProbeAnswer answer = probe(survey_of(room(0.5)), across, {.radius = 0.3, .height = 1.8});
   EXPECT_FALSE(answer.passable || answer.wide_enough || answer.walk);

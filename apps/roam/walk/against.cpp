@@ -9,8 +9,16 @@
 
 namespace roam::app {
 
-void check_against(const SceneOptions& scene) {
-  scene.check_files_there("--against takes its scene; say --verify to check against the store itself");
+void check_against(SceneOptions& walked, SceneOptions& against) {
+  against.up = walked.up;
+  against.unit = walked.unit;
+  against.ignore = walked.ignore;
+  if (walked.name_a_store()) {
+    walked.up.clear();
+    walked.unit.clear();
+    walked.ignore.clear();
+  }
+  against.check_files_there("--against takes its scene; say --verify to check against the store itself");
 }
 
 verification::Verification verify_against(const SceneOptions& scene, const OpenScene& walked,

@@ -12,8 +12,9 @@
 namespace roam::app {
 
 /// Checks the input of verify_against() before a walk that may take hours. Throws UsageError for a store, and
-/// roam::Error for a missing scene.
-void check_against(const SceneOptions& scene);
+/// roam::Error for a missing scene. `against` takes the options of reading that the user gave for `walked`, which keeps
+/// them unless it is a store.
+void check_against(SceneOptions& walked, SceneOptions& against);
 
 /// Checks every piece against every triangle of a scene of any size, which is read part by part. It reads the scene
 /// once for as many pieces as fit in half of the memory. If the triangle counts of scene and `walked` store differ, a
