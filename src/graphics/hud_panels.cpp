@@ -230,13 +230,17 @@ Placed make_hint(const Page& page, const std::string& text, double opacity, cons
     return color;
   };
   const Look look{static_cast<int>(std::lround(1.15f * static_cast<float>(page.letter))), false, faded(text_color)};
-  const std::string words = shorten(text, look, page.right - 4 * page.margin);
+  // Below a plan a long hint has the whole width, but it stays in the middle of the picture.
+  const bool goes_below = page.below > 0.5f * page.height && width_of(text, look) > page.right - 4 * page.margin;
+  const float right = goes_below ? page.width : page.right;
+  const std::string words = shorten(text, look, right - 4 * page.margin);
   const float width = width_of(words, look), line = std::round(1.45f * static_cast<float>(look.size));
   Rectangle panel;
   panel.width = std::round(width + 2 * page.margin);
   panel.height = std::round(line + page.margin);
-  panel.x = std::round(0.5f * (page.right - panel.width));
+  panel.x = std::round(0.5f * (right - panel.width));
   panel.y = std::round(0.56f * page.height);
+  if (goes_below) panel.y = std::min(panel.y, page.below - panel.height);
   const float gap = std::round(0.4f * page.margin);
   if (overlap({panel.x, panel.y - gap, panel.width, panel.height + gap}, status)) {
     panel.y = std::round(std::min(0.44f * page.height, status.y - gap) - panel.height);
