@@ -45,7 +45,8 @@ struct HelpLine {
   bool operator==(const HelpLine&) const = default;
 };
 
-/// A text on the picture, centred above a point. Pixels from the lower left corner.
+/// A text on the picture, centred above a point, and above earlier texts that it would hide. Pixels from the lower left
+/// corner.
 struct HudLabel {
   std::string text;
   float x = 0, y = 0;

@@ -285,10 +285,18 @@ Clickable make_button(const Page& page, const std::string& text, osg::StateSet* 
 osg::ref_ptr<osg::Node> make_labels(const Page& page, const std::vector<HudLabel>& labels, osg::StateSet* plates) {
   osg::ref_ptr<osg::Group> group = new osg::Group;
   const Look look{page.letter, true, text_color};
+  std::vector<Rectangle> placed;
   for (const HudLabel& label : labels) {
     const float pad = std::round(0.4f * page.margin), width = width_of(label.text, look);
-    const Rectangle panel{std::round(label.x - 0.5f * width - pad), std::round(label.y + pad), width + 2 * pad,
-                          page.line};
+    Rectangle panel{std::round(label.x - 0.5f * width - pad), std::round(label.y + pad), width + 2 * pad, page.line};
+    // Over the labels that it would hide: each is passed once.
+    for (std::size_t i = 0; i < placed.size(); ++i) {
+      const auto hidden =
+          std::find_if(placed.begin(), placed.end(), [&](const Rectangle& other) { return overlap(panel, other); });
+      if (hidden == placed.end()) break;
+      panel.y = hidden->y + hidden->height + 1.0f;
+    }
+    placed.push_back(panel);
     group->addChild(plate(plates, panel, 0.3f * page.margin, panel_color));
     const float base = std::round(panel.y + 0.5f * panel.height - 0.36f * static_cast<float>(look.size));
     group->addChild(make_text(label.text, look, panel.x + pad, base));

@@ -231,6 +231,21 @@ TEST(GraphicsHud, LabelsStandAboveTheirPoints) {
   EXPECT_LT(label.bottom, 110);
 }
 
+TEST(GraphicsHud, LabelsHideNoOtherLabel) {
+  Stage stage(640, 360);
+  Hud hud(stage.frame);
+  hud.set_crosshair(false);
+  const auto height = [&](std::vector<graphics::HudLabel> labels) {
+    hud.set_labels(std::move(labels));
+    const Region shown = shown_in(stage);
+    return shown.top - shown.bottom;
+  };
+  const graphics::HudLabel narrowest{"narrowest", 200, 100}, second{"B", 210, 95}, third{"A", 208, 102};
+  const int one = height({narrowest});
+  EXPECT_GE(height({narrowest, second}), 2 * one);
+  EXPECT_GE(height({narrowest, second, third}), 3 * one);
+}
+
 TEST(GraphicsHud, GoesAwayWithItsObject) {
   Stage stage(640, 360);
   {
