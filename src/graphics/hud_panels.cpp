@@ -184,6 +184,12 @@ Placed make_message(const Page& page, const std::string& text, Tone tone, std::o
   const float bar = std::max(3.0f, std::round(0.3f * page.margin));
 
   std::vector<std::string> lines = break_lines(text, look, 0.78f * page.right);
+  // Lines of like lengths: no last line of one word.
+  for (float width = 0.74f * page.right; lines.size() > 1 && width > 0.3f * page.right; width -= 0.04f * page.right) {
+    std::vector<std::string> narrower = break_lines(text, look, width);
+    if (narrower.size() > lines.size()) break;
+    lines = std::move(narrower);
+  }
   const float bar_height = progress ? bar + (lines.empty() ? 0.0f : 0.5f * pad) : 0.0f;
   // Above the button, and never over the middle of the picture.
   const float bottom = std::round(std::max(0.07f * page.height, top_of_button(page) + 0.5f * page.margin));

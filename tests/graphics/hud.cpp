@@ -219,6 +219,19 @@ TEST(GraphicsHud, ARecordingIsARedDotAtTheUpperRight) {
   EXPECT_GT(red, 30);
 }
 
+TEST(GraphicsHud, BreaksAMessageIntoLinesOfLikeLengths) {
+  Stage stage(640, 360);
+  Hud hud(stage.frame);
+  hud.set_crosshair(false);
+  const auto width = [&](const std::string& text) {
+    hud.set_message(text);
+    (void)stage.picture(true);
+    return hud.panels().at(0).width;
+  };
+  const std::string sentence = "a sentence that is somewhat too long for the window, by one";
+  EXPECT_LT(width(sentence + " more word"), 0.75f * width(sentence));
+}
+
 TEST(GraphicsHud, LabelsStandAboveTheirPoints) {
   Stage stage(640, 360);
   Hud hud(stage.frame);
