@@ -54,7 +54,7 @@ class LivePlan {
   };
   [[nodiscard]] static Box box_of(const Wish& wish);
   [[nodiscard]] static Cut cut(const Wish& wish, const std::atomic<bool>& stops);
-  [[nodiscard]] double half() const;
+  [[nodiscard]] double half() const;  ///< m; there must be a walker
   [[nodiscard]] bool is_stale(const Wish& wish) const;
   void follow();
   void receive();
