@@ -128,6 +128,7 @@ void check_scene(const SceneOptions& scene, checking::Checker& checker) {
 Json json_report(const CheckOptions& options, const Result& result) {
   Json json = {{"certificate", options.certificate.string()},
                {"scene", options.scene.names()},
+               {"frame", to_json(frame_of(options.scene))},
                {"accepted", !result.refused},
                {"why", result.refused ? Json(result.refused->what()) : Json(nullptr)},
                {"segment", nullptr},
@@ -166,7 +167,10 @@ std::string text_report(const CheckOptions& options, const Result& result) {
     sizes += (sizes.empty() ? "" : "; ") + words::size_of(size.radius, height_of(size));
   }
   lines.add("body", sizes);
-  lines.add("nearest", fmt::format("at least {} from everything", words::metres(std::max(0.0, claim.least_gap))));
+  constexpr double printed = 0.5e-4;  // m; a shorter length is printed as 0.0 mm
+  lines.add("nearest", claim.least_gap < printed
+                           ? std::string("it may touch something, but is never inside")
+                           : fmt::format("at least {} from everything", words::metres(claim.least_gap)));
   return lines.text();
 }
 

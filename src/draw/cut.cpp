@@ -5,6 +5,7 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <iterator>
 #include <mutex>
 #include <utility>
 
@@ -175,24 +176,21 @@ struct Cutter::State {
   Turn turn;
   std::span<const PlanView> views;
   std::span<const Stretch> section;
+  std::span<const Frame> frames;
   StretchTree tree;
   std::uint64_t done = 0;
   std::vector<ThinSegments> walls, below;  ///< of each view
-  ThinSegments along;
+  std::vector<ThinSegments> sections;      ///< of each frame
 };
 
-Cutter::Cutter(const Turn& turn, std::span<const PlanView> views, std::span<const Stretch> section, std::size_t most) {
-  Rect all;
-  for (const Stretch& s : section) {
-    all.include({s.along, s.lowest});
-    all.include({s.along + glm::distance(s.from, s.to), s.highest});
-  }
-  state_ =
-      std::make_unique<State>(State{turn, views, section, StretchTree(section), 0, {}, {}, ThinSegments(all, most)});
+Cutter::Cutter(const Turn& turn, std::span<const PlanView> views, std::span<const Stretch> section,
+               std::span<const Frame> frames, std::size_t most) {
+  state_ = std::make_unique<State>(State{turn, views, section, frames, StretchTree(section), 0, {}, {}, {}});
   for (const PlanView& view : views) {
-    state_->walls.emplace_back(view.map.area(), most);
-    state_->below.emplace_back(view.map.area(), most);
+    state_->walls.emplace_back(Frame{view.map.area()}, most);
+    state_->below.emplace_back(Frame{view.map.area()}, most);
   }
+  for (const Frame& frame : frames) state_->sections.emplace_back(frame, most);
 }
 
 Cutter::~Cutter() = default;
@@ -227,18 +225,19 @@ void Cutter::add(std::span<const Mesh> meshes, const std::function<void(std::uin
   struct Task {
     const Mesh* mesh;
     std::size_t from, to;
-    Cuts out;
+    std::vector<PlanCut> plans;
+    std::vector<Segment> section;
   };
   std::vector<Task> tasks;
   for (const Mesh& mesh : meshes) {
     for (std::size_t i = 0; i < mesh.triangles.size(); i += task_triangles) {
-      tasks.push_back({&mesh, i, std::min(i + task_triangles, mesh.triangles.size()), {}});
+      tasks.push_back({&mesh, i, std::min(i + task_triangles, mesh.triangles.size()), {}, {}});
     }
   }
   std::mutex told;
   tbb::parallel_for(std::size_t{0}, tasks.size(), [&](std::size_t number) {
     Task& task = tasks[number];
-    task.out.plans.resize(s.views.size());
+    task.plans.resize(s.views.size());
     for (std::size_t i = task.from; i < task.to; ++i) {
       TurnedTriangle t = task.mesh->triangle(i);
       Rect box;
@@ -248,10 +247,10 @@ void Cutter::add(std::span<const Mesh> meshes, const std::function<void(std::uin
       }
       const double lowest = std::min({t[0].z, t[1].z, t[2].z}), highest = std::max({t[0].z, t[1].z, t[2].z});
       for (std::size_t k = 0; k < s.views.size(); ++k) {
-        cut_plan(t, box, lowest, highest, s.views[k], task.out.plans[k]);
+        cut_plan(t, box, lowest, highest, s.views[k], task.plans[k]);
       }
       s.tree.near(box, [&](const Stretch& stretch) {
-        if (lowest <= stretch.highest && highest >= stretch.lowest) cut_section(t, stretch, task.out.section);
+        if (lowest <= stretch.highest && highest >= stretch.lowest) cut_section(t, stretch, task.section);
       });
     }
     const std::lock_guard lock(told);
@@ -260,10 +259,16 @@ void Cutter::add(std::span<const Mesh> meshes, const std::function<void(std::uin
   });
   for (Task& task : tasks) {
     for (std::size_t k = 0; k < s.views.size(); ++k) {
-      s.walls[k].add(std::exchange(task.out.plans[k].walls, {}));
-      s.below[k].add(std::exchange(task.out.plans[k].below, {}));
+      s.walls[k].add(std::exchange(task.plans[k].walls, {}));
+      s.below[k].add(std::exchange(task.plans[k].below, {}));
     }
-    s.along.add(std::exchange(task.out.section, {}));
+    for (std::size_t k = 0; k < s.frames.size(); ++k) {
+      std::vector<Segment> seen;
+      std::copy_if(task.section.begin(), task.section.end(), std::back_inserter(seen),
+                   [&](Segment segment) { return clip(segment, s.frames[k].view); });
+      s.sections[k].add(std::move(seen));
+    }
+    task.section = {};
   }
 }
 
@@ -272,13 +277,18 @@ Cuts Cutter::take() {
   for (std::size_t k = 0; k < state_->views.size(); ++k) {
     all.plans.push_back({state_->walls[k].take(), state_->below[k].take()});
   }
-  all.section = state_->along.take();
+  for (ThinSegments& section : state_->sections) all.sections.push_back(section.take());
   return all;
 }
 
 Cuts cut(std::span<const Mesh> meshes, const Turn& turn, std::span<const PlanView> views,
          std::span<const Stretch> section, const std::function<void(std::uint64_t)>& goes_on) {
-  Cutter cutter(turn, views, section);
+  Frame all;
+  for (const Stretch& s : section) {
+    all.view.include({s.along, s.lowest});
+    all.view.include({s.along + glm::distance(s.from, s.to), s.highest});
+  }
+  Cutter cutter(turn, views, section, {&all, 1});
   cutter.add(meshes, goes_on);
   return cutter.take();
 }

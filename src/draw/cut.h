@@ -56,17 +56,18 @@ struct Stretch {
                                              double highest);
 
 struct Cuts {
-  std::vector<PlanCut> plans;    ///< one for each view
-  std::vector<Segment> section;  ///< (along, height), metres
+  std::vector<PlanCut> plans;                  ///< one for each view
+  std::vector<std::vector<Segment>> sections;  ///< what each frame shows: (along, height), metres
 };
 
 /// Cuts a scene that arrives in parts, on all cores. The result does not depend on their number.
 class Cutter {
  public:
-  /// The views and the section must outlive it. Holds at most about `most` segments of each plan and of the section. If
-  /// there are more, rounds their ends to a grid and removes duplicates, as in joined().
+  /// The section is shown in `frames`, at their scales. Views, section and frames must outlive it. Holds at most about
+  /// `most` segments of each plan and each frame. If there are more, rounds their ends to a grid and removes
+  /// duplicates, as in joined().
   Cutter(const Turn& turn, std::span<const PlanView> views, std::span<const Stretch> section,
-         std::size_t most = std::numeric_limits<std::size_t>::max());
+         std::span<const Frame> frames, std::size_t most = std::numeric_limits<std::size_t>::max());
   ~Cutter();
 
   /// Box of all cuts, metres of the scene; empty if there are none.
@@ -81,7 +82,7 @@ class Cutter {
   std::unique_ptr<State> state_;
 };
 
-/// The same for a whole scene.
+/// The same for a whole scene, with all of the section in one frame.
 [[nodiscard]] Cuts cut(std::span<const Mesh> meshes, const Turn& turn, std::span<const PlanView> views,
                        std::span<const Stretch> section, const std::function<void(std::uint64_t)>& goes_on);
 

@@ -9,14 +9,14 @@ namespace {
 
 constexpr double finest_grid = 0.125;  ///< pixels; gives numbers with few digits
 constexpr double coarsest_grid = 4.0;
-/// Cells of the first grid along the longer side of the area: a sheet has 2,000 pixels, and magnifies parts of it.
+/// Cells of the first grid along the longer side of a frame: a sheet has 2,000 pixels, and magnifies parts of plans.
 constexpr double first_cells = 1 << 17;
 
 bool before(const Point& a, const Point& b) { return std::tie(a.x, a.y) < std::tie(b.x, b.y); }
 bool same(const Segment& a, const Segment& b) { return a.a == b.a && a.b == b.b; }
 
 /// Rounds the ends to a grid, and removes points and duplicates.
-void snap(std::vector<Segment>& segments, const Point& origin, double grid) {
+void snap(std::vector<Segment>& segments, const Point& origin, const Point& grid) {
   for (Segment& s : segments) {
     for (Point* p : {&s.a, &s.b}) *p = origin + grid * glm::round((*p - origin) / grid);
     if (before(s.b, s.a)) std::swap(s.a, s.b);
@@ -79,6 +79,18 @@ class Network {
   std::vector<End> ends_;
 };
 
+std::vector<Polyline> straightened(std::vector<Segment> segments) {
+  std::vector<Polyline> lines = Network(std::move(segments)).lines();
+  for (Polyline& line : lines) line = simplified(line, straight);
+  return lines;
+}
+
+std::size_t pieces_of(const std::vector<Polyline>& lines) {
+  std::size_t pieces = 0;
+  for (const Polyline& line : lines) pieces += line.size() - 1;
+  return pieces;
+}
+
 }  // namespace
 
 Polyline simplified(const Polyline& line, double tolerance) {
@@ -102,24 +114,26 @@ std::vector<Polyline> joined(std::span<const Segment> segments, const std::funct
   drawn.reserve(segments.size());
   for (const Segment& s : segments) drawn.push_back({to_sheet(s.a), to_sheet(s.b)});
   double grid = finest_grid;
-  snap(drawn, Point(0.0), grid);
-  while (drawn.size() > most && grid < coarsest_grid) snap(drawn, Point(0.0), grid *= 2.0);
-  if (drawn.size() > most) {
-    // Too many long lines: the longest are the most useful.
-    const auto length = [](const Segment& s) { return glm::distance(s.a, s.b); };
-    std::stable_sort(drawn.begin(), drawn.end(),
-                     [&](const Segment& a, const Segment& b) { return length(a) > length(b); });
-    drawn.resize(most);
+  snap(drawn, Point(0.0), Point(grid));
+  std::vector<Polyline> lines = straightened(drawn);
+  while (pieces_of(lines) > most && grid < coarsest_grid) {
+    snap(drawn, Point(0.0), Point(grid *= 2.0));
+    lines = straightened(drawn);
   }
-  std::vector<Polyline> lines = Network(std::move(drawn)).lines();
-  for (Polyline& line : lines) line = simplified(line, straight);
-  return lines;
+  if (pieces_of(lines) <= most) return lines;
+  // Too many long lines: the longest segments are the most useful.
+  const auto length = [](const Segment& s) { return glm::distance(s.a, s.b); };
+  std::stable_sort(drawn.begin(), drawn.end(),
+                   [&](const Segment& a, const Segment& b) { return length(a) > length(b); });
+  drawn.resize(std::min(drawn.size(), most));
+  return straightened(std::move(drawn));
 }
 
-ThinSegments::ThinSegments(const Rect& area, std::size_t most) : grid_(1e-6), most_(most) {
-  if (area.empty()) return;
-  origin_ = area.lower;
-  grid_ = std::max(grid_, std::max(area.width(), area.height()) / first_cells);
+ThinSegments::ThinSegments(const Frame& frame, std::size_t most) : grid_(1e-6), most_(most) {
+  if (frame.view.empty()) return;
+  origin_ = frame.view.lower;
+  const double pixels = std::max(frame.width(), frame.height()) / first_cells;
+  grid_ = glm::max(grid_, pixels / Point(frame.scale_x, frame.scale_y));
 }
 
 void ThinSegments::add(std::vector<Segment>&& segments) {

@@ -59,17 +59,18 @@ void keep_corners(std::size_t first, std::size_t last, double tolerance, const D
 [[nodiscard]] Polyline simplified(const Polyline& line, double tolerance);
 
 /// Moves the segments to the sheet by `to_sheet` and rounds their ends to an eighth of a pixel. Removes points and
-/// duplicates, joins ends that meet, and straightens lines. If more than `most` segments are left, rounds to coarser
-/// grids, up to 4 pixels, and then keeps the longest.
+/// duplicates, joins ends that meet, and straightens lines. If these have more than `most` pieces, rounds to coarser
+/// grids, up to 4 pixels, and then keeps the longest segments.
 [[nodiscard]] std::vector<Polyline> joined(std::span<const Segment> segments,
                                            const std::function<Point(const Point&)>& to_sheet, std::size_t most);
 
-/// Takes any number of segments and holds about `most`. If there are more, rounds their ends to a grid over `area`, so
-/// that lines stay joined, and removes points and duplicates. The grid begins far finer than a sheet can show, and
-/// doubles its cells as needed. The same segments in the same order give the same result.
+/// Takes any number of segments and holds about `most`. If there are more, rounds their ends to a grid, so that lines
+/// stay joined, and removes points and duplicates. Its cells are squares on the sheet of `frame`, whatever its heights
+/// are exaggerated by. They begin far smaller than a sheet can show, and double as needed. The same segments in the
+/// same order give the same result.
 class ThinSegments {
  public:
-  ThinSegments(const Rect& area, std::size_t most);
+  ThinSegments(const Frame& frame, std::size_t most);
 
   void add(std::vector<Segment>&& segments);
   /// Call it once.
@@ -77,7 +78,7 @@ class ThinSegments {
 
  private:
   Point origin_{0.0};
-  double grid_;  ///< metres
+  Point grid_;  ///< a cell, metres
   std::size_t most_;
   std::vector<Segment> segments_;
 };

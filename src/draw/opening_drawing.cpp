@@ -145,7 +145,7 @@ OpeningDrawing drawing_of(const OpeningView& o, std::span<const Mesh> meshes, do
   Cuts cuts = cut_out(o.heading, meshes, d.turn, views, {&across, 1});
   d.plan_cut = std::move(cuts.plans[0]);
   if (views.size() > 1) d.above = std::move(cuts.plans[1].walls);
-  d.section_cut = std::move(cuts.section);
+  d.section_cut = std::move(cuts.sections[0]);
   if (!flies)
     add_areas(
         meshes, [&](const Triangle& t) { return floor_area(t, o, d); }, d.floor);

@@ -207,8 +207,8 @@ void paint_plan(Panel& panel, const WalkDrawing& walk, const PlanCut& cut) {
   WalkPainter(panel, walk, true).paint();
 }
 
-void paint_section(Panel& panel, const WalkDrawing& walk) {
-  panel.segments("walls", walk.cuts.section, wall_style, walk.most_segments);
+void paint_section(Panel& panel, const WalkDrawing& walk, std::span<const Segment> cut) {
+  panel.segments("walls", cut, wall_style, walk.most_segments);
   panel.border();
   WalkPainter(panel, walk, false).paint();
 }

@@ -28,7 +28,7 @@ struct WalkDrawing {
   std::vector<Mark> marks;
   Frames frames;
   Levels levels;
-  Cuts cuts;  ///< plans: the plan, then that of each detail
+  Cuts cuts;  ///< plans: the plan, then that of each detail; sections alike
 };
 
 /// The gaps beside the body, metres, at which the colour of the way changes.
@@ -44,7 +44,7 @@ struct GapScale {
 
 void paint_plan(Panel& panel, const WalkDrawing& walk, const PlanCut& cut);
 /// Unrolled along the way. Points are (metres along the way, height).
-void paint_section(Panel& panel, const WalkDrawing& walk);
+void paint_section(Panel& panel, const WalkDrawing& walk, std::span<const Segment> cut);
 
 /// Writes labels at the marks of a painted panel. `label` returns the lines for the mark of an index; none: no label.
 void label_marks(Panel& panel, const WalkDrawing& walk, bool is_plan,

@@ -58,15 +58,17 @@ WalkDrawing drawing_of(const Walked& walked) {
   walk.frames = choose_frames(way, survey, walk.marks, walked.bounds, report.settings);
   walk.levels = find_levels(survey.stations, report.settings.height);
   Rect range = walk.frames.section.view;
+  std::vector<Frame> frames{walk.frames.section};
   for (const Detail& detail : walk.frames.details) {
     range.include(detail.section.view.lower);
     range.include(detail.section.view.upper);
+    frames.push_back(detail.section);
   }
   const double beyond = std::max({0.0, -range.lower.x, range.upper.x - way.length});
   const auto views = plan_views(walk, report.settings);
   const auto section = stretches(way, walk.frames.turn, beyond, range.lower.y, range.upper.y);
   app::Progress progress("cutting", "triangles");
-  Cutter cutter(walk.frames.turn, views, section, held_for_each_shown * walked.most_segments);
+  Cutter cutter(walk.frames.turn, views, section, frames, held_for_each_shown * walked.most_segments);
   walked.triangles(cutter.box(), [&](std::span<const Mesh> meshes) {
     cutter.add(meshes, [&](std::uint64_t done) {
       if (!report.interrupted) progress.at(done, walked.triangle_count);
@@ -170,7 +172,7 @@ class WalkSheet {
     page_.down(-8.0);  // no headings between them
     for (std::size_t k = 0; k < details.size(); ++k) {
       Panel panel = page_.panel("detail " + letter(k) + " section", details[k].section, plans[k].area().lower.x);
-      paint_section(panel, walk_);
+      paint_section(panel, walk_, walk_.cuts.sections[k + 1]);
       if (k + 1 == details.size()) page_.below(panel);
     }
   }
@@ -188,7 +190,7 @@ class WalkSheet {
     Panel panel = page_.panel("section", f, sheet_width - sheet_margin - f.width());
     height_axis(panel);
     distance_axis(panel);
-    paint_section(panel, walk_);
+    paint_section(panel, walk_, walk_.cuts.sections[0]);
     label_marks(panel, walk_, false, [&](std::size_t i) {
       auto label = lettered(i);
       if (!label.empty()) label.resize(1);

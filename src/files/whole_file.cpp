@@ -3,10 +3,12 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include <array>
 #include <atomic>
 #include <cerrno>
+#include <system_error>
 #include <utility>
 
 #include "files/file_error.h"
@@ -38,6 +40,28 @@ Descriptor open_folder_of(const fs::path& file) {
   }
 #endif
   if (!folder.is_open()) fail("write", file, errno);
+  return folder;
+}
+
+/// "a-2.png" for "a.png" and 2.
+std::string numbered(const fs::path& name, int number) {
+  return fmt::format("{}-{}{}", name.stem().string(), number, name.extension().string());
+}
+
+/// Nobody chose the name or the folder of a numbered file: the message has its whole path.
+[[noreturn]] void fail_to_write_numbered(int folder, const fs::path& path, const std::string& name, int error) {
+  int number = 1;
+  struct stat status {};
+  while (::fstatat(folder, numbered(name, number).c_str(), &status, AT_SYMLINK_NOFOLLOW) == 0) ++number;
+  std::error_code none;
+  fail("write", (fs::absolute(path, none) / numbered(name, number)).lexically_normal(), error);
+}
+
+Descriptor open_folder_of(const fs::path& file, Naming naming) {
+  Descriptor folder = open_folder_of(file);
+  if (naming == Naming::numbered && ::faccessat(folder.number(), ".", W_OK, 0) != 0) {
+    fail_to_write_numbered(folder.number(), folder_of(file), file.filename().string(), errno);
+  }
   return folder;
 }
 
@@ -79,7 +103,7 @@ WholeFile::WholeFile(const fs::path& file, unsigned rights)
 }
 
 WholeFile::WholeFile(const fs::path& file, Naming naming)
-    : WholeFile(open_folder_of(file), folder_of(file), file.filename().string()) {
+    : WholeFile(open_folder_of(file, naming), folder_of(file), file.filename().string()) {
   naming_ = naming;
   if (naming == Naming::exact) demand_replaceable();
 }
@@ -132,7 +156,10 @@ WholeFile::~WholeFile() {
   if (!temporary_.empty()) ::unlinkat(folder_.number(), temporary_.c_str(), 0);
 }
 
-void WholeFile::fail_to_write(int error) const { fail("write", folder_path_ / name_, error); }
+void WholeFile::fail_to_write(int error) const {
+  if (naming_ == Naming::numbered) fail_to_write_numbered(folder_.number(), folder_path_, name_, error);
+  fail("write", folder_path_ / name_, error);
+}
 
 void WholeFile::write(std::span<const std::byte> bytes) {
   if (write_fully(file_.number(), bytes) < bytes.size()) fail_to_write(errno);
@@ -169,9 +196,8 @@ fs::path WholeFile::commit() {
     return file;
   }
   finish_writing();
-  const fs::path wanted(name_);
   for (int number = 1;; ++number) {
-    const std::string name = fmt::format("{}-{}{}", wanted.stem().string(), number, wanted.extension().string());
+    const std::string name = numbered(name_, number);
     file = folder_path_ / name;
     if (take(name)) break;
   }

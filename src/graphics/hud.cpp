@@ -28,7 +28,7 @@ class Hud::Panels : public osg::NodeCallback {
   std::vector<HelpLine> help;
   std::string help_focus, button, list_focus;
   std::optional<HudList> list;
-  double covered = 0.0;
+  Rectangle covered;
   bool help_shown = false;
   Detail detail = Detail::full;
   bool crosshair = true;
@@ -98,7 +98,10 @@ class Hud::Panels : public osg::NodeCallback {
 
   void operator()(osg::Node* node, osg::NodeVisitor* visitor) override {
     Page page = whole_page();
-    page.right = std::round((1.0f - static_cast<float>(covered)) * page.width);
+    if (covered != Rectangle{}) {
+      page.right = covered.x;
+      page.below = covered.y;
+    }
     if (list && !help_shown && detail != Detail::off) page.right = std::min(page.right, left_of_list(page));
     if (page != page_) change_all();
     page_ = page;
@@ -280,7 +283,7 @@ void Hud::set_list_focus(std::string name) {
   panels_->list_changed = true;
 }
 
-void Hud::set_covered(double share) { panels_->covered = std::clamp(share, 0.0, 1.0); }
+void Hud::set_covered(const Rectangle& where) { panels_->covered = where; }
 
 std::vector<Rectangle> Hud::panels() const { return panels_->places(); }
 

@@ -45,7 +45,8 @@ struct HelpLine {
   bool operator==(const HelpLine&) const = default;
 };
 
-/// A text on the picture, centred above a point. Pixels from the lower left corner.
+/// A text on the picture, centred above a point, and above earlier texts that it would hide. Pixels from the lower left
+/// corner.
 struct HudLabel {
   std::string text;
   float x = 0, y = 0;
@@ -119,8 +120,9 @@ class Hud {
   [[nodiscard]] bool list_covers(double x, double y) const;
   /// Highlights the row with this name; empty: none.
   void set_list_focus(std::string name);
-  /// The share of the picture, at its right, that something else covers: status, message and hint stay left of it.
-  void set_covered(double share);
+  /// A rectangle of the picture, at its right, that something else covers; an empty one: none. Status and message stay
+  /// left of it, and the hint, or below it if it is too long for that.
+  void set_covered(const Rectangle& where);
   /// The rectangles of the status, the message, the hint, the recording, the button, the list and the help that the
   /// last frame showed, in pixels.
   [[nodiscard]] std::vector<Rectangle> panels() const;

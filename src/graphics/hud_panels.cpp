@@ -185,6 +185,12 @@ Placed make_message(const Page& page, const std::string& text, Tone tone, std::o
   const float bar = std::max(3.0f, std::round(0.3f * page.margin));
 
   std::vector<std::string> lines = break_lines(text, look, 0.78f * page.right);
+  // Lines of like lengths: no last line of one word.
+  for (float width = 0.74f * page.right; lines.size() > 1 && width > 0.3f * page.right; width -= 0.04f * page.right) {
+    std::vector<std::string> narrower = break_lines(text, look, width);
+    if (narrower.size() > lines.size()) break;
+    lines = std::move(narrower);
+  }
   const float bar_height = progress ? bar + (lines.empty() ? 0.0f : 0.5f * pad) : 0.0f;
   // Above the button, and never over the middle of the picture.
   const float bottom = std::round(std::max(0.07f * page.height, top_of_button(page) + 0.5f * page.margin));
@@ -231,13 +237,17 @@ Placed make_hint(const Page& page, const std::string& text, double opacity, cons
     return color;
   };
   const Look look{static_cast<int>(std::lround(1.15f * static_cast<float>(page.letter))), false, faded(text_color)};
-  const std::string words = shorten(text, look, page.right - 4 * page.margin);
+  // Below a plan a long hint has the whole width, but it stays in the middle of the picture.
+  const bool goes_below = page.below > 0.5f * page.height && width_of(text, look) > page.right - 4 * page.margin;
+  const float right = goes_below ? page.width : page.right;
+  const std::string words = shorten(text, look, right - 4 * page.margin);
   const float width = width_of(words, look), line = std::round(1.45f * static_cast<float>(look.size));
   Rectangle panel;
   panel.width = std::round(width + 2 * page.margin);
   panel.height = std::round(line + page.margin);
-  panel.x = std::round(0.5f * (page.right - panel.width));
+  panel.x = std::round(0.5f * (right - panel.width));
   panel.y = std::round(0.56f * page.height);
+  if (goes_below) panel.y = std::min(panel.y, page.below - panel.height);
   const float gap = std::round(0.4f * page.margin);
   if (overlap({panel.x, panel.y - gap, panel.width, panel.height + gap}, status)) {
     panel.y = std::round(std::min(0.44f * page.height, status.y - gap) - panel.height);
@@ -282,10 +292,18 @@ Clickable make_button(const Page& page, const std::string& text, osg::StateSet* 
 osg::ref_ptr<osg::Node> make_labels(const Page& page, const std::vector<HudLabel>& labels, osg::StateSet* plates) {
   osg::ref_ptr<osg::Group> group = new osg::Group;
   const Look look{page.letter, true, text_color};
+  std::vector<Rectangle> placed;
   for (const HudLabel& label : labels) {
     const float pad = std::round(0.4f * page.margin), width = width_of(label.text, look);
-    const Rectangle panel{std::round(label.x - 0.5f * width - pad), std::round(label.y + pad), width + 2 * pad,
-                          page.line};
+    Rectangle panel{std::round(label.x - 0.5f * width - pad), std::round(label.y + pad), width + 2 * pad, page.line};
+    // Over the labels that it would hide: each is passed once.
+    for (std::size_t i = 0; i < placed.size(); ++i) {
+      const auto hidden =
+          std::find_if(placed.begin(), placed.end(), [&](const Rectangle& other) { return overlap(panel, other); });
+      if (hidden == placed.end()) break;
+      panel.y = hidden->y + hidden->height + 1.0f;
+    }
+    placed.push_back(panel);
     group->addChild(plate(plates, panel, 0.3f * page.margin, panel_color));
     const float base = std::round(panel.y + 0.5f * panel.height - 0.36f * static_cast<float>(look.size));
     group->addChild(make_text(label.text, look, panel.x + pad, base));

@@ -19,6 +19,7 @@ namespace roam::graphics {
 struct Page {
   float width = 0, height = 0;
   float right = 0;     ///< of the part for status, message and hint; beyond it is a large plan, or the list
+  float below = 0;     ///< upper edge of the part below a plan, which has the whole width
   int letter = 16;     ///< size of the text
   float margin = 16;   ///< from the picture's edge
   float line = 23;     ///< from one base line to the next

@@ -132,12 +132,13 @@ Rectangle PlanPanel::place() const {
   return {std::round(width - page.margin - side), std::round(std::max(top - side, page.margin)), side, side};
 }
 
-double PlanPanel::covered() const {
+Rectangle PlanPanel::covered() const {
   constexpr float roomy = 0.6f;  // of the width, at the left of a small plan: the status fits beside it
   const auto width = static_cast<float>(frame_.width());
-  if (view_.size == PlanSize::none || (view_.size == PlanSize::small && place().x >= roomy * width)) return 0.0;
-  const Page page = Page::of(width, static_cast<float>(frame_.height()));
-  return 1.0 - static_cast<double>(place().x - 0.4f * page.margin) / std::max(1, frame_.width());
+  if (view_.size == PlanSize::none || (view_.size == PlanSize::small && place().x >= roomy * width)) return {};
+  const float gap = std::round(0.4f * Page::of(width, static_cast<float>(frame_.height())).margin);
+  const Rectangle r = place();
+  return {r.x - gap, r.y - gap, r.width + 2 * gap, r.height + 2 * gap};
 }
 
 void PlanPanel::lay_out() {

@@ -64,8 +64,8 @@ class PlanPanel {
   [[nodiscard]] std::optional<glm::dvec2> at(double x, double y) const;
   /// Its rectangle in the picture, pixels, when it is shown.
   [[nodiscard]] Rectangle place() const;
-  /// The share of the picture that the plan takes at the right, if no status fits beside it; else 0.
-  [[nodiscard]] double covered() const;
+  /// Its rectangle with a gap around it, if no status fits beside the plan; else an empty one.
+  [[nodiscard]] Rectangle covered() const;
 
  private:
   void lay_out();

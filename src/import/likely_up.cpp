@@ -65,7 +65,8 @@ int sign_along(const Sums& sums, std::size_t axis) {
 bool states_up(const std::filesystem::path& path) {
   constexpr std::array<std::string_view, 7> extensions{".glb", ".gltf", ".dae", ".fbx", ".ifc", ".3mf", ".blend"};
   std::error_code none;
-  return std::filesystem::is_directory(path, none) ||
+  const bool is_tileset = std::filesystem::exists(path / "tileset.json", none);
+  return (std::filesystem::is_directory(path, none) && !is_tileset) ||
          std::find(extensions.begin(), extensions.end(), files::lower_extension(path)) != extensions.end();
 }
 

@@ -150,7 +150,7 @@ bool Manipulator::handle(const Adapter& event, osgGA::GUIActionAdapter& viewer) 
 void Manipulator::getUsage(osg::ApplicationUsage& usage) const {
   for (const Controls::Command& command : _state->keys.commands()) {
     const std::string keys = Controls::keyText(command);
-    if (!keys.empty()) usage.addKeyboardMouseBinding("Roam: " + keys, command.help);
+    if (!keys.empty()) usage.addKeyboardMouseBinding(keys, "roam: " + command.help);
   }
 }
 

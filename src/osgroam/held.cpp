@@ -23,7 +23,9 @@ std::string why_held(const Manipulator& roamer) {
   if (!roamer.held()) return {};
   if (roamer.report().met_unknown) return "held: the walls here are not loaded yet";
   const bool walks = roamer.mode() == roam::Mode::walk;
-  return "held: the body does not fit here" +
+  const roam::StepReport& report = roamer.report();
+  const bool fits = roamer.space()->fits(roam::Body::capsule(roamer.settings().radius, report.height), report.to);
+  return std::string("held: ") + (walks && fits ? "there is nothing below to stand on" : "the body does not fit here") +
          (walks ? remedy(roamer, "gravity", " flies") : remedy(roamer, "ghost", " passes through walls")) +
          remedy(roamer, "home", " goes to the start");
 }

@@ -122,6 +122,21 @@ TEST_F(CheckVerb, AcceptsFlyingAndWandering) {
   expect_accepted("with a support disc");
 }
 
+TEST_F(CheckVerb, SaysHowNearTheBodyComes) {
+  const std::string text = certify(room_obj(), {"--path", folder_.write("p.path", "2 0 1.5\n18 1 1\n3 -1 2\n"),
+                                                "--mode", "fly", "--sphere", "--speed", "20"});
+  EXPECT_TRUE(contains(check().out, "nearest     at least 0.")) << check().out;
+  // A bound without any gap claims less, and is as true.
+  std::string weaker;
+  for (const std::string& line : lines_of(text)) {
+    std::vector<std::string> words = words_of(line);
+    if (words[0] == "segment") words.back() = words[8];
+    weaker += joined(words) + "\n";
+  }
+  folder_.write("certificate", weaker + roam::checking::checksum_line(weaker));
+  EXPECT_TRUE(contains(check().out, "nearest     it may touch something, but is never inside")) << check().out;
+}
+
 TEST_F(CheckVerb, RefusesASmallerRadius) {
   const std::vector<std::string> lines = lines_of(course());
   std::vector<std::string> forged = lines;

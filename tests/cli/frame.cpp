@@ -56,7 +56,9 @@ TEST_F(Frame, IsInTheReportOfEveryVerb) {
   const Words upright{"--up=-y", "--json"};
   const Json expected = report({"info", scene}, upright)["frame"];
   EXPECT_EQ(expected["up"], "-y");
-  EXPECT_EQ(report({"walk", scene, "--path", path}, upright)["frame"], expected);
+  const std::string certificate = folder.file("certificate");
+  EXPECT_EQ(report({"walk", scene, "--path", path, "--certify", certificate}, upright)["frame"], expected);
+  EXPECT_EQ(report({"check", certificate, scene}, upright)["frame"], expected);
   EXPECT_EQ(report({"probe", scene, "--from", "2,0,1", "--to", "8,0,1"}, upright)["frame"], expected);
   EXPECT_EQ(report({"train", scene, "--no-profile", "--spacing", "0.4"}, upright)["frame"], expected);
   EXPECT_EQ(report({"view", scene, "--headless", "--size", "160x120", "--time", "0.1"}, upright)["frame"], expected);

@@ -146,8 +146,8 @@ TEST(PictureSection, UnrollsWhatStandsOverAndUnderTheWay) {
     }
   }
   EXPECT_GT(expected, 100.0);
-  EXPECT_NEAR(total_length(cuts.section), expected, 1e-9 * expected);
-  for (const Segment& s : cuts.section) {
+  EXPECT_NEAR(total_length(cuts.sections[0]), expected, 1e-9 * expected);
+  for (const Segment& s : cuts.sections[0]) {
     EXPECT_GE(std::min(s.a.x, s.b.x), -1.5 - 1e-9);
     EXPECT_LE(std::max(s.a.x, s.b.x), way.length + 1.5 + 1e-9);
     EXPECT_LE(std::max(s.a.y, s.b.y), 2.5 + 1e-9);

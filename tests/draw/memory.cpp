@@ -1,10 +1,12 @@
 // Pictures of ways and scenes of any size, drawn in little memory.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 
 #include "draw/cut.h"
+#include "draw/lines.h"
 #include "draw/way.h"
 
 namespace {
@@ -65,7 +67,7 @@ TEST(PictureMemory, HoldsOnlyAsManySegmentsAsItMay) {
   const Cuts all = cut({&mesh, 1}, Turn{}, {&view, 1}, {}, nobody);
   const std::size_t most = 4000;
   ASSERT_GT(all.plans[0].walls.size(), 2 * most);
-  Cutter cutter(Turn{}, {&view, 1}, {}, most);
+  Cutter cutter(Turn{}, {&view, 1}, {}, {}, most);
   for (std::size_t first = 0; first < mesh.triangles.size(); first += 5000) {
     Mesh some{"", mesh.vertices, {}};
     for (std::size_t t = first; t < std::min(first + 5000, mesh.triangles.size()); ++t) {
@@ -84,10 +86,55 @@ TEST(PictureMemory, HoldsOnlyAsManySegmentsAsItMay) {
   }
 }
 
+TEST(PictureMemory, HoldsASectionAsItsFramesShowIt) {
+  // The rough ceiling of a gallery of 1.8 km, its heights exaggerated 50 times, and a detail to scale.
+  const std::uint32_t n = 20'000;
+  const double length = 1800.0;
+  Mesh mesh;
+  for (std::uint32_t i = 0; i <= n; ++i) {
+    const double height = 184.54 + 0.01 * std::sin(1.7 * i);
+    mesh.vertices.emplace_back(length * i / n, -1.0, height);
+    mesh.vertices.emplace_back(length * i / n, 1.0, height);
+    if (i == n) break;
+    mesh.triangles.push_back({2 * i, 2 * i + 2, 2 * i + 1});
+    mesh.triangles.push_back({2 * i + 1, 2 * i + 2, 2 * i + 3});
+  }
+  const Stretch stretch{{0.0, 0.1}, {length, 0.1}, 0.0, 180.0, 186.0};
+  const std::array frames{Frame{{{0.0, 180.0}, {length, 186.0}}, 1.0, 50.0},
+                          Frame{{{900.0, 183.0}, {906.0, 186.0}}, 80.0, 80.0}};
+  const std::size_t most = 16'384;
+  Cutter cutter(Turn{}, {}, {&stretch, 1}, frames, most);
+  cutter.add({&mesh, 1}, nobody);
+  const Cuts cuts = cutter.take();
+  EXPECT_LE(cuts.sections[0].size(), most);
+  EXPECT_GT(cuts.sections[0].size(), most / 8);
+  for (std::size_t k = 0; k < frames.size(); ++k) {
+    double worst = 0.0;  // pixels
+    for (const Segment& s : cuts.sections[k]) {
+      for (const Point& p : {s.a, s.b}) worst = std::max(worst, frames[k].scale_y * (std::abs(p.y - 184.54) - 0.01));
+    }
+    EXPECT_LT(worst, 1.0) << k;
+  }
+  // The detail is whole, and of its frame alone.
+  EXPECT_NEAR(static_cast<double>(cuts.sections[1].size()), 2.0 * n * 6.0 / length, 4.0);
+}
+
+TEST(PictureMemory, StraightensLinesBeforeItRoundsThem) {
+  // A ceiling of many short pieces, with one step of a pixel: few pieces on the sheet, so nothing is rounded further.
+  std::vector<Segment> ceiling;
+  const auto at = [](int i) { return Point(0.25 * i, i < 2000 ? 10.125 : 11.125); };
+  for (int i = 0; i < 4000; ++i) ceiling.push_back({at(i), at(i + 1)});
+  const auto lines = joined(
+      ceiling, [](const Point& p) { return p; }, 10);
+  ASSERT_EQ(lines.size(), 1U);
+  const Polyline expected{{0.0, 10.125}, {499.75, 10.125}, {500.0, 11.125}, {1000.0, 11.125}};
+  EXPECT_TRUE(lines[0] == expected || lines[0] == Polyline(expected.rbegin(), expected.rend()));
+}
+
 TEST(PictureMemory, CutsNothingThatLiesElsewhere) {
   const PlanView view{LevelMap({{-1, -2}, {3, 4}}, 0), {5.0, 8.0}, {1.5}, 1.0};
   const Turn turn{{100, 200, 7}, 0.0, 1.0};  // a quarter
-  const Cutter cutter(turn, {&view, 1}, {});
+  const Cutter cutter(turn, {&view, 1}, {}, {});
   const roam::Box box = cutter.box();
   for (const auto& corner : {roam::Vec3(-1, -2, 3.5), roam::Vec3(3, 4, 8)}) {
     bool found = false;

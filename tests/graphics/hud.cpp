@@ -219,6 +219,19 @@ TEST(GraphicsHud, ARecordingIsARedDotAtTheUpperRight) {
   EXPECT_GT(red, 30);
 }
 
+TEST(GraphicsHud, BreaksAMessageIntoLinesOfLikeLengths) {
+  Stage stage(640, 360);
+  Hud hud(stage.frame);
+  hud.set_crosshair(false);
+  const auto width = [&](const std::string& text) {
+    hud.set_message(text);
+    (void)stage.picture(true);
+    return hud.panels().at(0).width;
+  };
+  const std::string sentence = "a sentence that is somewhat too long for the window, by one";
+  EXPECT_LT(width(sentence + " more word"), 0.75f * width(sentence));
+}
+
 TEST(GraphicsHud, LabelsStandAboveTheirPoints) {
   Stage stage(640, 360);
   Hud hud(stage.frame);
@@ -229,6 +242,21 @@ TEST(GraphicsHud, LabelsStandAboveTheirPoints) {
   EXPECT_NEAR(0.5 * (label.left + label.right), 200, 3);
   EXPECT_GE(label.bottom, 100);
   EXPECT_LT(label.bottom, 110);
+}
+
+TEST(GraphicsHud, LabelsHideNoOtherLabel) {
+  Stage stage(640, 360);
+  Hud hud(stage.frame);
+  hud.set_crosshair(false);
+  const auto height = [&](std::vector<graphics::HudLabel> labels) {
+    hud.set_labels(std::move(labels));
+    const Region shown = shown_in(stage);
+    return shown.top - shown.bottom;
+  };
+  const graphics::HudLabel narrowest{"narrowest", 200, 100}, second{"B", 210, 95}, third{"A", 208, 102};
+  const int one = height({narrowest});
+  EXPECT_GE(height({narrowest, second}), 2 * one);
+  EXPECT_GE(height({narrowest, second, third}), 3 * one);
 }
 
 TEST(GraphicsHud, GoesAwayWithItsObject) {

@@ -34,7 +34,7 @@ const char* const message =
     "written: /home/somebody/with/a/long/name/roam-12.path\nbookmark 12";
 
 HudList long_list(std::size_t rows) {
-  HudList list{"Objects: 640, hidden: 12   30 %", "search: window   (click: ends)", {}};
+  HudList list{"Objects: 640, hidden: 12   wheel: 614 more", "search: window   (click: ends)", {}};
   for (std::size_t i = 0; i < rows; ++i) {
     list.rows.push_back({"aws_robomaker_residential_RoomWindow_" + std::to_string(i), std::to_string(i),
                          i % 3 == 0 ? "open" : "", false, static_cast<int>(i % 4), ListRow::Box::half});
@@ -115,7 +115,8 @@ TEST_P(GraphicsHudLayout, KeepsTheHelpApart) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Windows, GraphicsHudLayout,
-                         testing::Values(std::pair(640, 360), std::pair(1280, 720), std::pair(3840, 2160)),
+                         testing::Values(std::pair(640, 1000), std::pair(640, 360), std::pair(1280, 720),
+                                         std::pair(3840, 2160)),
                          [](const auto& size) {
                            return std::to_string(size.param.first) + "x" + std::to_string(size.param.second);
                          });

@@ -105,6 +105,22 @@ TEST(GraphicsPlanPanel, LeavesRoomForTheStatusInATallWindow) {
   }
 }
 
+TEST(GraphicsPlanPanel, LeavesRoomForTheWholeHintInATallWindow) {
+  Stage stage(420, 760);
+  Hud hud(stage.frame);
+  PlanPanel plan(stage.frame);
+  hud.set_hint("H: help     W A S D: walk     drag: look");
+  const auto hint = [&] {
+    hud.set_covered(plan.covered());
+    (void)stage.picture(true);
+    return hud.panels().at(0);
+  };
+  const graphics::Rectangle alone = hint();
+  plan.set_view({.size = PlanSize::small, .centre = {0, 0}, .half = 10.0, .yaw = 0.0});
+  EXPECT_EQ(hint().width, alone.width) << "not shortened";
+  EXPECT_FALSE(overlap(hint(), plan.place()));
+}
+
 TEST(GraphicsPlanPanel, IsNotThereUnlessWanted) {
   Stage stage(640, 360);
   const auto without = stage.picture(true);

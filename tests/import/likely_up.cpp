@@ -7,6 +7,7 @@
 #include <functional>
 #include <vector>
 
+#include "import_files.h"
 #include "roam/generate.h"
 
 namespace roam {
@@ -97,6 +98,10 @@ TEST(LikelyUp, IsNotSaidOfMadeScenes) {
 TEST(LikelyUp, IsLeftToFormatsThatStateIt) {
   for (const char* file : {"a.glb", "a.GLTF", "a.dae", "a.fbx", "a.ifc"}) EXPECT_TRUE(states_up(file)) << file;
   for (const char* file : {"a.obj", "a.ply", "a.stl", "a.osgb"}) EXPECT_FALSE(states_up(file)) << file;
+  const test::TemporaryFolder files;
+  EXPECT_TRUE(states_up(files.path())) << "a folder of OSGB tiles";
+  files.write("tileset.json", "{}");
+  EXPECT_FALSE(states_up(files.path()));
 }
 
 }  // namespace

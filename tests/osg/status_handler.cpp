@@ -90,6 +90,13 @@ TEST(StatusHandler, ShowsWhatTheBodyDoesAndWhyItIsHeld) {
   EXPECT_EQ(said.str(), "osgRoam: held: no space to move in has been set\n");
 }
 
+TEST(StatusHandler, SaysThatTheBodyIsHeldOverNothing) {
+  Osgviewer o;
+  o.w.manipulator->setFeet(Vec3(2000, 0, 1), 0, 0);  // far beyond the floor
+  const std::string expected = "held: there is nothing below to stand on; G flies; Home goes to the start";
+  EXPECT_TRUE(o.w.until([&] { return o.status->text() == expected; })) << o.status->text();
+}
+
 TEST(StatusHandler, IsDrawnOverThePicture) {
   Osgviewer o;
   const auto white = [&] {

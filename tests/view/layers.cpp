@@ -278,6 +278,7 @@ TEST(Layers, AreScrolled) {
   d.session->run("layers");
   EXPECT_TRUE(contains(d.hud(), "floor")) << d.hud();
   EXPECT_FALSE(contains(d.hud(), "shelf_199")) << d.hud();
+  EXPECT_TRUE(contains(d.hud(), "wheel: ")) << d.hud();
   d.session->stage().draw();
   const osgGA::GUIEventAdapter& now = *d.events().getCurrentEventState();
   const float x = now.getXmin() + 0.9f * (now.getXmax() - now.getXmin());
@@ -287,6 +288,7 @@ TEST(Layers, AreScrolled) {
   for (int i = 0; i < 60; ++i) d.events().mouseScroll(osgGA::GUIEventAdapter::SCROLL_DOWN);
   EXPECT_TRUE(contains(d.hud(), "shelf_199")) << d.hud();
   EXPECT_FALSE(contains(d.hud(), "[x] floor")) << d.hud();
+  EXPECT_FALSE(contains(d.hud(), "wheel: ")) << d.hud();
   EXPECT_EQ(d.session->roamer().speed(), speed) << "the wheel is the list's";
 }
 

@@ -314,7 +314,7 @@ TEST(Session, SwitchesToTheCamerasOfOsgviewerAndBack) {
   Driven d(room_obj(), {10, 0, 0.95, 0});
   d.tap('2');
   EXPECT_FALSE(d.session->roamer_leads());
-  EXPECT_TRUE(contains(d.hud(), "trackball")) << d.hud();
+  EXPECT_TRUE(contains(d.hud(), "trackball  (1: back to the body)")) << d.hud();
   // The viewer's own commands work all the same.
   d.tap('h');
   EXPECT_TRUE(contains(d.hud(), "looks around"));

@@ -205,6 +205,22 @@ TEST(Tools, GoToWhatIsClickedOnThePlan) {
   EXPECT_FALSE(d.session->tools().plan().at(0.9, 0.0));
 }
 
+TEST(Tools, DrawTheLargePlanNoFartherThanTheSceneReaches) {
+  Tooled d;  // in a corridor of 20 m
+  d.tap('l');
+  d.tap('l');
+  d.run(0.1);
+  d.session->stage().draw();
+  double left = 1e9, right = -1e9;
+  for (double x = -1.0; x < 1.0; x += 0.002) {
+    const auto at = d.session->tools().plan().at(x, 0.0);
+    if (!at) continue;
+    left = std::min(left, at->x);
+    right = std::max(right, at->x);
+  }
+  EXPECT_NEAR(right - left, 40.0, 1.0);
+}
+
 TEST(Tools, DrawThePlanBesideThePictureOnly) {
   Tooled d;
   d.tap('l');

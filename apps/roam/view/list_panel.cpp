@@ -23,7 +23,7 @@ void ListPanel::draw() {
   const std::size_t room = std::max<std::size_t>(1, hud.list_rows());
   first_ = std::min(first_, rows_.size() - std::min(rows_.size(), room));
   const std::size_t end = std::min(rows_.size(), first_ + room);
-  if (rows_.size() > room) list.title += fmt::format("   {} %", 100 * end / rows_.size());
+  if (end < rows_.size()) list.title += fmt::format("   wheel: {} more", rows_.size() - end);
   list.rows.assign(rows_.begin() + static_cast<std::ptrdiff_t>(first_),
                    rows_.begin() + static_cast<std::ptrdiff_t>(end));
   hud.set_list(std::move(list));

@@ -22,7 +22,7 @@ namespace {
 
 using graphics::PlanSize;
 
-constexpr double large_factor = 2.5;  // the large plan shows so much more
+constexpr double large_factor = 2.5;  // the large plan shows so much more, if there is more
 constexpr double least_half = 2.0, largest_half = 200.0;
 constexpr double margin_factor = 1.4;  // of what is shown: cut, so that the body can go on
 constexpr double rays_across = 500.0;
@@ -63,7 +63,13 @@ void LivePlan::cycle() {
   size_ = size_ == PlanSize::none ? PlanSize::small : size_ == PlanSize::small ? PlanSize::large : PlanSize::none;
 }
 
-double LivePlan::half() const { return size_ == PlanSize::large ? large_factor * half_ : half_; }
+double LivePlan::half() const {
+  if (size_ != PlanSize::large) return half_;
+  // Wherever the body is in it, its side reaches as far as the scene does.
+  const Box scene = roamer_.walker()->space().bounds();
+  const double side = scene.empty() ? 0.0 : std::max(scene.size().x, scene.size().y);
+  return std::min(large_factor * half_, std::max(half_, side));
+}
 
 void LivePlan::zoom(double factor) { half_ = std::clamp(half_ * factor, least_half, largest_half); }
 

@@ -27,8 +27,8 @@ class LivePlan {
   /// From none to small, large, and none again.
   void cycle();
   [[nodiscard]] graphics::PlanSize size() const { return size_; }
-  /// The share of the picture that a large plan takes at the right; else 0.
-  [[nodiscard]] double covered() const { return panel_.covered(); }
+  /// As of PlanPanel.
+  [[nodiscard]] graphics::Rectangle covered() const { return panel_.covered(); }
   /// Call it in each frame. `visible` false: nothing is shown or cut. `met`: the walls.
   void update(bool visible, HiddenSpace::Met met, const std::vector<graphics::PlanPlace>& places);
   /// The metres at a point of the picture, x and y in [-1, 1]; none outside of the plan.
@@ -54,7 +54,7 @@ class LivePlan {
   };
   [[nodiscard]] static Box box_of(const Wish& wish);
   [[nodiscard]] static Cut cut(const Wish& wish, const std::atomic<bool>& stops);
-  [[nodiscard]] double half() const;
+  [[nodiscard]] double half() const;  ///< m; there must be a walker
   [[nodiscard]] bool is_stale(const Wish& wish) const;
   void follow();
   void receive();

@@ -59,7 +59,7 @@ std::string paging_text(const PagerStats& paging) {
 }
 
 std::string mode_text(const Status& status) {
-  if (!status.camera.empty()) return status.camera;
+  if (!status.camera.empty()) return status.camera + "  (1: back to the body)";
   if (!status.mode) return "loading";
   std::string text = fmt::format("{}  {:.1f} m/s", to_string(*status.mode), status.speed);
   if (*status.mode == Mode::walk && !status.grounded) text += "  in the air";

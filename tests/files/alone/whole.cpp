@@ -188,6 +188,20 @@ TEST(WholeFile, ThatIsNumberedReplacesNothing) {
   EXPECT_EQ(write_whole(folder.file("b"), "text", Naming::numbered), folder.file("b-1"));
 }
 
+TEST(WholeFile, ThatIsNumberedNamesInErrorsTheWholePathThatItWouldHaveGot) {
+  const TestFolder folder;
+  folder.write("a-1.txt", "precious");
+  const fs::path before = fs::current_path();
+  fs::current_path(folder.file(""));
+  calls = 0;
+  failure = ENOSPC;
+  failing_call = 1;
+  const std::string said = complaint([] { write_whole("a.txt", "text", Naming::numbered); });
+  failing_call = 0;
+  fs::current_path(before);
+  EXPECT_NE(said.find("cannot write " + folder.file("a-2.txt") + ": "), std::string::npos) << said;
+}
+
 TEST(WholeFile, IsNumberedWhereAFileHasOneNameOnly) {
   const TestFolder folder;
   folder.write("a-1.txt", "precious");
