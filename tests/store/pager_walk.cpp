@@ -166,7 +166,8 @@ TEST(PagerWalk, InAnotherSizeAgainAndAgain) {
 TEST(PagerWalk, PutAnywhereAgainAndAgain) {
   Maze maze("pager_teleports", 5);
   Pager pager(maze.store, {.memory = Pager::least_memory, .loaders = 2});
-  const Tally tally = walk(maze, pager, {.speed = 5.0, .steps = 2500, .teleport_each = 60, .us = 500}, 6);
+  const Tally tally =
+      walk(maze, pager, {.speed = 5.0, .steps = 2500, .teleport_each = 60, .judge_each = 30, .us = 500}, 6);
   EXPECT_EQ(tally.embedded, 0);
   EXPECT_GT(tally.length, 20.0);
 
@@ -174,7 +175,7 @@ TEST(PagerWalk, PutAnywhereAgainAndAgain) {
   const roam::Body body{0.3, 0.6};
   const Vec3 here(4.5, 4.5, 1.0), there(195.5, 195.5, 1.0);
   int free = 0;
-  for (int i = 0; i < 50; ++i) {
+  for (int i = 0; i < 8; ++i) {
     ASSERT_TRUE(pager.wait(body, here, Vec3(0.0), 60.0));
     (void)pager.update(body, there, Vec3(0.0));
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
@@ -183,7 +184,7 @@ TEST(PagerWalk, PutAnywhereAgainAndAgain) {
     (void)pager.update(body, here, Vec3(0.0));
     ASSERT_GT(pager.clearance(body, here, 0.01).distance, 0.0) << i;
   }
-  EXPECT_GT(free, 25);
+  EXPECT_GT(free, 4);
   EXPECT_GT(pager.stats().evictions, 20U);
 }
 
