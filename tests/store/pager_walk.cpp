@@ -1,5 +1,5 @@
-// Bodies on their way through stores that are far larger than the memory of the pager: every step is judged by brute
-// force, and nobody is ever in something unknown because something went.
+// Bodies on their way through stores that are larger than the memory of the pager: every step is judged by brute force,
+// and nobody is ever in something unknown because something went.
 
 #include <gtest/gtest.h>
 
