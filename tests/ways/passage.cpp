@@ -268,11 +268,15 @@ TEST(Passage, OfASphereClimbsNoMoreThanItsRadius) {
 }
 
 TEST(Passage, IsBoundedAndProvenByWhatFitsAtItsEnds) {
-  const Passage p = widest(room(), {0.4, 0.0, 0.0}, other_end);
-  EXPECT_NEAR(p.radius, 0.4, wanted_error);
-  EXPECT_TRUE(p.limited);
-  EXPECT_TRUE(p.proven);
-  EXPECT_NEAR(p.bound, 0.4, wanted_error);
+  const Vec3 narrow(0.4, 0.0, 0.0);
+  for (const auto& [from, to] : {std::pair{narrow, other_end}, {other_end, narrow}}) {
+    const Passage p = widest(room(), from, to);
+    EXPECT_NEAR(p.radius, 0.4, wanted_error);
+    EXPECT_LE(p.radius, p.bound);
+    EXPECT_TRUE(p.limited);
+    EXPECT_TRUE(p.proven);
+    EXPECT_NEAR(p.bound, 0.4, wanted_error);
+  }
 }
 
 TEST(Passage, TakesEndsDownToTheFloorAndAwayFromWalls) {

@@ -112,18 +112,20 @@ bool passes_all(const Survey& survey, const Measure& measure, const std::vector<
   return true;
 }
 
-/// The narrowest place of a way that is wider than `radius`, as where straight pieces replaced narrower stations; else
-/// none. Narrower places do not count: a body crosses them by a step.
+/// If the whole way is wider than `radius`, its narrowest place. Straight pieces may be wider than the stations that
+/// they replaced. Places narrower than `radius` do not count: a body crosses them by a step.
 std::optional<Station> narrowest_if_wider(const Survey& survey, const Measure& measure, const std::vector<Vec3>& way,
                                           double radius) {
   constexpr double apart = 0.02;  // m, as polished stations
   const double margin = certified_margin(survey);
   if (!passes_all(survey, measure, way, radius + 2.0 * margin)) return std::nullopt;
   std::optional<Station> narrowest;
-  for_each_station(way, apart, [&](const Vec3& place, const Vec3&, double) {
+  const auto judge = [&](const Vec3& place) {
     const Station station = station_at(survey, measure, place);
     if (station.free >= radius && (!narrowest || station.free < narrowest->free)) narrowest = station;
-  });
+  };
+  for_each_station(way, apart, [&](const Vec3& place, const Vec3&, double) { judge(place); });
+  judge(way.back());
   const bool is_wider =
       narrowest && narrowest->free > radius + margin && passes_all(survey, measure, way, narrowest->free - margin);
   return is_wider ? narrowest : std::nullopt;
@@ -149,16 +151,16 @@ Passage refine(const Survey& survey, const Measure& measure, double spacing, std
       std::min_element(way.begin(), way.end(), [](const Station& a, const Station& b) { return a.free < b.free; });
   Vec3 decides = narrowest->place;
   passage.radius = mend(survey, measure, way, seen, spacing);
-  passage.found = passage.radius >= measure.narrowest;
-  const double unlimited = limit - certified_margin(survey);
-  passage.way = straightened(survey, measure, way, passage.radius < unlimited ? passage.radius : limit);
-  if (passage.found && passage.radius < unlimited) {
+  const double limited_below = limit - certified_margin(survey);
+  passage.way = straightened(survey, measure, way, passage.radius < limited_below ? passage.radius : limit);
+  if (passage.radius < limited_below) {
     if (const auto station = narrowest_if_wider(survey, measure, passage.way, passage.radius)) {
       passage.radius = station->free;
       decides = station->place;
     }
   }
-  passage.limited = passage.radius < unlimited;
+  passage.found = passage.radius >= measure.narrowest;
+  passage.limited = passage.radius < limited_below;
   if (!passage.limited) passage.radius = limit;
   for (std::size_t i = 1; i < passage.way.size(); ++i)
     passage.length += glm::length(passage.way[i] - passage.way[i - 1]);
