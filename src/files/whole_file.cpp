@@ -57,14 +57,6 @@ std::string numbered(const fs::path& name, int number) {
   fail("write", (fs::absolute(path, none) / numbered(name, number)).lexically_normal(), error);
 }
 
-Descriptor open_folder_of(const fs::path& file, Naming naming) {
-  Descriptor folder = open_folder_of(file);
-  if (naming == Naming::numbered && ::faccessat(folder.number(), ".", W_OK, 0) != 0) {
-    fail_to_write_numbered(folder.number(), folder_of(file), file.filename().string(), errno);
-  }
-  return folder;
-}
-
 }  // namespace
 
 // The folder of a scene may come from a stranger: a pipe in it would keep the reader waiting for ever, and a link could
@@ -103,8 +95,7 @@ WholeFile::WholeFile(const fs::path& file, unsigned rights)
 }
 
 WholeFile::WholeFile(const fs::path& file, Naming naming)
-    : WholeFile(open_folder_of(file, naming), folder_of(file), file.filename().string()) {
-  naming_ = naming;
+    : WholeFile(open_folder_of(file), folder_of(file), file.filename().string(), usual_rights, naming) {
   if (naming == Naming::exact) demand_replaceable();
 }
 
@@ -121,8 +112,12 @@ void WholeFile::demand_replaceable() const {
   throw FileError(Error::at(file, fmt::format("cannot write {}: it is a pipe or a device; name a file", file)), ESPIPE);
 }
 
-WholeFile::WholeFile(Descriptor folder, fs::path folder_path, std::string name, unsigned rights)
-    : folder_(std::move(folder)), folder_path_(std::move(folder_path)), rights_(rights), name_(std::move(name)) {
+WholeFile::WholeFile(Descriptor folder, fs::path folder_path, std::string name, unsigned rights, Naming naming)
+    : folder_(std::move(folder)),
+      folder_path_(std::move(folder_path)),
+      rights_(rights),
+      naming_(naming),
+      name_(std::move(name)) {
   static std::atomic<std::uint64_t> number{0};
   if (name_.empty()) fail_to_write(EISDIR);
   while (!begin(number++)) {

@@ -30,7 +30,8 @@ class WholeFile {
   explicit WholeFile(const std::filesystem::path& file, unsigned rights = usual_rights);
   WholeFile(const std::filesystem::path& file, Naming naming);
   /// The file `name` in an open folder, whose path is for messages.
-  WholeFile(Descriptor folder, std::filesystem::path folder_path, std::string name, unsigned rights = usual_rights);
+  WholeFile(Descriptor folder, std::filesystem::path folder_path, std::string name, unsigned rights = usual_rights,
+            Naming naming = Naming::exact);
   ~WholeFile();
   WholeFile(const WholeFile&) = delete;
   WholeFile& operator=(const WholeFile&) = delete;
@@ -62,7 +63,7 @@ class WholeFile {
   Descriptor folder_;
   std::filesystem::path folder_path_;
   unsigned rights_;
-  Naming naming_ = Naming::exact;
+  Naming naming_;
   std::string name_, temporary_;  ///< in the folder
   Descriptor file_;
   Unfinished listed_;

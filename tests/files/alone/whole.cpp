@@ -202,6 +202,11 @@ TEST(WholeFile, ThatIsNumberedNamesInErrorsTheWholePathThatItWouldHaveGot) {
   EXPECT_NE(said.find("cannot write " + folder.file("a-2.txt") + ": "), std::string::npos) << said;
 }
 
+TEST(WholeFile, ThatIsNumberedNamesThatPathWhereItCannotBeMade) {
+  const std::string said = complaint([] { write_whole("/proc/a.txt", "text", Naming::numbered); });
+  EXPECT_NE(said.find("cannot write /proc/a-1.txt: "), std::string::npos) << said;
+}
+
 TEST(WholeFile, IsNumberedWhereAFileHasOneNameOnly) {
   const TestFolder folder;
   folder.write("a-1.txt", "precious");
