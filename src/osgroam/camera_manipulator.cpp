@@ -150,7 +150,8 @@ bool Manipulator::handle(const Adapter& event, osgGA::GUIActionAdapter& viewer) 
 void Manipulator::getUsage(osg::ApplicationUsage& usage) const {
   for (const Controls::Command& command : _state->keys.commands()) {
     const std::string keys = Controls::keyText(command);
-    if (!keys.empty()) usage.addKeyboardMouseBinding(keys, "roam: " + command.help);
+    // With the prefix other handlers' lines for the same key stay beside ours.
+    if (!keys.empty()) usage.addKeyboardMouseBinding("roam " + keys, command.help);
   }
 }
 
