@@ -42,7 +42,7 @@ void demand_no_overwriting(std::span<const NamedFile> inputs, std::span<const Na
   namespace fs = std::filesystem;
   const auto same = [](const fs::path& a, const fs::path& b) {
     std::error_code none;
-    if (a.empty() || b.empty()) return false;
+    if (a.empty() || b.empty() || is_standard(a) || is_standard(b)) return false;
     const fs::path whole = fs::weakly_canonical(fs::absolute(a, none), none);
     return fs::equivalent(a, b, none) || (!whole.empty() && whole == fs::weakly_canonical(fs::absolute(b, none), none));
   };
@@ -53,7 +53,7 @@ void demand_no_overwriting(std::span<const NamedFile> inputs, std::span<const Na
                        fmt::format("this would overwrite {}; name another file", what));
     };
     for (const NamedFile& input : inputs) demand_other(input.file, input.name);
-    for (const NamedFile& other : outputs.first(i)) demand_other(other.file, "what " + other.name + " writes");
+    for (const NamedFile& other : outputs.first(i)) demand_other(other.file, "the file of " + other.name);
   }
 }
 

@@ -28,10 +28,10 @@ struct NamedFile {
   std::string name;
   std::filesystem::path file;
 };
-/// Those of a scene.
+/// The scenes, each named "the scene".
 [[nodiscard]] std::vector<NamedFile> named_scenes(std::span<const std::filesystem::path> scenes);
 
-/// Throws UsageError for an output that is an input, too, or an output before it.
+/// Throws UsageError if an output is the same file as an input or another output.
 void demand_no_overwriting(std::span<const NamedFile> inputs, std::span<const NamedFile> outputs);
 
 /// Throws UsageError, naming the option, for a file that cannot be written: an address, a folder, a pipe, one of the

@@ -138,7 +138,7 @@ TEST(WalkPicture, DoesNotOverwriteWhatIsReadOrTheTrace) {
   const std::string both = picture.folder.file("new.svg");
   const auto over_trace = run(both, {"--trace", picture.folder.file("") + "./new.svg"});
   EXPECT_EQ(over_trace.status, 2);
-  EXPECT_TRUE(contains(over_trace.err, "would overwrite what --trace writes")) << over_trace.err;
+  EXPECT_TRUE(contains(over_trace.err, "would overwrite the file of --trace")) << over_trace.err;
 }
 
 TEST(WalkPicture, FailsEarlyWhereItCannotBeWritten) {

@@ -94,6 +94,8 @@ TEST_F(TextFiles, ADashIsStandardOutputAndTheReportGoesToStandardError) {
   EXPECT_EQ(found.status, 0) << found.err;
   EXPECT_TRUE(found.out.starts_with("# roam: mode walk radius 0.3 height 1.7 ")) << found.out;
   EXPECT_EQ(run("walk " + in_quotes(scene_) + " --path -", {.input = found.out}).status, 0);
+  const ProgramResult both = run("walk " + in_quotes(scene_) + " --path - --trace -", {.input = found.out});
+  EXPECT_EQ(both.status, 0) << both.err;
   EXPECT_FALSE(fs::exists("-"));
 
   expect_refused(run(walk(path + " --trace - --json")), "--trace - and --json both write to standard output");

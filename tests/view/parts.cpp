@@ -211,10 +211,10 @@ TEST(ViewPlan, RefusesOutputsThatWouldReplaceOrMissSomething) {
   const auto error = [&](const ViewSettings& settings = {}) {
     return error_of([&] { static_cast<void>(make_plan(options, settings)); });
   };
-  EXPECT_TRUE(contains(error(), "would overwrite what --record-path writes")) << error();
+  EXPECT_TRUE(contains(error(), "would overwrite the file of --record-path")) << error();
   options.trace = "./roam-no-such-file";
   options.record_path = "roam-no-such-file";
-  EXPECT_TRUE(contains(error(), "would overwrite what --record-path writes")) << error();
+  EXPECT_TRUE(contains(error(), "would overwrite the file of --record-path")) << error();
   options.trace = folder.file("one");
   options.record_path.clear();
   EXPECT_EQ(error(), "");
