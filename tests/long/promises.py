@@ -61,7 +61,7 @@ PROMISES = [
      "slack = hn::Sub(slack, hn::Mul(set(half_height), hn::Abs(n.z)));",
      "slack = hn::Sub(slack, hn::Mul(set(0.999F * half_height), hn::Abs(n.z)));"),
     ("world", "WorldAgainstBruteForce.*", "src/index/sweep_traversal-inl.h",
-     "body.radius += double(t.fine_error);", "body.radius += 0.0 * double(t.fine_error);"),
+     "piece_.body.radius + double(t.fine_error), piece_.body.half_height", "piece_.body.radius + 0.0 * double(t.fine_error), piece_.body.half_height"),
     # The rounding mode "down" is not seen.
     ("math", "FloatingPoint.*", "src/math/floating_point.h", "(_mm_getcsr() & ~flags)",
      "(_mm_getcsr() & ~flags & ~0x2000U)"),
