@@ -27,7 +27,7 @@ function(roam_unity)
   endif()
 endfunction()
 
-# Link what sanitizers need to know about foreign libraries into programs.
+# Link sanitizers.cpp into every program of a build with a sanitizer.
 if(CMAKE_CXX_FLAGS MATCHES "-fsanitize=[a-z,]*(thread|address)")
   add_library(roam_sanitizer OBJECT ${CMAKE_CURRENT_LIST_DIR}/sanitizers.cpp)
   link_libraries($<$<STREQUAL:$<TARGET_PROPERTY:TYPE>,EXECUTABLE>:roam_sanitizer>)

@@ -1,7 +1,13 @@
-// What the sanitizers must not take for defects of ours, in every program of a build with them, so that nobody has to
-// set their options.
+// Events inside foreign libraries that the sanitizers would report as defects of ours. It is linked into every program
+// of a build with them, so that nobody has to set their options.
 
-#ifdef __SANITIZE_THREAD__
+#ifdef __has_feature
+#define HAS_FEATURE(name) __has_feature(name)
+#else
+#define HAS_FEATURE(name) 0
+#endif
+
+#if defined(__SANITIZE_THREAD__) || HAS_FEATURE(thread_sanitizer)
 // Only what happens inside of libraries that were built without the sanitizer: it does not see how they synchronize.
 //
 // A line takes a report away when any of its stacks goes through the library, so libosg and libosgDB must never stand
@@ -16,7 +22,7 @@ extern "C" const char* __tsan_default_suppressions() {
 }
 #endif
 
-#ifdef __SANITIZE_ADDRESS__
+#if defined(__SANITIZE_ADDRESS__) || HAS_FEATURE(address_sanitizer)
 // A driver that is unloaded seems to leak what its own variables held. So none is unloaded.
 extern "C" int dlclose(void*);
 extern "C" int dlclose(void*) { return 0; }
