@@ -167,9 +167,9 @@ std::string text_report(const CheckOptions& options, const Result& result) {
     sizes += (sizes.empty() ? "" : "; ") + words::size_of(size.radius, height_of(size));
   }
   lines.add("body", sizes);
-  constexpr double printed = 0.5e-4;  // m; a shorter length is printed as 0.0 mm
-  lines.add("nearest", claim.least_gap < printed
-                           ? std::string("it may touch something, but is never inside")
+  constexpr double shortest_printed = 0.5e-4;  // m; a shorter length is printed as 0.0 mm
+  lines.add("nearest", claim.least_gap < shortest_printed
+                           ? std::string("it may touch something, by 0.001 mm at most")
                            : fmt::format("at least {} from everything", words::metres(claim.least_gap)));
   return lines.text();
 }

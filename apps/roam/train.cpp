@@ -66,7 +66,9 @@ std::filesystem::path profile_file(const TrainVerbOptions& o) {
     check_output(o.scene.scenes, "-o", *o.profile);
     return *o.profile;
   }
-  demand_no_address("without -o, the profile beside", o.scene.scenes.front());
+  const std::string& scene = o.scene.scenes.front().native();
+  if (Store::is_address(scene))
+    throw UsageError(scene, "no profile can be written beside an address; name a file by -o, or say --no-profile");
   std::filesystem::path beside = profile_path(o.scene.scenes);
   if (const std::optional<Obstacle> found = obstacle(beside))
     throw UsageError(

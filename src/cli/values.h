@@ -26,7 +26,7 @@ template <class Number>
   return {[=](std::string& text) {
             Number value{};
             bool within = CLI::detail::lexical_cast(text, value) && value >= least && value <= most;
-            if constexpr (std::is_integral_v<Number>) {  // CLI11 takes what is too great for one as the greatest
+            if constexpr (std::is_integral_v<Number>) {  // CLI11 clamps numbers that do not fit
               const auto read = std::from_chars(text.data(), text.data() + text.size(), value);
               within = within && read.ec != std::errc::result_out_of_range;
             }

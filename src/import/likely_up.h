@@ -11,7 +11,7 @@
 namespace roam {
 
 /// Whether a format defines which axis is up, or its files state one: a folder of OSGB tiles, glTF, Collada, FBX, IFC,
-/// 3MF, Blender. 3D Tiles have z up, but many tilesets without a place on Earth do not.
+/// 3MF, Blender. The standard of 3D Tiles says that z is up; many tilesets without a place on Earth do not follow it.
 [[nodiscard]] bool states_up(const std::filesystem::path& path);
 
 /// The axis of x, y, -x, -y to which most of the surface of a scene read with z up is square, if all of these hold;

@@ -134,7 +134,7 @@ TEST_F(CheckVerb, SaysHowNearTheBodyComes) {
     weaker += joined(words) + "\n";
   }
   folder_.write("certificate", weaker + roam::checking::checksum_line(weaker));
-  EXPECT_TRUE(contains(check().out, "nearest     it may touch something, but is never inside")) << check().out;
+  EXPECT_TRUE(contains(check().out, "nearest     it may touch something, by 0.001 mm at most")) << check().out;
 }
 
 TEST_F(CheckVerb, RefusesASmallerRadius) {
@@ -291,7 +291,7 @@ TEST(Certify, WritesOverNoTraceAndNoSceneOfAStore) {
   expect_refused({"--certify", scene}, "this would overwrite the scene");
   expect_refused({"--certify", "/dev/null"}, "--certify /dev/null: that is a pipe or a device; name a file");
   const std::string both = folder.file("both");
-  expect_refused({"--trace", both, "--certify", both}, "this would overwrite what --trace writes");
+  expect_refused({"--trace", both, "--certify", both}, "this would overwrite the file of --trace");
   EXPECT_EQ(folder.read("scene.obj"), room_obj());
 }
 

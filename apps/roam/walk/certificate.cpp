@@ -83,7 +83,7 @@ void certify(const std::filesystem::path& file, const OpenScene& scene, const ve
   }
   if (segments.count() > most_segments) {
     throw Error("--certify " + file.string(),
-                fmt::format("the walk has {} segments, and a certificate at most {}; certify it in parts",
+                fmt::format("the walk has {} segments, and a certificate at most {}; walk its path in parts, each with --certify",
                             segments.count(), most_segments));
   }
   const std::string text = segments.certificate(sum);
