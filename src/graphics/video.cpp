@@ -76,24 +76,10 @@ std::string filters(const Kind& kind) {
 
 Words arguments(const Kind& kind, int width, int height, int rate) {
   const std::string size = std::to_string(width) + "x" + std::to_string(height);
-  Words all{"-hide_banner",
-            "-loglevel",
-            "error",
-            "-nostdin",
-            "-y",
-            "-f",
-            "rawvideo",
-            "-pixel_format",
-            "rgb24",
-            "-video_size",
-            size,
-            "-framerate",
-            std::to_string(rate),
-            "-i",
-            "pipe:0",
-            "-an",
-            "-vf",
-            filters(kind)};
+  // Without -xerror ffmpeg succeeds although the disk has no room for a film's index.
+  Words all{"-hide_banner", "-loglevel",     "error", "-nostdin",    "-xerror",    "-y",         "-f",
+            "rawvideo",     "-pixel_format", "rgb24", "-video_size", size,         "-framerate", std::to_string(rate),
+            "-i",           "pipe:0",        "-an",   "-vf",         filters(kind)};
   if (kind.is_video) {
     const Words colours{"-pix_fmt",         "yuv420p", "-colorspace", "bt709",
                         "-color_primaries", "bt709",   "-color_trc",  "bt709"};

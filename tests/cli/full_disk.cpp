@@ -15,15 +15,16 @@ class FullDisk : public testing::Test {
     fs::create_directories(folder_.file("disk"));
     setenv("XDG_CONFIG_HOME", folder_.file("config").c_str(), 1);
   }
-  /// Runs the program in a world where the folder "disk" is a disk of 64 kB with 2 kB left; then lists what is there.
-  [[nodiscard]] ProgramResult run(const std::string& arguments) const {
-    return run_program("/bin/sh", {"-c", "exec unshare -rm /bin/sh -c '" + mount() +
-                                             " && dd if=/dev/zero of=" + folder_.file("disk/filler") +
-                                             " bs=1k count=62 2>/dev/null; " ROAM_PROGRAM " " + arguments +
-                                             "; status=$?; ls " + folder_.file("disk") + "; exit $status'"});
+  /// Runs the program in a world where the folder "disk" is a disk of 64 kB, of which so many are full; then lists what
+  /// is there.
+  [[nodiscard]] ProgramResult run(const std::string& arguments, int full = 62) const {
+    return run_program("/bin/sh", {"-c", "exec unshare -rm /bin/sh -c '" + mount() + " && dd if=/dev/zero of=" +
+                                             folder_.file("disk/filler") + " bs=1k count=" + std::to_string(full) +
+                                             " 2>/dev/null; " ROAM_PROGRAM " " + arguments + "; status=$?; ls " +
+                                             folder_.file("disk") + "; exit $status'"});
   }
-  void expect_told(const std::string& arguments, const std::string& why) const {
-    const ProgramResult result = run(arguments);
+  void expect_told(const std::string& arguments, const std::string& why, int full = 62) const {
+    const ProgramResult result = run(arguments, full);
     EXPECT_EQ(result.status, 1) << arguments << result.err;
     EXPECT_TRUE(contains(result.err, why)) << result.err;
     EXPECT_EQ(result.out, "filler\n") << arguments;
@@ -43,6 +44,14 @@ TEST_F(FullDisk, IsSaidOfPicturesAndFilms) {
   expect_told(view + "--screenshot " + folder_.file("disk/shot.png"), "shot.png: No space left on device; make room");
   expect_told(view + "--time 0.5 --record " + folder_.file("disk/film.mp4"), "the disk is full: make room");
   expect_told("make gallery -o " + folder_.file("disk/gallery.ply"), "gallery.ply: No space left on device; make room");
+}
+
+TEST_F(FullDisk, IsSaidOfAFilmWhoseIndexFindsNoRoom) {
+  if (!can_mount()) GTEST_SKIP() << "no disk can be mounted here";
+  const std::string film = " --headless --size 320x240 --mode fly --turntable 1 --record ";
+  ASSERT_EQ(run_program("/bin/sh", {"-c", ROAM_PROGRAM " view " + scene_ + film + folder_.file("film.mp4")}).status, 0);
+  const auto pages = static_cast<int>((fs::file_size(folder_.file("film.mp4")) - 1) / 4096);
+  expect_told("view " + scene_ + film + folder_.file("disk/film.mp4"), "the disk is full: make room", 64 - 4 * pages);
 }
 
 TEST_F(FullDisk, LeavesATraceOfBefore) {
