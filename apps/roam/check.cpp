@@ -125,6 +125,15 @@ void check_scene(const SceneOptions& scene, checking::Checker& checker) {
   for (const std::string& note : report.notes) tell("note: " + note);
 }
 
+/// The sizes of the body on its way, without those that only the head names.
+std::vector<checking::Size> sizes_of(const checking::Certificate& certificate) {
+  std::vector<checking::Size> sizes;
+  for (const checking::Segment& s : certificate.segments) {
+    if (std::find(sizes.begin(), sizes.end(), s.size) == sizes.end()) sizes.push_back(s.size);
+  }
+  return sizes;
+}
+
 Json json_report(const CheckOptions& options, const Result& result) {
   Json json = {{"certificate", options.certificate.string()},
                {"scene", options.scene.names()},
@@ -138,7 +147,7 @@ Json json_report(const CheckOptions& options, const Result& result) {
   const checking::Certificate& certificate = *result.certificate;
   const Claim claim(certificate);
   Json sizes = Json::array();
-  for (const checking::Size& size : certificate.sizes) {
+  for (const checking::Size& size : sizes_of(certificate)) {
     sizes.push_back({{"radius", size.radius}, {"height", height_of(size)}});
   }
   json["segments"] = certificate.segments.size();
@@ -163,7 +172,7 @@ std::string text_report(const CheckOptions& options, const Result& result) {
                                words::exactly_at(certificate.segments.front().from),
                                words::exactly_at(certificate.segments.back().to)));
   std::string sizes;
-  for (const checking::Size& size : certificate.sizes) {
+  for (const checking::Size& size : sizes_of(certificate)) {
     sizes += (sizes.empty() ? "" : "; ") + words::size_of(size.radius, height_of(size));
   }
   lines.add("body", sizes);
