@@ -27,6 +27,7 @@
 #include "probe/picture.h"
 #include "probe/text.h"
 #include "roam/path_file.h"
+#include "roam/profile.h"
 #include "scenes/body_options.h"
 #include "scenes/frame.h"
 #include "scenes/recorded_body.h"
@@ -223,8 +224,9 @@ ExitStatus probe(ProbeOptions o) {
   if (o.picture) check_output(o.scene.scenes, "--picture", *o.picture);
   const NamedFile outputs[] = {{"--path", o.path.value_or("")}, {"--picture", o.picture.value_or("")}};
   // A list of sizes is no file that exists.
-  const NamedFile sizes_file{"the file of --matrix", o.matrix.value_or("")};
-  demand_no_overwriting({&sizes_file, 1}, outputs);
+  const NamedFile inputs[] = {{"the file of --matrix", o.matrix.value_or("")},
+                              {"the profile", profile_path(o.scene.scenes)}};
+  demand_no_overwriting(inputs, outputs);
   std::optional<tbb::global_control> limit;
   if (o.scene.threads > 0) {
     limit.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(o.scene.threads));

@@ -132,8 +132,8 @@ ExitStatus train(TrainVerbOptions o) {
   const std::filesystem::path profile = profile_file(o);
   take_kept_frame(o.scene);
   if (o.picture) check_output(o.scene.scenes, "--picture", *o.picture);
-  const NamedFile outputs[] = {{"-o", profile}, {"--picture", o.picture.value_or("")}};
-  demand_no_overwriting({}, outputs);
+  const NamedFile kept{"the profile", profile}, drawn{"--picture", o.picture.value_or("")};
+  demand_no_overwriting({&kept, 1}, {&drawn, 1});
   std::optional<draw::PictureFile> drawing;
   if (o.picture) drawing.emplace(*o.picture, draw::PictureFile::Views::in_metres);
   const Surveyed scene = survey_scene(o.scene, o.slope);

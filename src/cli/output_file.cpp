@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 
@@ -40,20 +41,33 @@ std::vector<NamedFile> named_scenes(std::span<const std::filesystem::path> scene
 
 void demand_no_overwriting(std::span<const NamedFile> inputs, std::span<const NamedFile> outputs) {
   namespace fs = std::filesystem;
-  const auto same = [](const fs::path& a, const fs::path& b) {
-    std::error_code none;
-    if (a.empty() || b.empty() || is_standard(a) || is_standard(b)) return false;
-    const fs::path whole = fs::weakly_canonical(fs::absolute(a, none), none);
-    return fs::equivalent(a, b, none) || (!whole.empty() && whole == fs::weakly_canonical(fs::absolute(b, none), none));
+  std::error_code none;
+  const auto whole = [&](const fs::path& file) { return fs::weakly_canonical(fs::absolute(file, none), none); };
+  const auto same = [&](const fs::path& a, const fs::path& b) {
+    return fs::equivalent(a, b, none) || (!whole(a).empty() && whole(a) == whole(b));
   };
+  // Every file in the folder of a scene, a store or tiles may be a part of it.
+  const auto has_part = [&](const fs::path& folder, const fs::path& file) {
+    if (!fs::is_directory(folder, none) || !fs::exists(file, none)) return false;
+    const fs::path from = whole(folder), to = whole(file);
+    return std::mismatch(from.begin(), from.end(), to.begin(), to.end()).first == from.end();
+  };
+  const auto is_file = [](const fs::path& file) { return !file.empty() && !is_standard(file); };
   for (std::size_t i = 0; i < outputs.size(); ++i) {
-    const auto demand_other = [&](const fs::path& file, const std::string& what) {
-      if (!same(file, outputs[i].file)) return;
-      throw UsageError(fmt::format("{} {}", outputs[i].name, outputs[i].file.string()),
+    const fs::path& output = outputs[i].file;
+    if (!is_file(output)) continue;
+    const auto refuse = [&](const std::string& what) {
+      throw UsageError(fmt::format("{} {}", outputs[i].name, output.string()),
                        fmt::format("this would overwrite {}; name another file", what));
     };
-    for (const NamedFile& input : inputs) demand_other(input.file, input.name);
-    for (const NamedFile& other : outputs.first(i)) demand_other(other.file, "the file of " + other.name);
+    for (const NamedFile& input : inputs) {
+      if (!is_file(input.file)) continue;
+      if (same(input.file, output)) refuse(input.name);
+      if (has_part(input.file, output)) refuse("a file of " + input.name);
+    }
+    for (const NamedFile& other : outputs.first(i)) {
+      if (is_file(other.file) && same(other.file, output)) refuse("the file of " + other.name);
+    }
   }
 }
 

@@ -31,7 +31,8 @@ struct NamedFile {
 /// The scenes, each named "the scene".
 [[nodiscard]] std::vector<NamedFile> named_scenes(std::span<const std::filesystem::path> scenes);
 
-/// Throws UsageError if an output is the same file as an input or another output.
+/// Throws UsageError if an output is the same file as an input or another output, or a file in a folder that is an
+/// input.
 void demand_no_overwriting(std::span<const NamedFile> inputs, std::span<const NamedFile> outputs);
 
 /// Throws UsageError, naming the option, for a file that cannot be written: an address, a folder, a pipe, one of the

@@ -10,6 +10,7 @@
 #include "cli_scenes.h"
 #include "messages.h"
 #include "program.h"
+#include "roam/profile.h"
 
 namespace {
 
@@ -291,6 +292,8 @@ TEST(Certify, WritesOverNoTraceAndNoSceneOfAStore) {
   expect_refused({"--certify", scene}, "this would overwrite the scene");
   expect_refused({"--certify", "/dev/null"}, "--certify /dev/null: that is a pipe or a device; name a file");
   const std::string both = folder.file("both");
+  expect_refused({"--trace", roam::profile_path(store).string()}, "this would overwrite the profile");
+  expect_refused({"--trace", store + "/CURRENT"}, "this would overwrite a file of the scene");
   expect_refused({"--trace", both, "--certify", both}, "this would overwrite the file of --trace");
   EXPECT_EQ(folder.read("scene.obj"), room_obj());
 }

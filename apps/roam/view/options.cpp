@@ -18,6 +18,7 @@
 #include "files/extension.h"
 #include "graphics/capture.h"
 #include "roam/error.h"
+#include "roam/profile.h"
 #include "roam/route.h"
 #include "roam/store.h"
 #include "scenes/web_options.h"
@@ -120,6 +121,8 @@ void check_files(const ViewOptions& options, const ViewSettings& settings) {
   std::vector<NamedFile> inputs = named_scenes(options.scene.scenes);
   inputs.push_back({"the path", options.path});
   inputs.push_back({"the settings", settings.file});
+  inputs.push_back({"the store", options.store});
+  inputs.push_back({"the profile", profile_path(options.scene.scenes)});
   demand_no_overwriting(inputs, outputs);
   for (const NamedFile& output : outputs) {
     const std::filesystem::path folder = output.file.parent_path();

@@ -11,6 +11,7 @@
 #include "cli/values.h"
 #include "measure/room.h"
 #include "roam/error.h"
+#include "roam/profile.h"
 #include "roam/wander.h"
 #include "scenes/web_options.h"
 
@@ -63,6 +64,7 @@ void check_outputs(const WalkOptions& options) {
   std::vector<NamedFile> inputs = named_scenes(options.scene.scenes);
   for (const NamedFile& scene : named_scenes(options.against.scenes)) inputs.push_back(scene);
   inputs.push_back({"the path", options.path});
+  inputs.push_back({"the profile", profile_path(options.scene.scenes)});
   const NamedFile outputs[] = {
       {"--trace", options.trace}, {"--picture", options.picture}, {"--certify", options.certify}};
   demand_no_overwriting(inputs, outputs);
