@@ -223,10 +223,8 @@ ExitStatus probe(ProbeOptions o) {
   if (o.path && !is_standard(*o.path)) check_output(o.scene.scenes, "--path", *o.path);
   if (o.picture) check_output(o.scene.scenes, "--picture", *o.picture);
   const NamedFile outputs[] = {{"--path", o.path.value_or("")}, {"--picture", o.picture.value_or("")}};
-  // A list of sizes is no file that exists.
-  const NamedFile inputs[] = {{"the file of --matrix", o.matrix.value_or("")},
-                              {"the profile", profile_path(o.scene.scenes)}};
-  demand_no_overwriting(inputs, outputs);
+  const NamedFile kept{"the profile", profile_path(o.scene.scenes)};
+  demand_no_overwriting({&kept, 1}, outputs);
   std::optional<tbb::global_control> limit;
   if (o.scene.threads > 0) {
     limit.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(o.scene.threads));

@@ -150,8 +150,8 @@ bool Manipulator::handle(const Adapter& event, osgGA::GUIActionAdapter& viewer) 
 void Manipulator::getUsage(osg::ApplicationUsage& usage) const {
   for (const Controls::Command& command : _state->keys.commands()) {
     const std::string keys = Controls::keyText(command);
-    // With the prefix other handlers' lines for the same key stay beside ours.
-    if (!keys.empty()) usage.addKeyboardMouseBinding("roam " + keys, command.help);
+    // A usage keeps one line for each text of keys. With the blank ours stay beside those of other handlers.
+    if (!keys.empty()) usage.addKeyboardMouseBinding(keys + " ", "roam: " + command.help);
   }
 }
 
