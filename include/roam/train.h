@@ -48,8 +48,9 @@ struct TrainOptions {
   Method method = Method::interval;
   std::uint64_t seed = 1;  ///< of the paths
   int paths = 0;           ///< number of paths; 0: 5, or one for each dead-end room if there are more
-  /// Openings narrower than this radius are ignored: they neither limit the result nor get a region. At most half of
-  /// the largest possible radius is used. Ways are reported down to min(0.05, radius_min).
+  /// Openings narrower than this radius are ignored: they neither limit the result nor get a region, and no radius is
+  /// feasible for a path that leads through one. The chosen radius is at least this where the interval allows it. At
+  /// most the largest possible radius is used. Ways are reported down to min(0.05, radius_min).
   double radius_min = 0.15;
   double radius_max = 1.0;   ///< largest radius searched for
   double support_max = 1.0;  ///< largest radius of a support disc; a wider crack is an open drop

@@ -33,7 +33,7 @@ double cap(const ways::BodyKind& kind, const TrainOptions& options) {
 
 /// m: openings narrower than this neither limit the body nor get a region.
 double least_useful(const ways::BodyKind& kind, const TrainOptions& options) {
-  return std::min(options.radius_min, 0.5 * cap(kind, options));
+  return std::min(options.radius_min, cap(kind, options));
 }
 
 /// The smallest radius of the paths that let `useful` through; none if there are no such paths.
@@ -172,12 +172,13 @@ void choose(const ways::BodyKind& kind, const TrainOptions& options, const Evide
   const double largest = training.largest.value_or(cap(kind, options));
   // A size below `useful` helps no one. If some paths need one, the other paths decide.
   const double useful = least_useful(kind, options);
-  const std::optional<double> most_of_others = largest < useful ? least_from(useful, training) : std::nullopt;
+  const bool too_narrow = largest < useful;
+  const std::optional<double> most_of_others = too_narrow ? least_from(useful, training) : std::nullopt;
   const double most = std::min(most_of_others.value_or(largest), cap(kind, options));
   const double upper = training.largest && (!most_of_others || most < cap(kind, options)) ? inside_share * most : most;
   const double least = without_margin(lower, training.smallest);
-  training.feasible = !most_of_others && least <= most;
-  training.radius = std::min(person, upper);
+  training.feasible = !too_narrow && least <= most;
+  training.radius = std::min(std::max(person, useful), upper);
   if (training.feasible && training.radius < lower) training.radius = lower <= upper ? lower : 0.5 * (least + most);
   training.support_radius = 0.0;
   const auto widest = std::max_element(evidence.carried_radius.begin(), evidence.carried_radius.end());

@@ -113,6 +113,15 @@ TEST(Training, GivesADiscWhereNoOneRadiusServes) {
   EXPECT_TRUE(t.contradictions.empty()) << answer(t);
 }
 
+TEST(Training, KeepsTheSmallestRadiusThatIsWanted) {
+  const roam::Survey survey = corridor({.door = 0.8});
+  const Training wide = roam::train(survey, {.radius_min = 0.35, .radius_max = 0.45, .height = 1.8});
+  EXPECT_TRUE(wide.feasible) << answer(wide);
+  EXPECT_DOUBLE_EQ(wide.radius, 0.35);
+  const Training wider = roam::train(survey, {.radius_min = 0.45, .radius_max = 0.6, .height = 1.8});
+  EXPECT_FALSE(wider.feasible) << answer(wider);
+}
+
 TEST(Training, ProvesBothEndsByBodiesJustInsideAndJustOutside) {
   const Training t = roam::train(corridor({.door = 0.8, .split = 1.25}), {.height = 1.8});
   int inside = 0, blocked = 0, fell = 0;
