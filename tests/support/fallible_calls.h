@@ -60,6 +60,7 @@ struct FallibleCall {
   std::function<std::string()> bits;            ///< makes the call, and returns the bits of its result
   std::function<void(bool failed)> after = {};  ///< judges the state that the call leaves
   bool later = false;                           ///< other threads may hold memory of it for long
+  bool throws = true;                           ///< false: it succeeds although memory ran out
   long dense = 100;  ///< so many first allocations fail one by one, later ones in steps that grow
   long steps = 16;   ///< of these for each doubling, about
   long most = std::numeric_limits<long>::max();  ///< later ones do not fail
@@ -93,13 +94,14 @@ inline long held() {
 }
 
 /// Lets the allocations of each call fail in turn, alone and with all that follow. It must throw, or have the result
-/// that it always has, hold no memory and file of a failed call, and have that result again in the end.
+/// that it always has, hold no memory and file of a failed call, and have that result again in the end. At least one
+/// failure must make it throw, unless its `throws` is false.
 inline void fail_calls(const std::vector<FallibleCall>& calls) {
   for (const FallibleCall& call : calls) {
     SCOPED_TRACE(call.name);
     const std::string expected = call.bits();
     if (call.after) call.after(false);
-    bool allocates = false;
+    bool allocates = false, threw = false;
     for (const bool on : {false, true}) {
       for (long failing = 1, beyond = 0; beyond < (failing > call.dense ? 1 : 3) && failing <= call.most;
            failing += 1 + std::max(0L, failing - call.dense) / call.steps) {
@@ -111,6 +113,7 @@ inline void fail_calls(const std::vector<FallibleCall>& calls) {
           if (again == 0) {
             beyond = allocations < failing ? beyond + 1 : 0;
             allocates = allocates || allocations >= failing;
+            threw = threw || !result;
           }
           if (result) {
             ASSERT_EQ(*result, expected);
@@ -126,6 +129,7 @@ inline void fail_calls(const std::vector<FallibleCall>& calls) {
       }
     }
     EXPECT_TRUE(allocates);
+    EXPECT_EQ(threw, call.throws);
     ASSERT_EQ(call.bits(), expected);
     if (call.after) call.after(false);
   }

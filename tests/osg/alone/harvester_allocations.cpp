@@ -39,12 +39,14 @@ TEST(OsgHarvesterAllocations, NothingIsThrownAndTheFileMayBeReadAgain) {
     harvester->setNextCallback(given);
   };
   begin(false);
-  fail_calls({{"readNode",
-               [&] {
-                 harvester->readNode(file, nullptr);
-                 return std::string("read");
-               },
-               begin}});
+  fail_calls({{.name = "readNode",
+               .bits =
+                   [&] {
+                     harvester->readNode(file, nullptr);
+                     return std::string("read");
+                   },
+               .after = begin,
+               .throws = false}});
 }
 
 }  // namespace

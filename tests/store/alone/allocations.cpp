@@ -80,7 +80,7 @@ TEST_F(StoreAllocations, ALoadingThreadGoesOnWhereverOneFails) {
     EXPECT_TRUE(until([&] { return loaded() && name == "square"; }));
     return std::string("all");
   };
-  fail_calls({{.name = "a thread that loads", .bits = load, .dense = 12, .steps = 2, .most = 59}});
+  fail_calls({{.name = "a thread that loads", .bits = load, .throws = false, .dense = 12, .steps = 2, .most = 59}});
 }
 
 #endif
