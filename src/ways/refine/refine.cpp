@@ -116,7 +116,6 @@ bool passes_all(const Survey& survey, const Measure& measure, const std::vector<
 /// they replaced. Places narrower than `radius` do not count: a body crosses them by a step.
 std::optional<Station> narrowest_if_wider(const Survey& survey, const Measure& measure, const std::vector<Vec3>& way,
                                           double radius) {
-  constexpr double apart = 0.02;  // m, as polished stations
   const double margin = certified_margin(survey);
   if (!passes_all(survey, measure, way, radius + 2.0 * margin)) return std::nullopt;
   std::optional<Station> narrowest;
@@ -124,7 +123,7 @@ std::optional<Station> narrowest_if_wider(const Survey& survey, const Measure& m
     const Station station = station_at(survey, measure, place);
     if (station.free >= radius && (!narrowest || station.free < narrowest->free)) narrowest = station;
   };
-  for_each_station(way, apart, [&](const Vec3& place, const Vec3&, double) { judge(place); });
+  for_each_station(way, station_spacing, [&](const Vec3& place, const Vec3&, double) { judge(place); });
   judge(way.back());
   const bool is_wider =
       narrowest && narrowest->free > radius + margin && passes_all(survey, measure, way, narrowest->free - margin);

@@ -11,8 +11,6 @@
 namespace roam::ways {
 namespace {
 
-/// Metres between stations of a polished way.
-constexpr double station_spacing = 0.02;
 /// Metres: precision of the widest place beside a station, and of the narrowest between two.
 constexpr double fine = 1e-5;
 constexpr std::size_t flying_directions = 16;

@@ -9,6 +9,9 @@
 
 namespace roam::ways {
 
+/// Metres between stations of a polished way.
+inline constexpr double station_spacing = 0.02;
+
 struct Station {
   Vec3 place{0.0};
   double free = 0.0;      ///< clearance
