@@ -7,7 +7,6 @@
 #include "door_rooms.h"
 #include "messages.h"
 #include "program.h"
-#include "roam/profile.h"
 
 namespace {
 
@@ -207,8 +206,6 @@ TEST(ProbeVerb, RefusesWhatCannotBeMeant) {
   refused({"--matrix", ""}, "--matrix \"\": there are no sizes in it");
   for (const char* sizes : {",", "0.3,", ",0.3", "0.3,,0.4"}) refused({"--matrix", sizes}, "a comma has no size");
   refused({"--matrix", "0.3,0.4x1.9,0.3x1.8"}, "it has the size 0.3x1.8 twice");
-  const std::string profile = roam::profile_path(probe.scene).string();
-  refused({"--radius", "0.3", "--path", profile}, "this would overwrite the profile");
   refused({"--matrix", "nan"}, "radius");
   refused({"--matrix", "1e-300x1.8"}, "at least 0.001");
   refused({"--matrix", "0.3x0.1"}, "--matrix, size 0.3x0.1");

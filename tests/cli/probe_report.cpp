@@ -7,6 +7,7 @@
 #include "door_rooms.h"
 #include "messages.h"
 #include "program.h"
+#include "roam/profile.h"
 
 namespace {
 
@@ -117,6 +118,9 @@ TEST(ProbeReport, RefusesAFileThatCannotBeWrittenBeforeAnyWork) {
     EXPECT_TRUE(contains(result.err, "door.svg: there is no folder")) << result.err;
     EXPECT_TRUE(result.out.empty()) << result.out;
   }
+  const ProgramResult kept = ask(scene, "2,0,1", {"--radius", "0.3", "--path", roam::profile_path(scene).string()});
+  EXPECT_EQ(kept.status, 2);
+  EXPECT_TRUE(contains(kept.err, "this would overwrite the profile")) << kept.err;
 }
 
 TEST(ProbeReport, FailsWithStatusOneWhereAFileCannotBeReadOrWrittenAndTellsTheAnswer) {

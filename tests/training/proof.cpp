@@ -72,4 +72,27 @@ TEST(Proof, ContradictsAnOpeningThatIsMeasuredTooNarrow) {
   }
 }
 
+TEST(Proof, OfBothEndsIsByBodiesJustInsideAndJustOutside) {
+  const Training t = roam::train(corridor({.door = 0.8, .split = 1.25}), {.height = 1.8});
+  int inside = 0, blocked = 0, fell = 0;
+  for (const roam::TrainedPath& path : t.paths) {
+    for (const roam::Trial& trial : path.trials) {
+      if (trial.outcome == Outcome::reached) {
+        ++inside;
+        EXPECT_LT(trial.radius, 0.4);
+      } else if (trial.outcome == Outcome::blocked) {
+        ++blocked;
+        EXPECT_NEAR(trial.radius, 1.02 * 0.4, 1e-3);
+      } else {
+        ++fell;
+        EXPECT_EQ(trial.outcome, Outcome::fell);
+        EXPECT_NEAR(trial.support_radius, 0.605, 1e-3);
+      }
+    }
+  }
+  EXPECT_GT(inside, 0);
+  EXPECT_GT(blocked, 0);
+  EXPECT_GT(fell, 0);
+}
+
 }  // namespace
