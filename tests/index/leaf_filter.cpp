@@ -271,7 +271,7 @@ TEST(LeafFilter, ArrivesAtASliverInTime) {
   EXPECT_GT(arrived, 5000);
 }
 
-/// What a ray leaves out rests on it: the slopes are rounded, and so their vectors are not quite across the way.
+/// The margin of rays must cover this: rounded slopes project along a direction that is not quite that of the way.
 TEST(LeafFilter, KnowsHowFarARayLeadsInItsProjection) {
   clutter::Random random(53);
   for (int q = 0; q < 10000; ++q) {

@@ -21,7 +21,7 @@ void must(roam_status status) {
   if (status != ROAM_OK) throw roam::Error(why);
 }
 
-/// Of a call that is refused: of the status and the sentence.
+/// The bits of the status and of the sentence of a refused call.
 std::string status_and_text(roam_status status) {
   if (status == ROAM_NO_MEMORY) throw std::bad_alloc();
   return Bits() << status << roam_error();

@@ -25,7 +25,7 @@ std::atomic<int> calls{0};
 std::atomic<int> fatal_call{0};
 /// Whether the fatal call is still done.
 std::atomic<bool> dies_after{false};
-/// The n-th such call and all after it fail with this error: with ENOSPC those that write. 0: none does.
+/// From the n-th call on they fail with this error; if it is ENOSPC, only those that write. 0: none fails.
 std::atomic<int> failing_call{0}, failure{0};
 
 template <class Call>
