@@ -285,7 +285,7 @@ TEST(ManipulatorPose, IsOneOfTheSetOfAKeySwitchManipulator) {
   osg::ref_ptr<osg::ApplicationUsage> usage = new osg::ApplicationUsage;
   all->getUsage(*usage);
   EXPECT_EQ(usage->getKeyboardMouseBindings().count("3"), 1u);
-  EXPECT_EQ(usage->getKeyboardMouseBindings().count("W, Up"), 1u);
+  EXPECT_EQ(usage->getKeyboardMouseBindings().count("W, Up "), 1u);
 }
 
 TEST(ManipulatorPose, PlacementsAreToldToTheStepCallback) {

@@ -118,8 +118,14 @@ TEST(ViewSettings, NameTheEntryOfAKeyAndLeaveTheDigitsToTheCameras) {
 
 // ------------------------------------------------------------------------------------------------------- options
 
+ViewOptions of_a_scene() {
+  ViewOptions options;
+  options.scene.scenes = {"hall.obj"};
+  return options;
+}
+
 TEST(ViewPlan, OfNobodyDescribedIsAPerson) {
-  const ViewPlan plan = make_plan({}, {});
+  const ViewPlan plan = make_plan(of_a_scene(), {});
   EXPECT_EQ(plan.walker.radius, 0.3);
   EXPECT_EQ(plan.walker.height, 1.8);
   EXPECT_DOUBLE_EQ(plan.walker.eye, 1.5);
@@ -127,7 +133,7 @@ TEST(ViewPlan, OfNobodyDescribedIsAPerson) {
 }
 
 TEST(ViewPlan, OfARadiusAloneIsAPersonAndOfASphereHasTheEyeInItsCentre) {
-  ViewOptions options;
+  ViewOptions options = of_a_scene();
   options.body.radius = 0.5;
   EXPECT_EQ(make_plan(options, {}).walker.height, 1.8);
   options.body.sphere = true;
@@ -144,11 +150,11 @@ TEST(ViewPlan, OfARadiusAloneIsAPersonAndOfASphereHasTheEyeInItsCentre) {
 TEST(ViewPlan, OfARadiusInTheSettingsIsAPerson) {
   ViewSettings settings;
   settings.radius = 0.25;
-  EXPECT_EQ(make_plan({}, settings).walker.height, 1.8);
+  EXPECT_EQ(make_plan(of_a_scene(), settings).walker.height, 1.8);
 }
 
 TEST(ViewPlan, OfAPathIsTheBodyOfRoamWalkWhateverTheSettingsSay) {
-  ViewOptions options;
+  ViewOptions options = of_a_scene();
   options.path = "tour.path";
   ViewSettings settings;
   settings.radius = 0.2;
@@ -166,9 +172,9 @@ TEST(ViewPlan, TakesFromTheSettingsWhatTheCommandLineLeavesOpen) {
   settings.height = 1.7;
   settings.speed = 2.0;
   settings.fov = 80.0;
-  EXPECT_EQ(make_plan({}, settings).pages.allowed_error, 16.0);
+  EXPECT_EQ(make_plan(of_a_scene(), settings).pages.allowed_error, 16.0);
   settings.tile_error = 2.5;
-  ViewOptions options;
+  ViewOptions options = of_a_scene();
   options.speed = 5.0;
   const ViewPlan plan = make_plan(options, settings);
   EXPECT_EQ(plan.walker.radius, 0.2);
@@ -181,17 +187,17 @@ TEST(ViewPlan, TakesFromTheSettingsWhatTheCommandLineLeavesOpen) {
 }
 
 TEST(ViewPlan, RefusesWhatCannotBeMeant) {
-  ViewOptions size;
+  ViewOptions size = of_a_scene();
   size.size = "1280*720";
   EXPECT_THROW(static_cast<void>(make_plan(size, {})), UsageError);
-  ViewOptions low;
+  ViewOptions low = of_a_scene();
   low.body.radius = 0.5;
   low.body.height = 0.4;
   EXPECT_THROW(static_cast<void>(make_plan(low, {})), UsageError);
-  ViewOptions idle;
+  ViewOptions idle = of_a_scene();
   idle.headless = true;
   EXPECT_TRUE(contains(error_of([&] { static_cast<void>(make_plan(idle, {})); }), "--screenshot"));
-  ViewOptions ghost;
+  ViewOptions ghost = of_a_scene();
   ghost.mode = "ghost";
   ghost.path = "tour.path";
   EXPECT_THROW(static_cast<void>(make_plan(ghost, {})), UsageError);
@@ -205,7 +211,7 @@ TEST(ViewPlan, RefusesWhatCannotBeMeant) {
 
 TEST(ViewPlan, RefusesOutputsThatWouldReplaceOrMissSomething) {
   const TestFolder folder;
-  ViewOptions options;
+  ViewOptions options = of_a_scene();
   options.trace = folder.file("one");
   options.record_path = folder.file("./one");
   const auto error = [&](const ViewSettings& settings = {}) {
@@ -226,7 +232,7 @@ TEST(ViewPlan, RefusesOutputsThatWouldReplaceOrMissSomething) {
 }
 
 TEST(ViewPlan, RefusesNamesOfNoPictureAndOfNoFilm) {
-  ViewOptions options;
+  ViewOptions options = of_a_scene();
   const auto error = [&] { return error_of([&] { static_cast<void>(make_plan(options, {})); }); };
   options.screenshot = "shot.xyz";
   EXPECT_TRUE(contains(error(), "--screenshot shot.xyz: a picture's name ends in .png, .jpg or .jpeg")) << error();
@@ -238,7 +244,7 @@ TEST(ViewPlan, RefusesNamesOfNoPictureAndOfNoFilm) {
 }
 
 TEST(ViewPlan, FilmsAtARateThatTheFormatAndTheStepsAllow) {
-  ViewOptions options;
+  ViewOptions options = of_a_scene();
   const auto rate = [&](const char* file, std::optional<int> asked) {
     options.record = file;
     options.film_rate = asked;
@@ -262,7 +268,7 @@ TEST(ViewPlan, RefusesPlacesThatAreNotWritten) {
 }
 
 TEST(ViewPlan, RefusesPlacesThatNoSceneReaches) {
-  ViewOptions far;
+  ViewOptions far = of_a_scene();
   far.at = {2e9, 0, 0};
   EXPECT_TRUE(contains(error_of([&] { static_cast<void>(make_plan(far, {})); }), "--at: 2e+09"));
   ViewOptions unnamed;

@@ -187,6 +187,7 @@ TEST(RecordedBody, IsTheBodyOfThePlanUnlessOptionsSayOtherwise) {
   body.settings.height = 1.7;
   body.settings.slope_degrees = 30.0;
   ViewOptions options;
+  options.scene.scenes = {"hall.obj"};
   options.path = "tour.path";
   ViewSettings settings;
   settings.radius = 0.2;
