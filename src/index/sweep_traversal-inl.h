@@ -227,7 +227,7 @@ class SweepTraversal {
     const Body body{piece_.body.radius + double(t.fine_error), piece_.body.half_height};
     const auto triangle = local_triangle(index_, place, piece_.start);
     if constexpr (Line::is_ray) {
-      take(certified::sweep_ray(body, piece_.motion, triangle, from, best_.time, arrival_exact), place);
+      take(certified::sphere_impact_time(body, piece_.motion, triangle, from, best_.time, arrival_exact), place);
     } else {
       const SweepResult s = certified::sweep(body, piece_.motion, triangle, from, best_.time, arrival_exact);
       if (s.hit) take(s.time, place);

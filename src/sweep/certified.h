@@ -29,10 +29,10 @@ struct LocalTriangle {
 [[nodiscard]] SweepResult sweep(const Body& body, const Vec3& motion, const LocalTriangle& triangle, double t_begin,
                                 double t_end, double hit_tolerance) noexcept;
 
-/// The time of such a hit, or t_end for a miss, for a sphere. Faster than sweep() where its centre runs onto the inside
-/// of the face.
-[[nodiscard]] double sweep_ray(const Body& body, const Vec3& motion, const LocalTriangle& triangle, double t_begin,
-                               double t_end, double hit_tolerance) noexcept;
+/// The time of such a hit of a sphere (half height 0), or t_end for a miss. Faster than sweep() where the centre runs
+/// onto the inside of the face.
+[[nodiscard]] double sphere_impact_time(const Body& body, const Vec3& motion, const LocalTriangle& triangle,
+                                        double t_begin, double t_end, double hit_tolerance) noexcept;
 
 /// True if the triangle's own plane proves that the body is clear of the triangle during the whole motion: a sweep
 /// would miss. False proves nothing.

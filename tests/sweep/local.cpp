@@ -95,10 +95,10 @@ TEST(CertifiedSweep, ToleranceIsKeptAndStopsEarlier) {
   EXPECT_GT(sooner, 10);
 }
 
-TEST(CertifiedSweep, OfARayKeepsTheSamePromises) {
+TEST(CertifiedSweep, OfASphereKeepsTheSamePromisesFromAnyFreeTimeToAnyEnd) {
   std::mt19937_64 random(12);
   std::uniform_real_distribution<double> share(0.0, 1.0);
-  int hits = 0;
+  int hits = 0, late_begins = 0, early_ends = 0;
   for_each_query([&](Query q) {
     q.body.half_height = 0.0;
     // A sphere as it comes, then a thin one that runs onto the face, or about onto an edge or a corner.
@@ -112,18 +112,33 @@ TEST(CertifiedSweep, OfARayKeepsTheSamePromises) {
         q.motion = (1.0 + share(random)) * (at - q.from);
       }
       const auto t = local(q);
-      const double time = certified::sweep_ray(q.body, q.motion, t, 0.0, 1.0, tolerance);
-      if (time > 0.0) {
-        EXPECT_GE(oracle::least_distance<Quad>(q.body, q.from, q.motion, time, q.triangle), Quad(q.body.radius));
-      }
-      if (time == 1.0) continue;
-      ++hits;
-      const Quad at = oracle::distance_on_the_way<Quad>(q.body, q.from, q.motion, time, q.triangle);
-      EXPECT_LE(at - Quad(q.body.radius),
-                Quad(std::max(tolerance, certified::hit_resolution(q.body, q.motion, t, 1.0))));
+      const auto judged = [&](double begin, double end) {
+        const double time = certified::sphere_impact_time(q.body, q.motion, t, begin, end, tolerance);
+        EXPECT_GE(time, begin);
+        EXPECT_LE(time, end);
+        if (time > begin) {
+          EXPECT_GE(oracle::least_distance<Quad>(q.body, q.from, q.motion, time, q.triangle), Quad(q.body.radius));
+        }
+        if (time < end) {
+          ++hits;
+          const Quad at = oracle::distance_on_the_way<Quad>(q.body, q.from, q.motion, time, q.triangle);
+          EXPECT_LE(at - Quad(q.body.radius),
+                    Quad(std::max(tolerance, certified::hit_resolution(q.body, q.motion, t, 1.0))));
+        }
+        return time;
+      };
+      const double whole = judged(0.0, 1.0);
+      if (whole == 0.0) continue;
+      const double begin = whole * (share(random) < 0.2 ? 1.0 : share(random));
+      const double end = begin + (1.0 - begin) * share(random);
+      const double part = judged(begin, end);
+      late_begins += part < end ? 1 : 0;
+      early_ends += whole < 1.0 && end < whole ? 1 : 0;
     }
   });
   EXPECT_GT(hits, queries / 5);
+  EXPECT_GT(late_begins, queries / 20);
+  EXPECT_GT(early_ends, queries / 20);
 }
 
 TEST(CertifiedSweep, CanBeginAtAnyTimeThatIsKnownToBeFree) {
