@@ -33,7 +33,7 @@ class SweepTraversal {
     const Frame frame(index_.grid.origin, index_.grid.step, piece_.start);
     const double radius = piece_.body.radius + margin_of(index_);
     const Swept swept = swept_in(frame, round_up(margin_of(index_)));
-    const Seen seen(frame, motion_, line_, grown_for(round_up(radius), top_steps, frame));
+    const InFrame in_frame(frame, motion_, line_, grown_for(round_up(radius), top_steps, frame));
     Stack stack;
     search(
         stack, [this](float key) { return key >= t_max_; },
@@ -42,7 +42,7 @@ class SweepTraversal {
             prefetch_roots(index_, stack);
             return tile(e.number);
           }
-          const Descent met = descend(index_.top, e.number, seen, swept, few_tiles(index_));
+          const Descent met = descend(index_.top, e.number, in_frame, swept, few_tiles(index_));
           if (met.single) return tile(met.first);
           push_children(*met.node, met.children, index_.top, nullptr, stack);
           prefetch_tiles(index_, *met.node, met.children);
@@ -58,7 +58,7 @@ class SweepTraversal {
 
  private:
   /// The line in a frame, as node tests need it.
-  using Seen = std::conditional_t<Line::is_ray, RayFrame, NoRayFrame>;
+  using InFrame = std::conditional_t<Line::is_ray, RayFrame, NoRayFrame>;
 
   [[nodiscard]] float grown_for(float radius, float steps, const Frame& frame) const {
     return grown_radius(radius, motion_.half_height, motion_.longest, steps * frame.step, frame.step);
@@ -76,21 +76,21 @@ class SweepTraversal {
     Inside in(t, number, index_, piece_);
     const Swept swept = swept_in(in.frame, t.error);
     // Boxes enclose the vertices without their low bits.
-    const Seen seen(in.frame, motion_, line_,
-                    grown_for(round_up(piece_.body.radius + double(t.error)), tile_steps, in.frame));
+    const InFrame in_frame(in.frame, motion_, line_,
+                           grown_for(round_up(piece_.body.radius + double(t.error)), tile_steps, in.frame));
     const Block* nodes = index_.blocks + t.nodes;
     const auto beyond = [this](float key) { return key >= t_max_; };
     const auto visit = [&](const Stack::Entry& e) {
       std::uint32_t only = e.number;
       if (!e.leaf) {
-        const Descent met = descend(nodes, e.number, seen, swept, 1);
+        const Descent met = descend(nodes, e.number, in_frame, swept, 1);
         if (!met.single) return push_children(*met.node, met.children, nodes, in.leaves, stack_);
         only = met.first;
       }
       leaf(in, only, e.key);
     };
     if (gathered == nullptr) return search(stack_, beyond, visit);
-    begin(*gathered, seen, swept, nodes, in.leaves);
+    begin(*gathered, in_frame, swept, nodes, in.leaves);
     go_on(stack_, beyond, visit);
   }
 
@@ -122,28 +122,28 @@ class SweepTraversal {
   };
 
   /// Starts from the gathered root of a tile.
-  HWY_INLINE void begin(const Root& root, const Seen& seen, const Swept& swept, const Block* nodes,
+  HWY_INLINE void begin(const Root& root, const InFrame& in_frame, const Swept& swept, const Block* nodes,
                         const Block* leaves) {
     Children children;
     const std::uint32_t met = met_children(root.node, swept);
     if ((met & (met - 1)) == 0) {
       children.take(met);
     } else {
-      choose(root.node, seen, met, children);
+      choose(root.node, in_frame, met, children);
     }
     stack_.clear();
     push_children(root, children, nodes, leaves, stack_);
   }
 
   /// Selects among the children `met`, and computes times.
-  HWY_INLINE void choose(const Node& node, const Seen& seen, std::uint32_t met, Children& out) const {
+  HWY_INLINE void choose(const Node& node, const InFrame& in_frame, std::uint32_t met, Children& out) const {
     if constexpr (Line::is_ray) {
-      ray_node(node, seen, motion_, t_max_, out);
+      ray_node(node, in_frame, motion_, t_max_, out);
       out.mask &= met;
     } else {
-      sweep_node(node, seen.frame, motion_, seen.grown, t_max_, out);
+      sweep_node(node, in_frame.frame, motion_, in_frame.grown, t_max_, out);
       out.mask &= met;
-      if ((out.mask & (out.mask - 1)) != 0) delay_children(node, seen.frame, motion_, seen.grown, t_max_, out);
+      if ((out.mask & (out.mask - 1)) != 0) delay_children(node, in_frame.frame, motion_, in_frame.grown, t_max_, out);
     }
   }
 
@@ -158,12 +158,13 @@ class SweepTraversal {
   /// Visits a node and, as long as there is only one child, that child, without a detour through the stack: a visit is
   /// latency. Integer boxes settle most visits of short motions at a third of the cost. Times of entry matter only
   /// where more than `few` children are met.
-  HWY_INLINE Descent descend(const Block* nodes, std::uint32_t number, const Seen& seen, const Swept& swept, int few) {
+  HWY_INLINE Descent descend(const Block* nodes, std::uint32_t number, const InFrame& in_frame, const Swept& swept,
+                             int few) {
     Descent out;
     out.single = false;
     out.node = &nodes[number].node;
     if (!Line::is_ray && !short_) {
-      choose(*out.node, seen, ~0U, out.children);
+      choose(*out.node, in_frame, ~0U, out.children);
       return out;
     }
     for (;;) {
@@ -171,7 +172,7 @@ class SweepTraversal {
       if (short_) {
         out.children.mask = met_children(node, swept);
       } else {
-        choose(node, seen, ~0U, out.children);  // a long ray
+        choose(node, in_frame, ~0U, out.children);  // a long ray
       }
       const std::uint32_t met = out.children.mask;
       if (met == 0) return out;
@@ -189,7 +190,7 @@ class SweepTraversal {
     if (std::popcount(met) <= few) {
       out.children.take(met);
     } else {
-      choose(*out.node, seen, met, out.children);
+      choose(*out.node, in_frame, met, out.children);
     }
     return out;
   }
