@@ -67,7 +67,7 @@ class Lines {
 };
 
 /// For a note about a file: "2 faces with fewer than three corners were skipped".
-[[nodiscard]] inline std::string skipped_faces(std::uint64_t count) {
+[[nodiscard]] inline std::string skipped_faces_text(std::uint64_t count) {
   const bool one = count == 1;
   return std::to_string(count) + (one ? " face" : " faces") + " with fewer than three corners " +
          (one ? "was" : "were") + " skipped";

@@ -153,7 +153,7 @@ class PlyBody {
       }
     }
     if (small_faces_ > 0) {
-      sink_.report_note(fmt::format("{}: {}.", bytes_.path(), skipped_faces(small_faces_)));
+      sink_.report_note(fmt::format("{}: {}.", bytes_.path(), skipped_faces_text(small_faces_)));
     }
   }
 
