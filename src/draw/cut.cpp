@@ -66,6 +66,7 @@ class StretchTree {
       nodes_[self].box.include(stretches_[i].from);
       nodes_[self].box.include(stretches_[i].to);
     }
+    nodes_[self].box = nodes_[self].box.with_border();
     if (to - from <= leaf) return;
     const std::size_t middle = (from + to) / 2;
     build(from, middle);
@@ -98,7 +99,7 @@ double levelness(const TurnedTriangle& t) {
 
 void cut_plan(const TurnedTriangle& t, const Rect& box, double lowest, double highest, const PlanView& view,
               PlanCut& out) {
-  if (!meet(box, view.map.area())) return;
+  if (!meet(box, view.map.area().with_border())) return;
   const auto levels_in = [&](double shift, const auto& take) {
     auto level = std::lower_bound(view.cuts.begin(), view.cuts.end(), lowest + shift);
     for (; level != view.cuts.end() && *level <= highest + shift; ++level) {

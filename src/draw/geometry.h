@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/vec2.hpp>
 #include <limits>
 #include <vector>
@@ -45,6 +46,8 @@ struct Rect {
     const Point half(0.5 * width, 0.5 * height);
     return {centre - half, centre + half};
   }
+  /// Grown by a millionth of its size: rounding may put points outside that lie on the border.
+  [[nodiscard]] Rect with_border() const { return grown(1e-6 * std::max(width(), height())); }
   /// The corners as a closed line.
   [[nodiscard]] Polyline outline() const { return {lower, {upper.x, lower.y}, upper, {lower.x, upper.y}}; }
 };
@@ -83,23 +86,24 @@ struct Turn {
   }
 };
 
-/// Cuts the segment to its part inside the rectangle. False if there is none.
+/// Cuts the segment to its part inside the rectangle. False if there is none. A part with_border() lies on the border.
 [[nodiscard]] inline bool clip(Segment& s, const Rect& r) {
+  const Rect bordered = r.with_border();
   const Point d = s.b - s.a;
   double from = 0.0, to = 1.0;
   for (int k = 0; k < 2; ++k) {
     if (d[k] == 0.0) {
-      if (s.a[k] < r.lower[k] || s.a[k] > r.upper[k]) return false;
+      if (s.a[k] < bordered.lower[k] || s.a[k] > bordered.upper[k]) return false;
       continue;
     }
-    const double near = (r.lower[k] - s.a[k]) / d[k], far = (r.upper[k] - s.a[k]) / d[k];
+    const double near = (bordered.lower[k] - s.a[k]) / d[k], far = (bordered.upper[k] - s.a[k]) / d[k];
     from = std::max(from, std::min(near, far));
     to = std::min(to, std::max(near, far));
   }
   if (!(from <= to)) return false;
   const Point a = s.a;
-  if (to < 1.0) s.b = a + to * d;
-  if (from > 0.0) s.a = a + from * d;
+  s.a = glm::clamp(from > 0.0 ? a + from * d : a, r.lower, r.upper);
+  s.b = glm::clamp(to < 1.0 ? a + to * d : s.b, r.lower, r.upper);
   return true;
 }
 

@@ -154,6 +154,59 @@ TEST(PictureSection, UnrollsWhatStandsOverAndUnderTheWay) {
   }
 }
 
+/// Walls on the border of what is shown, but for rounding, in scenes that are turned by any angle.
+TEST(PictureCut, ShowsWallsOnTheBorderOfItsView) {
+  Random random(6);
+  const Rect area{{-5, -4}, {6, 3}};
+  for (int i = 0; i < 50; ++i) {
+    const double angle = random.between(-3.0, 3.0);
+    const Turn turn{{random.between(-9, 9), 2, 0}, std::cos(angle), std::sin(angle)};
+    const auto place = [&](const Point& p) {
+      return Point(turn.origin.x + turn.cosine * p.x - turn.sine * p.y,
+                   turn.origin.y + turn.sine * p.x + turn.cosine * p.y);
+    };
+    const PlanView view{LevelMap(area, 0), {0.5}, {}, 1.0};
+    const Polyline corners = area.outline();
+    for (std::size_t k = 0; k < corners.size(); ++k) {
+      const Point from = corners[k], to = corners[(k + 1) % corners.size()], a = place(from), b = place(to);
+      Mesh mesh;
+      scenes::add_wall(mesh, a.x, a.y, b.x, b.y, 0, 1);
+      EXPECT_NEAR(total_length(cut({&mesh, 1}, turn, {&view, 1}, {}, nobody).plans[0].walls), glm::distance(from, to),
+                  1e-9);
+    }
+  }
+}
+
+TEST(PictureSection, ShowsWallsOnceWhereItBeginsEndsAndTurns) {
+  Random random(7);
+  for (int i = 0; i < 50; ++i) {
+    const double angle = random.between(-3.0, 3.0), shift = random.between(-9.0, 9.0);
+    Way way;
+    Point at(shift, 2.0);
+    for (int k = 0; k < 3; ++k) {
+      way.points.push_back({{at.x, at.y, 0}, 1.8, way.length, false});
+      const Point step(3.0 * std::cos(angle + k), 3.0 * std::sin(angle + k));
+      if (k < 2) way.length += glm::length(step);
+      at += step;
+    }
+    const auto parts = stretches(way, Turn{}, 1.5, -2.0, 2.5);
+    const auto drawn = [&](const Point& middle, const Point& way_there) {
+      const Point across = Point(-way_there.y, way_there.x) / glm::length(way_there);
+      Mesh mesh;
+      scenes::add_wall(mesh, middle.x - across.x, middle.y - across.y, middle.x + across.x, middle.y + across.y, 0, 1);
+      const auto lines = joined(
+          cut({&mesh, 1}, Turn{}, {}, parts, nobody).sections[0], [](const Point& p) { return 100.0 * p; }, 1000);
+      double sum = 0.0;
+      for (const Polyline& line : lines) {
+        for (std::size_t k = 1; k < line.size(); ++k) sum += glm::distance(line[k - 1], line[k]);
+      }
+      return sum;
+    };
+    for (const Stretch& s : parts) EXPECT_NEAR(drawn(s.from, s.to - s.from), 100.0, 0.2);
+    EXPECT_NEAR(drawn(parts.back().to, parts.back().to - parts.back().from), 100.0, 0.2);
+  }
+}
+
 TEST(PictureLevels, AreOneForAFlatWalkThatCrouches) {
   std::vector<Station> stations;
   for (int i = 0; i < 100; ++i) stations.push_back(station({i, 0, i > 40 && i < 50 ? 0.55 : 0.9}, i));
