@@ -146,6 +146,23 @@ TEST(PassageSteps, BetweenBenchesTooHighToStepOnAreAsWideAsAWalkerIsThere) {
   }
 }
 
+TEST(PassageSteps, BesideABenchThatIsHardlyTooHighToStepOnLeadNoFartherOverIt) {
+  // A straight way would lead over its corner, which a body touches somewhere along its height.
+  for (const double high : {0.305, 0.31, 0.33}) {
+    SCOPED_TRACE(high);
+    Mesh m = room();
+    add_wall(m, 5.0, -2.0, 5.0, -0.33, 0.0, 3.0);
+    add_box(m, {4.3, 0.1, 0.0}, {4.95, 2.0, high});
+    const Survey survey = survey_of(m);
+    const Passage p = roam::widest_way(survey, one_end, other_end, {.height = height});
+    ASSERT_TRUE(p.found && p.limited);
+    const double half = 0.5 * std::hypot(0.43, 0.05);
+    EXPECT_NEAR(p.radius, half, 1e-3);
+    EXPECT_EQ(try_way(survey, {.height = height}, 0.98 * half, 0.0, p.way).outcome, Outcome::reached);
+    EXPECT_EQ(try_way(survey, {.height = height}, 1.02 * half, 0.0, p.way).outcome, Outcome::blocked);
+  }
+}
+
 TEST(PassageSteps, BetweenWallsThatLeanAreAsWideAsAtTheFeet) {
   constexpr double aside = 0.5, lean = 0.01;
   Mesh m = room();

@@ -264,7 +264,9 @@ std::vector<Contact> sides_of(const Survey& survey, const Measure& measure, cons
 
 bool meets_high_obstacle(const Survey& survey, const Measure& measure, const Vec3& from, const Vec3& to,
                          double radius) {
-  constexpr double uneven = 0.02;  // m, above the floor: bumps hide no obstacle behind them
+  constexpr double bumps = 0.02;  // m, above the floor: they hide no obstacle behind them
+  // A body may touch an upright edge anywhere above its lower half ball, so that begins at the highest step.
+  const double uneven = std::max(bumps, highest_step(survey, measure, 0.0) + touch - radius);
   const auto meets = [&](double lift) {
     const Vec3 down(0.0, 0.0, knee(measure) - lift);
     const Impact met = survey.world().sweep(body_of(measure, radius), centre_of(measure, from, {}) - down, to - from);
