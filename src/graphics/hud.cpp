@@ -28,7 +28,7 @@ class Hud::Panels : public osg::NodeCallback {
   std::vector<HelpLine> help;
   std::string help_focus, button, list_focus;
   std::optional<HudList> list;
-  Rectangle covered;
+  Rectangle plan;
   bool help_shown = false;
   Detail detail = Detail::full;
   bool crosshair = true;
@@ -98,14 +98,16 @@ class Hud::Panels : public osg::NodeCallback {
 
   void operator()(osg::Node* node, osg::NodeVisitor* visitor) override {
     Page page = whole_page();
-    if (covered != Rectangle{}) {
-      page.right = covered.x;
-      page.below = covered.y;
+    if (plan != Rectangle{} && !leaves_room(plan, page)) {
+      const float gap = std::round(0.4f * page.margin);
+      page.right = plan.x - gap;
+      page.below = plan.y - gap;
     }
     if (list && !help_shown && detail != Detail::off) page.right = std::min(page.right, left_of_list(page));
     if (page != page_) change_all();
     page_ = page;
-    if (detail != Detail::off && status_changed) status_panel_.lay_out(page_, status_shown());
+    if (detail != Detail::off) show_recording();
+    if (detail != Detail::off && status_changed) status_panel_.lay_out(status_page(), status_shown());
     status_changed = status_changed && detail == Detail::off;
     // The status is the first, then what makes room for it.
     const Rectangle before = std::exchange(status_place_, detail == Detail::off ? Rectangle{} : status_panel_.place());
@@ -116,6 +118,24 @@ class Hud::Panels : public osg::NodeCallback {
   }
 
  private:
+  void show_recording() {
+    if (!std::exchange(recording_changed, false)) return;
+    const Rectangle before = recording_place;
+    const Placed made = recording.empty() ? Placed{} : make_recording(page_, recording, plates_.get());
+    show_only(*recording_, {made.node});
+    recording_place = made.where;
+    status_changed = status_changed || before != recording_place;
+  }
+
+  /// In a narrow window the status also stays left of the recording.
+  [[nodiscard]] Page status_page() const {
+    Page page = page_;
+    if (page.small && recording_place != Rectangle{}) {
+      page.right = std::min(page.right, recording_place.x - std::round(0.4f * page.margin));
+    }
+    return page;
+  }
+
   void show_hint() {
     const Rectangle before = hint_place;
     const Placed made = hint.empty() ? Placed{} : make_hint(page_, hint, hint_opacity, status_place_, plates_.get());
@@ -154,14 +174,13 @@ class Hud::Panels : public osg::NodeCallback {
       list_place = show(*list_, list_targets, any ? make_list(page_, *list, list_focus, plates) : Clickable{});
     }
     if (crosshair_changed) show_only(*crosshair_, {crosshair && !help_shown ? make_crosshair(page_, plates) : nullptr});
-    if (labels_changed) show_only(*labels_, {help_shown ? nullptr : make_labels(page_, labels, plates)});
-    if (recording_changed) {
-      const Placed made = recording.empty() ? Placed{} : make_recording(page_, recording, plates);
-      show_only(*recording_, {made.node});
-      recording_place = made.where;
+    std::vector<Rectangle> above = places();
+    if (plan != Rectangle{}) above.push_back(plan);
+    if (labels_changed || above != above_labels_) {
+      above_labels_ = std::move(above);
+      show_only(*labels_, {help_shown ? nullptr : make_labels(page_, labels, above_labels_, plates)});
     }
-    message_changed = help_changed = crosshair_changed = recording_changed = false;
-    labels_changed = button_changed = list_changed = false;
+    message_changed = help_changed = crosshair_changed = labels_changed = button_changed = list_changed = false;
   }
 
   static Rectangle show(osg::Group& group, std::vector<Target>& targets, Clickable made) {
@@ -177,7 +196,8 @@ class Hud::Panels : public osg::NodeCallback {
   osg::ref_ptr<osg::Group> message_ = new osg::Group, help_ = new osg::Group, crosshair_ = new osg::Group;
   osg::ref_ptr<osg::Group> hint_ = new osg::Group, recording_ = new osg::Group, labels_ = new osg::Group;
   osg::ref_ptr<osg::Group> button_ = new osg::Group, list_ = new osg::Group;
-  Rectangle status_place_;  ///< for which hint and message are laid out
+  Rectangle status_place_;               ///< for which hint and message are laid out
+  std::vector<Rectangle> above_labels_;  ///< for which the labels are laid out
 };
 
 Hud::Hud(Frame& frame) : panels_(new Panels(frame.flat())), parent_(frame.flat()), group_(new osg::Group) {
@@ -283,7 +303,7 @@ void Hud::set_list_focus(std::string name) {
   panels_->list_changed = true;
 }
 
-void Hud::set_covered(const Rectangle& where) { panels_->covered = where; }
+void Hud::set_plan(const Rectangle& where) { panels_->plan = where; }
 
 std::vector<Rectangle> Hud::panels() const { return panels_->places(); }
 

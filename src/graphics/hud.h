@@ -92,7 +92,7 @@ class Hud {
   void set_hint(std::string text, double opacity = 1.0);
   /// Beside a red dot at the upper right; empty: nothing.
   void set_recording(std::string text);
-  /// Texts below all other parts of the display.
+  /// Texts on the picture. Those that would lie behind another part of the display, or behind a plan, are not drawn.
   void set_labels(std::vector<HudLabel> labels);
   /// From about 480 x 360 pixels on, all lines are visible. In smaller windows only the first ones are, with a line
   /// that says so.
@@ -120,9 +120,9 @@ class Hud {
   [[nodiscard]] bool list_covers(double x, double y) const;
   /// Highlights the row with this name; empty: none.
   void set_list_focus(std::string name);
-  /// A rectangle of the picture, at its right, that something else covers; an empty one: none. Status and message stay
-  /// left of it, and the hint, or below it if it is too long for that.
-  void set_covered(const Rectangle& where);
+  /// The rectangle of a plan at the right of the picture; an empty one: none. Unless there is room beside and below it,
+  /// status and message stay left of it, and the hint, or below it if it is too long for that.
+  void set_plan(const Rectangle& where);
   /// The rectangles of the status, the message, the hint, the recording, the button, the list and the help that the
   /// last frame showed, in pixels.
   [[nodiscard]] std::vector<Rectangle> panels() const;
@@ -130,7 +130,7 @@ class Hud {
   [[nodiscard]] Detail detail() const;
   void set_crosshair(bool shown);  ///< default true
 
-  /// All visible text, line by line: "label: value", "recording: ...", the message, the hint, the labels, the list with
+  /// All visible text, line by line: "label: value", "recording: ...", the message, the hint, all labels, the list with
   /// "[x] " before its ticked rows, "key: effect". Not the button.
   [[nodiscard]] std::string text() const;
 

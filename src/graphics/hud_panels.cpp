@@ -289,7 +289,13 @@ Clickable make_button(const Page& page, const std::string& text, osg::StateSet* 
   return {group, {{panel, text}}, panel};
 }
 
-osg::ref_ptr<osg::Node> make_labels(const Page& page, const std::vector<HudLabel>& labels, osg::StateSet* plates) {
+bool leaves_room(const Rectangle& plan, const Page& page) {
+  constexpr float beside = 0.6f, below = 0.4f;  // of the picture
+  return plan.x >= beside * page.width && plan.y >= below * page.height;
+}
+
+osg::ref_ptr<osg::Node> make_labels(const Page& page, const std::vector<HudLabel>& labels,
+                                    const std::vector<Rectangle>& above, osg::StateSet* plates) {
   osg::ref_ptr<osg::Group> group = new osg::Group;
   const Look look{page.letter, true, text_color};
   std::vector<Rectangle> placed;
@@ -303,6 +309,8 @@ osg::ref_ptr<osg::Node> make_labels(const Page& page, const std::vector<HudLabel
       if (hidden == placed.end()) break;
       panel.y = hidden->y + hidden->height + 1.0f;
     }
+    // The panels let a little of what is behind them through, which would make letters of both hard to read.
+    if (std::any_of(above.begin(), above.end(), [&](const Rectangle& part) { return overlap(panel, part); })) continue;
     placed.push_back(panel);
     group->addChild(plate(plates, panel, 0.3f * page.margin, panel_color));
     const float base = std::round(panel.y + 0.5f * panel.height - 0.36f * static_cast<float>(look.size));

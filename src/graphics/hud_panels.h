@@ -89,8 +89,12 @@ struct Placed {
 /// A red dot and a text at the upper right.
 [[nodiscard]] Placed make_recording(const Page& page, const std::string& text, osg::StateSet* plates);
 
+/// Whether a plan leaves room for the status beside it, and for the hint and the message below it.
+[[nodiscard]] bool leaves_room(const Rectangle& plan, const Page& page);
+
+/// The labels that lie behind none of the rectangles `above`.
 [[nodiscard]] osg::ref_ptr<osg::Node> make_labels(const Page& page, const std::vector<HudLabel>& labels,
-                                                  osg::StateSet* plates);
+                                                  const std::vector<Rectangle>& above, osg::StateSet* plates);
 
 /// A clickable part of the display, in pixels.
 struct Target {

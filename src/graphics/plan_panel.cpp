@@ -123,6 +123,7 @@ void PlanPanel::move_places() {
 }
 
 Rectangle PlanPanel::place() const {
+  if (view_.size == PlanSize::none) return {};
   const auto width = static_cast<float>(frame_.width()), height = static_cast<float>(frame_.height());
   const Page page = Page::of(width, height);
   const float share = view_.size == PlanSize::large ? large_share : small_share;
@@ -130,15 +131,6 @@ Rectangle PlanPanel::place() const {
   const float top = height - 2.0f * page.margin - 2.0f * page.line;
   const float side = std::round(std::min({share * height, 0.46f * width, std::max(1.0f, top - page.margin)}));
   return {std::round(width - page.margin - side), std::round(std::max(top - side, page.margin)), side, side};
-}
-
-Rectangle PlanPanel::covered() const {
-  constexpr float roomy = 0.6f;  // of the width, at the left of a small plan: the status fits beside it
-  const auto width = static_cast<float>(frame_.width());
-  if (view_.size == PlanSize::none || (view_.size == PlanSize::small && place().x >= roomy * width)) return {};
-  const float gap = std::round(0.4f * Page::of(width, static_cast<float>(frame_.height())).margin);
-  const Rectangle r = place();
-  return {r.x - gap, r.y - gap, r.width + 2 * gap, r.height + 2 * gap};
 }
 
 void PlanPanel::lay_out() {

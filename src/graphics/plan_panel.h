@@ -62,10 +62,8 @@ class PlanPanel {
   void set_view(const PlanView& view);
   /// The metres at a point of the picture, x and y in [-1, 1]; none outside of the panel.
   [[nodiscard]] std::optional<glm::dvec2> at(double x, double y) const;
-  /// Its rectangle in the picture, pixels, when it is shown.
+  /// Its rectangle in the picture, pixels; empty when it is not shown.
   [[nodiscard]] Rectangle place() const;
-  /// Its rectangle with a gap around it, if no status fits beside the plan; else an empty one.
-  [[nodiscard]] Rectangle covered() const;
 
  private:
   void lay_out();

@@ -86,7 +86,7 @@ TEST_P(GraphicsHudLayout, KeepsItsPartsApart) {
             hud.set_message(told ? message : "", Tone::warning);
             hud.set_progress(told ? 0.4 : -1.0);
             plan.set_view({.size = size, .centre = {0, 0}, .half = 10.0, .yaw = 0.0});
-            hud.set_covered(plan.covered());
+            hud.set_plan(plan.place());
             hud.set_list(listed ? std::optional(long_list(hud.list_rows() + 5)) : std::nullopt);
             expect_apart(stage, hud, size == PlanSize::none ? nullptr : &plan, width, height);
           }
@@ -114,9 +114,47 @@ TEST_P(GraphicsHudLayout, KeepsTheHelpApart) {
   expect_apart(stage, hud, nullptr, width, height);
 }
 
+TEST_P(GraphicsHudLayout, HidesLabelsThatLieBehindAPart) {
+  const auto [width, height] = GetParam();
+  Stage stage(width, height);
+  Hud hud(stage.frame);
+  PlanPanel plan(stage.frame);
+  hud.set_status(measuring);
+  hud.set_button("Menu: H");
+  hud.set_message(message, Tone::warning);
+  for (const PlanSize size : {PlanSize::small, PlanSize::large, PlanSize::none}) {
+    plan.set_view({.size = size, .centre = {0, 0}, .half = 10.0, .yaw = 0.0});
+    hud.set_plan(plan.place());
+    hud.set_list(size == PlanSize::none ? std::optional(long_list(hud.list_rows())) : std::nullopt);
+    hud.set_labels({});
+    const auto without = stage.picture(true);
+    std::vector<Rectangle> all = hud.panels();
+    if (size != PlanSize::none) all.push_back(plan.place());
+    ASSERT_GE(all.size(), 4u);
+    for (const Rectangle& r : all) {
+      for (const float share : {0.0f, 0.5f, 1.0f}) {
+        hud.set_labels({{"too narrow", r.x + share * r.width, r.y + 0.5f * r.height - 8.0f}});
+        EXPECT_EQ(differing(*without, *stage.picture(true)), 0) << "plan " << int(size) << ", behind " << text_of(r);
+      }
+    }
+  }
+  hud.set_list(std::nullopt);
+  const float x = 0.8f * static_cast<float>(width), y = 0.5f * static_cast<float>(height);
+  (void)stage.picture(true);
+  const auto without = stage.picture(true);
+  hud.set_labels({{"too narrow", x, y}});
+  const auto with = stage.picture(true);
+  EXPECT_GT(differing(*without, *with), 500) << "where no part is";
+  // A part that comes later hides it, too.
+  hud.set_list(long_list(3));
+  const auto listed = stage.picture(true);
+  hud.set_labels({});
+  EXPECT_EQ(differing(*listed, *stage.picture(true)), 0);
+}
+
 INSTANTIATE_TEST_SUITE_P(Windows, GraphicsHudLayout,
-                         testing::Values(std::pair(640, 1000), std::pair(640, 360), std::pair(1280, 720),
-                                         std::pair(3840, 2160)),
+                         testing::Values(std::pair(640, 1000), std::pair(420, 760), std::pair(640, 360),
+                                         std::pair(1280, 720), std::pair(3840, 2160)),
                          [](const auto& size) {
                            return std::to_string(size.param.first) + "x" + std::to_string(size.param.second);
                          });

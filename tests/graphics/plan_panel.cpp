@@ -98,7 +98,7 @@ TEST(GraphicsPlanPanel, LeavesRoomForTheStatusInATallWindow) {
   hud.set_status({{"walk", "0.0 m/s"}, {"ahead", "IfcWallStandardCase_BasicWall:Exterior-Brick, 3.71 m"}});
   for (const PlanSize size : {PlanSize::small, PlanSize::large}) {
     plan.set_view({.size = size, .centre = {0, 0}, .half = 10.0, .yaw = 0.0});
-    hud.set_covered(plan.covered());
+    hud.set_plan(plan.place());
     (void)stage.picture(true);
     ASSERT_EQ(hud.panels().size(), 1u);
     EXPECT_LT(hud.panels()[0].x + hud.panels()[0].width, plan.place().x);
@@ -111,7 +111,7 @@ TEST(GraphicsPlanPanel, LeavesRoomForTheWholeHintInATallWindow) {
   PlanPanel plan(stage.frame);
   hud.set_hint("H: help     W A S D: walk     drag: look");
   const auto hint = [&] {
-    hud.set_covered(plan.covered());
+    hud.set_plan(plan.place());
     (void)stage.picture(true);
     return hud.panels().at(0);
   };

@@ -28,7 +28,7 @@ class LivePlan {
   void cycle();
   [[nodiscard]] graphics::PlanSize size() const { return size_; }
   /// As of PlanPanel.
-  [[nodiscard]] graphics::Rectangle covered() const { return panel_.covered(); }
+  [[nodiscard]] graphics::Rectangle place() const { return panel_.place(); }
   /// Call it in each frame. `visible` false: nothing is shown or cut. `met`: the walls.
   void update(bool visible, HiddenSpace::Met met, const std::vector<graphics::PlanPlace>& places);
   /// The metres at a point of the picture, x and y in [-1, 1]; none outside of the plan.

@@ -135,7 +135,7 @@ void Tools::update(bool has_body, bool has_plan, const std::vector<graphics::Pla
   section_.show(scene_.group(), scene_.origin());
   const bool is_plan_seen = has_plan && stage_.hud().detail() != graphics::Detail::off;
   if (has_body) plan_.update(is_plan_seen, hidden_.met(), places);
-  stage_.hud().set_covered(plan_.covered());
+  stage_.hud().set_plan(plan_.place());
 }
 
 CameraView Tools::camera() const {
