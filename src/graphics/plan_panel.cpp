@@ -17,6 +17,7 @@ namespace {
 
 // The colours of the sheets that `roam walk --picture` draws, see draw/style.h.
 const osg::Vec4 paper(1.0f, 1.0f, 1.0f, 0.92f);
+const osg::Vec4 legend_paper(1.0f, 1.0f, 1.0f, 1.0f);
 const osg::Vec4 rim(0.36f, 0.39f, 0.45f, 1.0f);
 const osg::Vec4 wall(0.13f, 0.15f, 0.20f, 1.0f);
 const osg::Vec4 below(0.66f, 0.70f, 0.76f, 1.0f);
@@ -57,7 +58,8 @@ PlanPanel::PlanPanel(Frame& frame)
     : frame_(frame),
       parent_(frame.flat()),
       group_(new osg::Group),
-      frame_parts_(new osg::Group),
+      sheet_(new osg::Group),
+      legend_(new osg::Group),
       map_(new osg::MatrixTransform),
       body_(new osg::MatrixTransform),
       lines_(new osg::Group),
@@ -71,8 +73,9 @@ PlanPanel::PlanPanel(Frame& frame)
   map_->addChild(lines_);
   map_->addChild(trail_);
   map_->getOrCreateStateSet()->setMode(GL_LINE_SMOOTH, osg::StateAttribute::ON);
-  for (osg::Node* node : {static_cast<osg::Node*>(frame_parts_.get()), static_cast<osg::Node*>(map_.get()),
-                          static_cast<osg::Node*>(names_.get()), static_cast<osg::Node*>(body_.get())}) {
+  for (osg::Node* node : {static_cast<osg::Node*>(sheet_.get()), static_cast<osg::Node*>(map_.get()),
+                          static_cast<osg::Node*>(names_.get()), static_cast<osg::Node*>(legend_.get()),
+                          static_cast<osg::Node*>(body_.get())}) {
     group_->addChild(node);
   }
   group_->setNodeMask(0u);
@@ -146,16 +149,22 @@ void PlanPanel::lay_out() {
     made->setStateSet(plates);
     return made;
   };
-  // The scale, at the lower left.
+  show_only(*sheet_, {plate({r.x - 1, r.y - 1, r.width + 2, r.height + 2}, rim), plate(r, paper)});
+  // The scale at the lower left and the north at the upper right, over the walls and on paper of their own.
   const double length = round_length(0.5 * view_.half);
-  const float pixels = static_cast<float>(length / view_.half) * 0.5f * r.width, pad = 0.6f * page.margin;
-  const float thick = std::max(2.0f, std::round(0.12f * static_cast<float>(page.letter)));
+  const float letter = static_cast<float>(page.letter), pad = std::round(0.5f * page.margin);
+  const float thick = std::max(2.0f, std::round(0.12f * letter));
   const Look look{page.letter, false, ink};
-  const Rectangle bar{r.x + pad, r.y + pad, std::round(pixels), thick};
-  show_only(*frame_parts_, {plate({r.x - 1, r.y - 1, r.width + 2, r.height + 2}, rim), plate(r, paper), plate(bar, ink),
-                            make_text(metres(length), look, bar.x, std::round(bar.y + 2.0f * thick)),
-                            make_text("N", look, std::round(r.x + r.width - 1.6f * static_cast<float>(page.letter)),
-                                      std::round(r.y + r.height - 1.3f * static_cast<float>(page.letter)))});
+  const std::string words = metres(length);
+  const Rectangle bar{r.x + pad, r.y + pad, std::round(static_cast<float>(length / view_.half) * 0.5f * r.width),
+                      thick};
+  const Rectangle scale{r.x, r.y, std::max(bar.width, std::ceil(width_of(words, look))) + 2 * pad,
+                        std::round(letter + 3.0f * thick) + 1.5f * pad};
+  const Rectangle north{r.x + r.width - 2.0f * letter, r.y + r.height - 1.6f * letter, 2.0f * letter, 1.6f * letter};
+  show_only(*legend_, {plate(scale, legend_paper), plate(bar, ink),
+                       make_text(words, look, bar.x, std::round(bar.y + 2.5f * thick)), plate(north, legend_paper),
+                       make_text("N", look, std::round(north.x + 0.5f * (north.width - width_of("N", look))),
+                                 std::round(north.y + 0.4f * letter))});
   osg::StateSet& map_state = *map_->getOrCreateStateSet();
   map_state.setAttributeAndModes(new osg::Scissor(static_cast<int>(r.x), static_cast<int>(r.y),
                                                   static_cast<int>(r.width), static_cast<int>(r.height)));

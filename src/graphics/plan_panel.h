@@ -76,7 +76,7 @@ class PlanPanel {
   int width_ = 0, height_ = 0;  ///< pixels that it is laid out for
   double laid_half_ = 0.0;
   PlanSize laid_size_ = PlanSize::none;
-  osg::ref_ptr<osg::Group> parent_, group_, frame_parts_;
+  osg::ref_ptr<osg::Group> parent_, group_, sheet_, legend_;
   osg::ref_ptr<osg::MatrixTransform> map_, body_;
   osg::ref_ptr<osg::Group> lines_, trail_, names_;
   std::vector<PlanPlace> places_;

@@ -2,6 +2,7 @@
 
 #include "graphics/plan_panel.h"
 
+#include <algorithm>
 #include <glm/geometric.hpp>
 
 #include "graphics/hud.h"
@@ -89,6 +90,27 @@ TEST(GraphicsPlanPanel, ShowsNamedPlacesThatLieOnIt) {
     for (int x = 400; x < 640; ++x) rest += is_green(at(*without, x, y));
   }
   EXPECT_EQ(rest, 0);
+}
+
+TEST(GraphicsPlanPanel, HasItsScaleOverTheWalls) {
+  Stage stage(640, 360);
+  PlanPanel plan(stage.frame);
+  const auto lower_left = [&] {
+    plan.set_view({.size = PlanSize::small, .half = 12.0});
+    const auto picture = stage.picture(true);
+    const graphics::Rectangle r = plan.place();
+    std::vector<Pixel> pixels;
+    for (int y = 0; y < 24; ++y) {
+      for (int x = 0; x < 32; ++x) pixels.push_back(at(*picture, static_cast<int>(r.x) + x, static_cast<int>(r.y) + y));
+    }
+    return pixels;
+  };
+  const auto alone = lower_left();
+  std::vector<glm::vec2> walls;
+  for (float i = -12.0f; i < 12.0f; i += 0.4f) walls.insert(walls.end(), {{-12.0f, i}, {12.0f, i}});
+  plan.set_lines({.walls = walls});
+  EXPECT_EQ(lower_left(), alone);
+  EXPECT_GT(std::count_if(alone.begin(), alone.end(), is_dark), 20) << "the bar and its number";
 }
 
 TEST(GraphicsPlanPanel, LeavesRoomForTheStatusInATallWindow) {
