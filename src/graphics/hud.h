@@ -56,7 +56,7 @@ struct HudLabel {
 /// A row of the list, with a box that is ticked, half ticked or not.
 struct ListRow {
   enum class Box : std::uint8_t { none, off, half, on };
-  std::string text{};   ///< shortened where it is too long
+  std::string text{};   ///< shortened in its middle where it is too long
   std::string name{};   ///< of its box and its text: see Hud::list_at()
   std::string opens{};  ///< name of the arrow before it; empty: none
   bool is_open = false;

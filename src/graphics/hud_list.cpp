@@ -80,7 +80,7 @@ Clickable make_list(const Page& page, const HudList& list, const std::string& fo
       }
       x += side + std::round(0.5f * letter);
     }
-    group->addChild(make_text(shorten(row.text, look, right - x), look, x, y + rise));
+    group->addChild(make_text(shorten_name(row.text, look, right - x), look, x, y + rise));
     if (!row.name.empty()) made.targets.push_back({whole, row.name});
   }
   return made;

@@ -131,7 +131,8 @@ std::string StatusPanel::first_lines(std::size_t row, std::size_t count) const {
     // This makes the line too long, so that it ends with "…".
     if (k + 1 == count && count < broken.size()) line.append(1, ' ').append(broken[count]);
     if (k > 0) text += '\n';
-    text += shorten(line, look, width_for(row));
+    // A line without blanks is one long name.
+    text += (line.find(' ') == std::string::npos ? shorten_name : shorten)(line, look, width_for(row));
   }
   return text;
 }

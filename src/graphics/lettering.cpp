@@ -239,15 +239,36 @@ std::vector<std::string> break_lines(const std::string& words, const Look& look,
   return lines;
 }
 
-std::string shorten(const std::string& words, const Look& look, float width) {
-  if (width_of(words, look) <= width) return words;
-  std::string kept = words;
-  do {
-    // Remove one whole UTF-8 character.
-    while (!kept.empty() && (static_cast<unsigned char>(kept.back()) & 0xC0) == 0x80) kept.pop_back();
-    if (!kept.empty()) kept.pop_back();
-  } while (!kept.empty() && width_of(kept + std::string(ellipsis), look) > width);
-  return kept + std::string(ellipsis);
+namespace {
+
+/// Where each UTF-8 character of a text begins, and where the last one ends.
+std::vector<std::size_t> characters_of(const std::string& words) {
+  std::vector<std::size_t> begins;
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    if ((static_cast<unsigned char>(words[i]) & 0xC0) != 0x80) begins.push_back(i);
+  }
+  begins.push_back(words.size());
+  return begins;
 }
+
+/// `words`, or as many characters as fit into `width` pixels: all from the beginning but a share `tail` from the end.
+std::string cut(const std::string& words, const Look& look, float width, double tail) {
+  if (width_of(words, look) <= width) return words;
+  const std::vector<std::size_t> begins = characters_of(words);
+  const std::size_t all = begins.size() - 1;
+  std::string kept(ellipsis);
+  for (std::size_t count = all; count-- > 0;) {
+    const auto last = static_cast<std::size_t>(tail * static_cast<double>(count));
+    kept = words.substr(0, begins[count - last]).append(ellipsis).append(words, begins[all - last]);
+    if (width_of(kept, look) <= width) break;
+  }
+  return kept;
+}
+
+}  // namespace
+
+std::string shorten(const std::string& words, const Look& look, float width) { return cut(words, look, width, 0.0); }
+
+std::string shorten_name(const std::string& name, const Look& look, float width) { return cut(name, look, width, 0.5); }
 
 }  // namespace roam::graphics

@@ -59,4 +59,7 @@ void load_fonts();
 /// `words` if they fit into `width` pixels, else their beginning with "…".
 [[nodiscard]] std::string shorten(const std::string& words, const Look& look, float width);
 
+/// The same with "…" in the middle, because names of like things often differ at their ends alone.
+[[nodiscard]] std::string shorten_name(const std::string& name, const Look& look, float width);
+
 }  // namespace roam::graphics

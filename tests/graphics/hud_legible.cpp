@@ -138,6 +138,27 @@ TEST(GraphicsHud, KeepsAUnitWithItsNumber) {
   EXPECT_EQ(graphics::break_lines("13.52 m", look, 30), (std::vector<std::string>{"13.52", "m"})) << "too narrow";
 }
 
+TEST(GraphicsHud, ShortensANameInItsMiddle) {
+  const graphics::Look look{.size = 14};
+  const std::string name = "aws_robomaker_residential_RoomWindow_01";
+  EXPECT_EQ(graphics::shorten_name(name, look, graphics::width_of(name, look)), name);
+  for (const float width : {60.0f, 120.0f, 200.0f}) {
+    const std::string a = graphics::shorten_name(name, look, width);
+    EXPECT_LE(graphics::width_of(a, look), width);
+    EXPECT_GT(graphics::width_of(a, look), width - 20.0f) << "no shorter than it has to be: " << a;
+    const std::size_t cut = a.find("…");
+    ASSERT_NE(cut, std::string::npos) << a;
+    EXPECT_EQ(a.substr(0, cut), name.substr(0, cut));
+    EXPECT_TRUE(name.ends_with(a.substr(cut + std::string("…").size()))) << a;
+    EXPECT_NE(a, graphics::shorten_name("aws_robomaker_residential_RoomWindow_02", look, width));
+    EXPECT_TRUE(graphics::shorten(name, look, width).ends_with("…"));
+  }
+  // Between whole characters.
+  const std::string cut = graphics::shorten_name("ΑΒΓΔΕΖΗΘΙΚΛΜ", look, 50.0f);
+  EXPECT_TRUE(cut.starts_with("ΑΒ") && cut.ends_with("Μ")) << cut;
+  EXPECT_EQ(graphics::shorten_name(name, look, 1.0f), "…");
+}
+
 TEST(GraphicsHud, OnlyLettersAreLight) {
   // Between the words there is nothing but panel: no texel of another letter.
   const auto picture = letters("a" + std::string(40, ' ') + "a");
