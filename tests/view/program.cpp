@@ -131,6 +131,15 @@ TEST(ViewPath, IsGoneExactlyAsRoamWalkGoesIt) {
   EXPECT_GT(view.picture().colours(), 8u);
 }
 
+TEST(ViewPath, AndTraceMayBeStandardStreams) {
+  View view;
+  view.run({"--headless", "--path", "-", "--trace", "-"}, {.input = "2 0 0.3\n10 1 0.3\n"});
+  EXPECT_EQ(view.result.status, 0) << view.result.err;
+  EXPECT_TRUE(contains(view.result.out, "step,t,x,y,z,")) << view.result.out;
+  EXPECT_TRUE(contains(view.result.err, "reached")) << view.result.err;
+  EXPECT_FALSE(contains(view.result.err, "written")) << view.result.err;
+}
+
 TEST(ViewPath, ThatIsBlockedAnswersNoAndSaysByWhat) {
   View view;
   const std::string path = view.folder.write("p.path", "2 0 0.3\n25 0 0.3\n");

@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "cli/standard_streams.h"
+
 namespace roam::app {
 
 WalkLog::WalkLog(const std::filesystem::path& trace, bool keep_pieces) : trace_file_(trace), keep_pieces_(keep_pieces) {
@@ -33,7 +35,7 @@ void WalkLog::fill(ViewReport& report) {
   report.collision_ns = times(collision_, 1.0);
   report.collision_own_ns = times(own_collision_, 1.0);
   report.pieces = std::move(pieces_);
-  if (!trace_file_.empty()) report.written.push_back(trace_file_.string());
+  if (!trace_file_.empty() && !is_standard(trace_file_)) report.written.push_back(trace_file_.string());
 }
 
 void WalkLog::finish() {
