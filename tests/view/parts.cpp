@@ -229,6 +229,11 @@ TEST(ViewPlan, RefusesOutputsThatWouldReplaceOrMissSomething) {
   EXPECT_TRUE(contains(error(settings), "would overwrite the settings"));
   options.record = folder.file("gone/film.mp4");
   EXPECT_TRUE(contains(error(), "there is no folder " + folder.file("gone"))) << error();
+  options.record.clear();
+  options.trace = folder.file("");
+  EXPECT_TRUE(contains(error(), "that is a folder")) << error();
+  options.trace = "-";
+  EXPECT_EQ(error(), "");
 }
 
 TEST(ViewPlan, RefusesNamesOfNoPictureAndOfNoFilm) {

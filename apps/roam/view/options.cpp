@@ -109,7 +109,7 @@ int film_rate(const ViewOptions& options) {
   return rate;
 }
 
-/// Refuses outputs that would overwrite an input or another output, or whose folder does not exist.
+/// Refuses outputs that would overwrite an input or another output, or that cannot be written.
 void check_files(const ViewOptions& options, const ViewSettings& settings) {
   const NamedFile outputs[] = {{"--screenshot", options.screenshot},
                                {"--record", options.record},
@@ -125,11 +125,9 @@ void check_files(const ViewOptions& options, const ViewSettings& settings) {
   inputs.push_back({"the profile", profile_path(options.scene.scenes)});
   demand_no_overwriting(inputs, outputs);
   for (const NamedFile& output : outputs) {
-    const std::filesystem::path folder = output.file.parent_path();
-    std::error_code none;
-    if (!folder.empty() && !std::filesystem::is_directory(folder, none)) {
-      throw UsageError(fmt::format("{} {}", output.name, output.file.string()),
-                       fmt::format("there is no folder {}; make it, or name another", folder.string()));
+    if (output.file.empty() || is_standard(output.file)) continue;
+    if (const std::optional<Obstacle> found = obstacle(output.file)) {
+      throw UsageError(fmt::format("{} {}", output.name, output.file.string()), found->what + "; " + found->advice);
     }
   }
 }
