@@ -40,8 +40,8 @@ struct WanderStart {
 
 /// The candidate from which the body can stride farthest, in eight directions. Candidates are `floors`, and all floors
 /// under a grid of `columns` x `columns` (>= 0) over the space. Walls in sight count; a place within walls and under a
-/// ceiling counts fourfold, unless it is only a closet. A place on top counts only if there is no other. So a walk
-/// starts in a tunnel or a house, not on top of it. None if the body fits at no candidate.
+/// ceiling counts fourfold, unless it is only a closet; there long views come first. A place on top counts only if
+/// there is no other. So a walk starts in a tunnel or a house, not on top of it. None if the body fits at no candidate.
 ///
 /// `accepts` is called with the centres of candidates, best first; the first that it accepts is returned.
 ///

@@ -1,6 +1,7 @@
 #include "roam/wander.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <iterator>
@@ -30,6 +31,10 @@ constexpr double hollow = 1.0;            // m, of air below a floor under the s
 constexpr double least_open_room = 10.0;  // m, the sum of eight directions: under the sky, less is no ground to walk on
 constexpr int room_strides = 20;          // 10 m: farther is free enough
 constexpr double fly_height = 2.0;        // m above the floor, where there is no ceiling to stay under
+constexpr std::size_t most_rooms = 16;    // whose views are compared
+constexpr double same_room = 3.0;         // m: nearer places are in the same room
+constexpr double long_view = 7.0;         // m: who sees so far is in no small room
+constexpr double view_share = 0.75;       // of the longest view: that is long, too
 
 constexpr int headings = 16;
 constexpr double stride = 0.5;  // m of one probe of the look ahead
@@ -134,6 +139,51 @@ WanderStart start_at(const Space& space, const WalkerSettings& settings, Mode mo
   return start;
 }
 
+/// Metres to the walls at the height of the eye, on average over a sixth of the horizon: where they are farthest.
+double view_from(const Space& space, const WalkerSettings& settings, const Vec3& place) {
+  constexpr int directions = 32, beside = 2;
+  constexpr double slit = 0.2;  // m, radius: nobody looks through narrower ones
+  const Vec3 eye = place + Vec3(0, 0, std::max(0.0, settings.eye - 0.5 * settings.height));
+  std::array<double, directions> way{};
+  for (int i = 0; i < directions; ++i) {
+    const FirstImpact wall = space.first_impact({slit, 0.0}, eye, wall_reach * level(i, directions));
+    way[static_cast<std::size_t>(i)] = wall.hit ? wall.time * wall_reach : 0.0;
+  }
+  double best = 0.0;
+  for (int i = 0; i < directions; ++i) {
+    double sum = 0.0;
+    for (int k = -beside; k <= beside; ++k) sum += way[static_cast<std::size_t>((i + k + directions) % directions)];
+    best = std::max(best, sum / (2 * beside + 1));
+  }
+  return best;
+}
+
+/// Puts places with a long view before the others, of places that are sorted, best first. A bed leaves more room to
+/// stride than a table and chairs, but a living room is larger than a bedroom. In the open nothing changes.
+void prefer_views(std::vector<WanderStart>& places, const Space& space, const WalkerSettings& settings) {
+  if (places.empty() || !space.first_impact({0.0, 0.0}, places.front().place, {0, 0, wall_reach}).hit) return;
+  struct Room {
+    WanderStart start;
+    double view;
+  };
+  std::vector<Room> rooms;
+  double longest = 0.0;
+  for (const WanderStart& start : places) {
+    if (rooms.size() == most_rooms || start.on_top != places.front().on_top) break;
+    if (std::any_of(rooms.begin(), rooms.end(),
+                    [&](const Room& room) { return glm::distance(room.start.place, start.place) < same_room; })) {
+      continue;
+    }
+    rooms.push_back({start, std::min(view_from(space, settings, start.place), long_view)});
+    if (rooms.front().view == long_view) return;
+    longest = std::max(longest, rooms.back().view);
+  }
+  std::erase_if(rooms, [&](const Room& room) { return room.view < view_share * longest; });
+  std::vector<WanderStart> preferred;
+  for (const Room& room : rooms) preferred.push_back(room.start);
+  places.insert(places.begin(), preferred.begin(), preferred.end());
+}
+
 /// Metres from a place down to the triangle below it, if that is within `depth`. A ray reaches no farther than a
 /// motion; `more_rays` is how many more may be cast.
 std::optional<double> drop_from(const Space& space, const Vec3& place, double depth, int& more_rays) {
@@ -181,6 +231,7 @@ std::optional<WanderStart> wander_start(const Space& space, const WalkerSettings
   std::stable_sort(found.begin(), found.end(), [](const WanderStart& a, const WanderStart& b) {
     return a.on_top != b.on_top ? b.on_top : a.room > b.room;
   });
+  prefer_views(found, space, settings);
   const auto best = std::find_if(found.begin(), found.end(),
                                  [&](const WanderStart& start) { return !accepts || accepts(start.place); });
   return best == found.end() ? std::nullopt : std::optional(*best);

@@ -137,4 +137,36 @@ TEST(StartPlace, IsInARoomWhoseWallsAreSheets) {
   EXPECT_NEAR(start.pose.position.z, 0.9, 0.1);
 }
 
+TEST(StartPlace, IsInALongRoomFullOfFurnitureRatherThanInASmallOne) {
+  Mesh mesh{.name = "flat"};
+  scenes::add_room(mesh, {0, 0, 3}, {4, 4, 5.6});
+  scenes::add_room(mesh, {0, 0, 0}, {4, 10, 2.6});
+  for (int i = 1; i < 6; ++i) {  // counters, with a passage at one end
+    const double x = i % 2 == 0 ? 0.8 : 0.0, y = 1.6 * i;
+    scenes::add_room(mesh, {x, y, 0}, {x + 3.2, y + 0.6, 0.9}, true);
+  }
+  const StartPlace start = start_in({mesh});
+  EXPECT_EQ(start.mode, Mode::walk);
+  EXPECT_LT(start.pose.position.z, 1.5) << "downstairs";
+  const World world = World::build({&mesh, 1});
+  const Vec3 eye = start.pose.position + Vec3(0, 0, 0.7);
+  EXPECT_GT(world.ray(eye, 20.0 * ahead(start.pose)).time * 20.0, 4.0);
+}
+
+TEST(StartPlace, LooksPastASlit) {
+  // Towards +x a wall with a slit of 10 cm, and 18 m behind it.
+  Mesh mesh{.name = "room"};
+  const auto wall = [&](const Vec3& a, const Vec3& b) {
+    scenes::add_quad(mesh, a, {b.x, b.y, a.z}, b, {a.x, a.y, b.z});
+  };
+  wall({2, -3, 0}, {2, -0.05, 2.6});
+  wall({2, 0.05, 0}, {2, 3, 2.6});
+  wall({20, -3, 0}, {20, 3, 2.6});
+  wall({-2, -3, 0}, {-2, 3, 2.6});
+  wall({-2, 3, 0}, {20, 3, 2.6});
+  wall({-2, -3, 0}, {20, -3, 2.6});
+  const double yaw = open_yaw(World::build({&mesh, 1}), {0, 0, 1.6});
+  EXPECT_GT(std::abs(std::remainder(yaw, 360.0)), 20.0) << "not through the slit: " << yaw;
+}
+
 }  // namespace

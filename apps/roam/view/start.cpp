@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <numbers>
@@ -18,6 +19,7 @@ namespace {
 
 constexpr double degree = std::numbers::pi / 180.0;
 constexpr int headings = 32;
+constexpr double slit = 0.15;  // m, radius: a view through narrower ones is none
 // m: radius that is loaded from a store to choose the direction
 constexpr double view_limit = 60.0;
 constexpr double overview_yaw = 60.0;     // degrees: shows two sides of a building, neither frontally
@@ -101,19 +103,22 @@ double open_yaw(const Space& space, const Vec3& eye) {
   // Only the part of a view inside the scene's bounds counts, not the open space outside.
   const Box box = space.bounds();
   const double reach = box.empty() ? 0.0 : std::min(glm::length(box.size()), Space::motion_limit);
-  double farthest = -1.0;
-  double best = 0.0;
+  std::array<double, headings> way{};
   for (int i = 0; i < headings; ++i) {
-    const double yaw = 360.0 * i / headings;
-    const Impact wall = space.ray(eye, reach * direction(yaw, 0.0));
-    const Vec3 end = eye + (wall.hit ? wall.time : 1.0) * reach * direction(yaw, 0.0);
-    const double inside = glm::distance(glm::clamp(end, box.lower, box.upper), eye);
-    if (inside > farthest) {
-      farthest = inside;
-      best = yaw;
-    }
+    const Vec3 motion = reach * direction(360.0 * i / headings, 0.0);
+    const Vec3 end = eye + space.first_impact({slit, 0.0}, eye, motion).time * motion;
+    way[static_cast<std::size_t>(i)] = glm::distance(glm::clamp(end, box.lower, box.upper), eye);
   }
-  return best;
+  // The longest way; its neighbours count, too, so that it is in the middle of what is open.
+  const auto openness = [&](int i) {
+    const auto at = [&](int k) { return way[static_cast<std::size_t>((i + k + headings) % headings)]; };
+    return at(0) + 0.5 * (at(-1) + at(1));
+  };
+  int best = 0;
+  for (int i = 1; i < headings; ++i) {
+    if (openness(i) > openness(best)) best = i;
+  }
+  return 360.0 * best / headings;
 }
 
 Pose overview(const Box& box, double fov, double least) {

@@ -30,7 +30,7 @@ struct StartPlace {
 [[nodiscard]] StartPlace find_start(const Store& store, std::uint64_t memory, const WalkerSettings& settings, Mode mode,
                                     const std::function<bool()>& goes_on);
 
-/// The horizontal direction, in degrees, with the longest view from `eye` before a wall.
+/// The horizontal direction, in degrees, with the longest view from `eye` before a wall, not through a slit.
 [[nodiscard]] double open_yaw(const Space& space, const Vec3& eye);
 
 /// A pose from which a camera of this field of view sees all of `box`. `fov`: degrees, of the picture's smaller side.
