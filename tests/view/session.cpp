@@ -246,6 +246,15 @@ TEST(Session, KeepsBookmarksAndGoesThere) {
   EXPECT_TRUE(std::filesystem::exists(d.folder.file("config/roam/bookmarks.json")));
 }
 
+TEST(Session, TakesEachPressOfAFrame) {
+  Driven d(room_obj(), {10, 1, 0.95, 0});
+  for (const bool down : {true, false, true, false}) down ? d.press('b') : d.release('b');
+  d.press(osgGA::GUIEventAdapter::KEY_Control_L);
+  d.press('b');
+  const std::string hud = d.hud();
+  EXPECT_TRUE(contains(hud, "bookmark 2") && contains(hud, "Name of the bookmark")) << hud;
+}
+
 TEST(Session, NamesABookmarkByTyping) {
   Driven d(room_obj(), {10, 1, 0.95, 0});
   d.session->run("name_bookmark");
