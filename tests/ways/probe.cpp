@@ -1,10 +1,13 @@
 // Whether a body gets from one place to another, as a program asks it.
 #include "roam/probe.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <numeric>
 #include <string>
 #include <vector>
 
@@ -116,6 +119,48 @@ TEST(Probe, MeasuresAStepDownAsOneUp) {
     EXPECT_EQ(answer.limit->kind, Kind::step) << down;
     EXPECT_NEAR(answer.limit->size, 0.5, 1e-3) << down;
     EXPECT_NEAR(answer.missing, 0.2, 1e-3) << down;
+  }
+}
+
+/// Stairs from x = 5, 4 m wide: risers of these heights, `tread` apart, between two floors 5 m long.
+Mesh stairs(const std::vector<double>& risers, double tread) {
+  Mesh m;
+  double x = 5.0, z = 0.0;
+  add_floor(m, 0.0, -2.0, x, 2.0, z);
+  for (const double& rise : risers) {
+    const double next = &rise == &risers.back() ? x + 5.0 : x + tread;
+    add_wall(m, x, -2.0, x, 2.0, z, z + rise);
+    z += rise;
+    add_floor(m, x, -2.0, next, 2.0, z);
+    x = next;
+  }
+  return m;
+}
+
+TEST(Probe, NamesTheHighestStepAmongStepsOfSeveralHeights) {
+  for (const double tread : {0.28, 1.0}) {
+    for (const auto& [risers, highest] :
+         std::vector<std::pair<std::vector<double>, std::size_t>>{{{0.2, 0.2, 0.2, 0.4}, 3},
+                                                                  {{0.35, 0.2, 0.45, 0.2}, 2},
+                                                                  {{0.45, 0.35, 0.4}, 0},
+                                                                  {{0.2, 0.36, 0.2, 0.2}, 1}}) {
+      const Survey survey = survey_of(stairs(risers, tread));
+      const double top = std::accumulate(risers.begin(), risers.end(), 0.0);
+      const double end = 5.0 + tread * static_cast<double>(risers.size() - 1) + 4.0;
+      ProbeQuestion question{.from = {1.0, 0.0, 0.2}, .to = {end, 0.0, top + 0.2}};
+      for (const bool down : {false, true}) {
+        if (down) std::swap(question.from, question.to);
+        const ProbeAnswer answer = probe(survey, question, {.radius = 0.3, .height = 1.8});
+        const std::string which = fmt::format("tread {}, {}, {}", tread, fmt::join(risers, " "), down ? "down" : "up");
+        ASSERT_TRUE(answer.limit) << which;
+        EXPECT_EQ(answer.limit->kind, Kind::step) << which;
+        EXPECT_NEAR(answer.limit->size, risers[highest], 1e-3) << which;
+        EXPECT_NEAR(answer.limit->point.x, 5.0 + tread * static_cast<double>(highest), 0.05) << which;
+        question.step = answer.limit->size;
+        EXPECT_TRUE(probe(survey, question, {.radius = 0.3, .height = 1.8}).passable) << which;
+        question.step = 0.3;
+      }
+    }
   }
 }
 

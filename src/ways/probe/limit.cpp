@@ -21,9 +21,9 @@ constexpr double station = 0.01;         ///< between the places of a way where 
 constexpr double precision = 1e-3;       ///< of a headroom
 constexpr double slack = 5e-4;           ///< ways are certified to this
 constexpr double rounding = 1e-6;        ///< of the floor's height
+constexpr double granted = 0.02;         ///< more than a search grants above its step
 constexpr double headroom_beyond = 0.5;  ///< how far above the body to search for a lintel
-constexpr double rise_reach = 0.6;       ///< radius around a breaking-off within which floor heights are compared
-constexpr double rise_within = 0.3;      ///< a floor that rises over more than this is a ramp
+constexpr double rise_within = 0.3;      ///< floors farther apart than this are no step
 /// A wall on one side only: moved aside by 1 m, a body gains at least this much clearance.
 constexpr double one_sided = 0.4;
 /// Metres: reach of the walls on both sides of a narrowest place.
@@ -116,23 +116,8 @@ double width_at(const ProbeSearch& search, const std::vector<Vec3>& way, const P
   return widest < measure.widest ? 2.0 * widest : 0.0;
 }
 
-/// The heights of the floors within `rise_reach` of a breaking-off, ascending.
-std::vector<double> floors_around(const ProbeSearch& search, const Vec3& place) {
-  const double above = search.options.height;
-  std::vector<double> heights;
-  constexpr int rings = 12, angles = 16;
-  for (int k = 0; k < rings * angles; ++k) {
-    const double angle = 2.0 * std::numbers::pi * (k % angles) / angles, away = rise_reach * (1 + k / angles) / rings;
-    const Vec3 from = place + Vec3(away * std::cos(angle), away * std::sin(angle), above);
-    const Impact down = search.survey.floor().ray(from, {0.0, 0.0, -2.0 * above});
-    if (down.hit) heights.push_back(down.point.z);
-  }
-  std::sort(heights.begin(), heights.end());
-  return heights;
-}
-
-/// The place of a way with the largest change of floor height within a stride, up to `most`.
-ProbeLimit steepest(const ProbeSearch& search, const Passage& passage, double most) {
+/// The highest step on a way, up to `most`: the largest change of floor height between neighbouring samples.
+ProbeLimit highest_step(const ProbeSearch& search, const Passage& passage, double most) {
   ProbeLimit limit;
   limit.kind = ProbeLimit::Kind::step;
   limit.direction = {0.0, 0.0, 1.0};
@@ -142,18 +127,14 @@ ProbeLimit steepest(const ProbeSearch& search, const Passage& passage, double mo
     const Impact down = search.survey.floor().ray(knee, {0.0, 0.0, -2.0 * search.options.step - precision});
     if (down.hit) floor.push_back(down.point);
   });
-  for (std::size_t i = 0; i < floor.size(); ++i) {
-    for (std::size_t k = i + 1; k < floor.size(); ++k) {
-      const Vec3 run = floor[k] - floor[i];
-      if (std::hypot(run.x, run.y) > rise_within) break;
-      if (std::abs(run.z) <= limit.size + rounding || std::abs(run.z) > most) continue;
-      // The middle between the samples before and after the step.
-      limit.size = std::abs(run.z);
-      limit.point = floor[k - 1] + 0.5 * (floor[k] - floor[k - 1]);
-      limit.point.z = 0.5 * (floor[i].z + floor[k].z);
-      limit.feet = floor[i];
-      limit.heading = level(run);
-    }
+  for (std::size_t i = 1; i < floor.size(); ++i) {
+    const Vec3 run = floor[i] - floor[i - 1];
+    if (std::hypot(run.x, run.y) > rise_within) continue;
+    if (std::abs(run.z) <= limit.size + rounding || std::abs(run.z) > most) continue;
+    limit.size = std::abs(run.z);
+    limit.point = floor[i - 1] + 0.5 * run;
+    limit.feet = floor[i - 1];
+    limit.heading = level(run);
   }
   limit.along = nearest_on(passage.way, limit.point, Mode::walk).along;
   return limit;
@@ -226,24 +207,30 @@ std::optional<ProbeLimit> headroom(const ProbeSearch& search, double radius) {
   return best;
 }
 
-std::optional<ProbeLimit> step_up(const ProbeSearch& search, const Passage& broken, double radius) {
+std::optional<ProbeLimit> step_up(const ProbeSearch& search, double radius) {
   const PassageOptions& o = search.options;
-  if (o.mode != Mode::walk || o.height == 0.0 || !broken.opening) return std::nullopt;
-  const std::vector<double> heights = floors_around(search, broken.opening->point);
-  double rise = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i + 1 < heights.size(); ++i) {
-    const double apart = heights[i + 1] - heights[i];
-    if (apart > o.step) rise = std::min(rise, apart);
-  }
+  if (o.mode != Mode::walk || o.height == 0.0) return std::nullopt;
+  double low = o.step, high = std::min(0.5 * o.height, o.height - 2.0 * radius);
+  if (low >= high) return std::nullopt;
   ProbeSearch higher = search;
-  higher.options.step = rise + 2.0 * precision;
-  if (higher.options.step > 0.5 * o.height || higher.options.step + 2.0 * radius > o.height) return std::nullopt;
-  const Passage passage = higher.widest();
-  if (!passage.found || passage.radius < radius) return std::nullopt;
-  ProbeLimit limit = steepest(higher, passage, higher.options.step);
-  if (limit.size <= o.step) return std::nullopt;
-  limit.needed = o.step;
-  return limit;
+  std::optional<ProbeLimit> best;
+  const auto passes = [&](double step) {
+    higher.options.step = step;
+    const Passage passage = higher.widest();
+    if (!passage.found || passage.radius < radius) return false;
+    best = highest_step(higher, passage, step + granted);
+    high = std::min(step, best->size);
+    return true;
+  };
+  if (!passes(high)) return std::nullopt;
+  // As headroom() does: tries a little less than the highest step of the known way, and half the interval.
+  for (bool below = true; high - low > granted; below = !below) {
+    const double next = below ? high - granted : 0.5 * (low + high);
+    if (!passes(next)) low = next;
+  }
+  if (best->size <= o.step) return std::nullopt;
+  best->needed = o.step;
+  return best;
 }
 
 }  // namespace roam::ways

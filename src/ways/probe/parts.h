@@ -59,8 +59,7 @@ struct ProbeEnds {
 /// no height helps.
 [[nodiscard]] std::optional<ProbeLimit> headroom(const ProbeSearch& search, double radius);
 
-/// The step that a body of that radius must climb to get through. `broken`: the passage that was not found. None if no
-/// step helps.
-[[nodiscard]] std::optional<ProbeLimit> step_up(const ProbeSearch& search, const Passage& broken, double radius);
+/// The highest step of the way on which a body of that radius climbs least, if no way was found. None if no step helps.
+[[nodiscard]] std::optional<ProbeLimit> step_up(const ProbeSearch& search, double radius);
 
 }  // namespace roam::ways

@@ -91,7 +91,7 @@ void find_limit(const ProbeSearch& search, ProbeAnswer& answer) {
   const bool at_end = answer.limit && is_end(answer.limit->kind);
   if (!answer.wide_enough && !at_end) {
     auto other = headroom(search, radius);
-    if (!other && !answer.passage.found) other = step_up(search, answer.passage, radius);
+    if (!other && !answer.passage.found && answer.passage.complete) other = step_up(search, radius);
     if (other) answer.limit = other;
   }
   if (!answer.limit || answer.limit->kind == ProbeLimit::Kind::apart) return;
