@@ -32,6 +32,7 @@
 #include "scenes/frame.h"
 #include "scenes/recorded_body.h"
 #include "scenes/surveyed.h"
+#include "text/byte_order_mark.h"
 #include "verbs.h"
 #include "words/probe.h"
 
@@ -58,7 +59,8 @@ constexpr std::uint64_t longest_matrix = 1 << 20;
 
 /// Sizes in lines, with comments behind #.
 std::vector<ProbedSize> read_sizes(const std::filesystem::path& file, bool spheres) {
-  std::istringstream in(read_input(file, longest_matrix));
+  const std::string text = read_input(file, longest_matrix);
+  std::istringstream in{std::string(without_byte_order_mark(text))};
   std::vector<ProbedSize> sizes;
   std::string line;
   for (int number = 1; std::getline(in, line); ++number) {

@@ -26,6 +26,7 @@
 #include "scenes/web_options.h"
 #include "sweep/paged.h"
 #include "sweep/rows.h"
+#include "text/byte_order_mark.h"
 #include "verbs.h"
 
 namespace roam::app {
@@ -37,9 +38,6 @@ constexpr std::size_t chunk_bytes = 64 * 1024;
 constexpr std::size_t longest_row = 4096;
 // The delay of an error message while the other end of the pipe waits for results.
 constexpr int poll_milliseconds = 50;
-
-// Spreadsheets write it at the start of UTF-8.
-constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
 
 /// Whole rows of the input.
 struct Rows {
@@ -124,8 +122,7 @@ class WholeScene {
 template <class Scene>
 Answers answer(Scene&& scene, const Rows& rows) {
   Answers answers;
-  std::string_view text = rows.text;
-  if (rows.first_line == 1 && text.starts_with(byte_order_mark)) text.remove_prefix(byte_order_mark.size());
+  std::string_view text = rows.first_line == 1 ? without_byte_order_mark(rows.text) : rows.text;
   for (std::uint64_t line = rows.first_line; !text.empty(); ++line) {
     const std::size_t end = std::min(text.find('\n'), text.size());
     const std::string_view row = text.substr(0, end);

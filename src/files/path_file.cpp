@@ -11,6 +11,7 @@
 #include "files/file_error.h"
 #include "files/whole_file.h"
 #include "roam/error.h"
+#include "text/byte_order_mark.h"
 #include "text/printable.h"
 
 namespace roam {
@@ -22,7 +23,6 @@ constexpr double largest_number = 1e9;
 constexpr std::size_t waypoint_numbers = 3;
 constexpr std::size_t pose_numbers = 8;
 constexpr const char* form = "a line is 'x y z' or 't x y z qx qy qz qw'";
-constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
 constexpr std::string_view blanks = " \t\r\v\f";
 
 /// The numbers of one line; more than pose_numbers are counted, not kept.
@@ -115,7 +115,7 @@ std::vector<Waypoint> read_path(std::istream& in, const std::string& name) {
   Lines lines(in, name);
   for (std::string_view text; lines.next(text);) {
     const int line = lines.number();
-    if (line == 1 && text.starts_with(byte_order_mark)) text.remove_prefix(byte_order_mark.size());
+    if (line == 1) text = without_byte_order_mark(text);
     const Numbers numbers = parse(text, name, line);
     if (numbers.count == 0) continue;
     const Waypoint next = waypoint(numbers, name, line);

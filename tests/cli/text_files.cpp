@@ -101,6 +101,15 @@ TEST_F(TextFiles, ADashIsStandardOutputAndTheReportGoesToStandardError) {
   expect_refused(run(walk(path + " --trace - --json")), "--trace - and --json both write to standard output");
 }
 
+TEST_F(TextFiles, MayBeginWithTheByteOrderMarkOfUtf8) {
+  const std::string mark = "\xEF\xBB\xBF", sizes = folder_.write("sizes", mark + "0.2x1.8\n0.3\n");
+  const ProgramResult probed =
+      run("probe " + in_quotes(scene_) + " --from 0,0,1 --to 1,0,1 --json --matrix " + in_quotes(sizes));
+  EXPECT_EQ(probed.status, 0) << probed.err;
+  EXPECT_TRUE(contains(probed.out, "\"radius\": 0.2")) << probed.out;
+  EXPECT_EQ(run(walk(in_quotes(folder_.write("way.path", mark + "-5 0 3\n5 0 3\n")))).status, 0);
+}
+
 TEST_F(TextFiles, ACtrlCEndsTheWaitForAPathThatNobodyWrites) {
   ASSERT_EQ(::mkfifo(folder_.file("pipe").c_str(), 0666), 0);
   const ProgramResult result = run(walk(in_quotes(folder_.file("pipe"))), {.interrupt_after = 0.3});

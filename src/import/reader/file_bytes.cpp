@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "roam/error.h"
+#include "text/byte_order_mark.h"
 
 namespace roam::reader {
 namespace {
@@ -62,7 +63,6 @@ Lines::Lines(FileBytes& bytes) : bytes_(bytes) {
   if (start.starts_with("\xff\xfe") || start.starts_with("\xfe\xff")) {
     throw Error(bytes_.path(), "this is UTF-16 text; save it as UTF-8.");
   }
-  constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
   if (start.starts_with(byte_order_mark)) bytes_.skip(byte_order_mark.size());
 }
 

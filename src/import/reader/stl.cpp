@@ -13,6 +13,7 @@
 #include "import/reader/formats.h"
 #include "import/reader/numbers.h"
 #include "roam/error.h"
+#include "text/byte_order_mark.h"
 
 // 3D Systems, "Stereolithography Interface Specification", 1989.
 
@@ -42,9 +43,7 @@ bool is_binary(FileBytes& bytes) {
   }
   std::string_view rest = start;
   while (!rest.empty() && std::isspace(static_cast<unsigned char>(rest.front()))) rest.remove_prefix(1);
-  constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
-  if (rest.starts_with(byte_order_mark)) rest.remove_prefix(byte_order_mark.size());
-  std::string word(rest.substr(0, 5));
+  std::string word(without_byte_order_mark(rest).substr(0, 5));
   std::transform(word.begin(), word.end(), word.begin(), [](unsigned char c) { return std::tolower(c); });
   return word != "solid" || start.find('\0') != std::string_view::npos;
 }

@@ -18,6 +18,7 @@
 #include "import/reader/tileset/instances.h"
 #include "import/reader/upright.h"
 #include "roam/error.h"
+#include "text/byte_order_mark.h"
 #include "text/printable.h"
 
 namespace roam::reader {
@@ -145,7 +146,7 @@ ContentKind kind_of(std::string_view bytes) {
   for (const std::string_view other : {"pnts", "vctr", "geom"}) {
     if (magic == other) return ContentKind::points;
   }
-  if (bytes.starts_with("\xef\xbb\xbf")) bytes.remove_prefix(3);
+  bytes = without_byte_order_mark(bytes);
   const std::size_t first = bytes.find_first_not_of(" \t\r\n");
   return first != std::string_view::npos && bytes[first] == '{' ? ContentKind::json : ContentKind::unknown;
 }

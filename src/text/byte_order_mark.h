@@ -1,0 +1,16 @@
+#pragma once
+/// \file
+/// The byte order mark that editors on Windows put before UTF-8 text.
+
+#include <string_view>
+
+namespace roam {
+
+inline constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
+
+/// The text without a mark at its start.
+[[nodiscard]] constexpr std::string_view without_byte_order_mark(std::string_view text) {
+  return text.starts_with(byte_order_mark) ? text.substr(byte_order_mark.size()) : text;
+}
+
+}  // namespace roam
