@@ -41,7 +41,7 @@ VoidProbe::VoidProbe(const Survey& survey, const CrackOptions& options)
       body_(survey, floor_, options.knee) {}
 
 bool VoidProbe::has_floor(const Vec3& place) const {
-  return survey_.floor().ray(place + Vec3(0.0, 0.0, step_), Vec3(0.0, 0.0, -2.0 * step_)).hit;
+  return survey_.floor().first_impact({0.0, 0.0}, place + Vec3(0.0, 0.0, step_), Vec3(0.0, 0.0, -2.0 * step_)).hit;
 }
 
 bool VoidProbe::sees(const Vec3& from, const Vec3& to) const {
@@ -60,7 +60,7 @@ bool VoidProbe::sinks(const Vec3& place, double radius) const {
 
 std::optional<Vec3> VoidProbe::bottom(const Vec3& place) const {
   const double depth = std::min(place.z - survey_.world().bounds().lower.z + 1.0, Space::motion_limit);
-  const Impact down = survey_.world().ray(place, {0.0, 0.0, -depth});
+  const FirstImpact down = survey_.world().first_impact({0.0, 0.0}, place, {0.0, 0.0, -depth});
   if (!down.hit) return std::nullopt;
   return place - Vec3(0.0, 0.0, down.time * depth);
 }

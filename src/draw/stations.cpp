@@ -18,7 +18,7 @@ RoomSurvey survey(const Space& space, const Way& way, const WalkerSettings& sett
   result.reach = room.reach();
   const auto height_at = [&](const Station& s, double direction) -> std::optional<double> {
     const double far = direction * measure::height_reach * s.height;
-    const Impact hit = space.ray(s.centre, {0.0, 0.0, far});
+    const FirstImpact hit = space.first_impact({0.0, 0.0}, s.centre, {0.0, 0.0, far});
     return hit.hit ? std::optional(s.centre.z + far * hit.time) : std::nullopt;
   };
   /// Measures at the fraction `t` of the piece from `a` to `b`.

@@ -41,7 +41,7 @@ bool open_between(const Space& space, const Vec3& a, const Vec3& b, const Vec3& 
   const Vec3 middle = 0.5 * (a + b);
   const Vec3 from = middle - f.ahead * glm::dot(middle - place, f.ahead);
   const double farther = std::max(glm::dot(a - place, f.ahead), glm::dot(b - place, f.ahead));
-  return !space.ray(from, f.ahead * (std::max(farther, 0.0) + depth)).hit;
+  return !space.first_impact({0.0, 0.0}, from, f.ahead * (std::max(farther, 0.0) + depth)).hit;
 }
 
 /// Whether two contacts bound a gap along `across`: they lie on either side of the body and face each other. Two

@@ -63,7 +63,8 @@ bool counts_as_reached(const Vec3& waypoint, const Walker& walker) {
   if (walker.mode() == Mode::walk) {
     if (beside > body.radius) return false;
     if (std::abs(way.z) <= 0.5 * body.height() + walker.settings().step) return true;
-    return way.z > 0.0 && way.z + 0.5 * body.height() <= tall_person && !walker.space().ray(walker.position(), way).hit;
+    return way.z > 0.0 && way.z + 0.5 * body.height() <= tall_person &&
+           !walker.space().first_impact({0.0, 0.0}, walker.position(), way).hit;
   }
   const double above = std::max(0.0, std::abs(way.z) - body.half_height);
   return beside * beside + above * above <= body.radius * body.radius;

@@ -59,7 +59,7 @@ std::optional<Vec3> place_to_stand(const Space& space, const WalkerSettings& set
     const double end = middle.z - within - settings.height;
     Vec3 top = middle + Vec3(0.0, 0.0, within);
     for (int floor = 0; floor < most_floors && top.z > end; ++floor) {
-      const Impact hit = space.ray(top, {0.0, 0.0, end - top.z});
+      const FirstImpact hit = space.first_impact({0.0, 0.0}, top, {0.0, 0.0, end - top.z});
       if (!hit.hit) break;
       const Vec3 at(top.x, top.y, top.z + hit.time * (end - top.z));
       top.z = at.z - below_floor;

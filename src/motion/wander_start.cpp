@@ -36,7 +36,7 @@ constexpr double view_share = 0.75;       // of the longest view: that is long, 
 bool is_over_hollow(const Space& space, const Vec3& floor) {
   const double gap = std::max(floor_gap, 8.0 * space.largest_error());
   const double depth = std::min(floor.z - space.bounds().lower.z + 1.0, Space::motion_limit);
-  const Impact below = space.ray(floor - Vec3(0, 0, gap), {0, 0, -depth});
+  const FirstImpact below = space.first_impact({0.0, 0.0}, floor - Vec3(0, 0, gap), {0, 0, -depth});
   return below.hit && gap + below.time * depth > hollow;
 }
 
@@ -127,7 +127,7 @@ void prefer_views(std::vector<WanderStart>& places, const Space& space, const Wa
 std::optional<double> drop_from(const Space& space, const Vec3& place, double depth, int& more_rays) {
   for (double begin = 0.0; begin < depth && (begin == 0.0 || --more_rays >= 0); begin += Space::motion_limit) {
     const double part = std::min(depth - begin, Space::motion_limit);
-    const Impact down = space.ray(place - Vec3(0, 0, begin), {0, 0, -part});
+    const FirstImpact down = space.first_impact({0.0, 0.0}, place - Vec3(0, 0, begin), {0, 0, -part});
     if (down.hit) return begin + down.time * part;
   }
   return std::nullopt;

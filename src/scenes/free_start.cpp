@@ -44,7 +44,7 @@ class Outside {
   }
   bool operator()(const Vec3& place) {
     const double up = std::min(glm::length(space_.bounds().size()), Space::motion_limit);
-    if (triangles_ == 0 || !space_.ray(place, {0.0, 0.0, up}).hit) return true;
+    if (triangles_ == 0 || !space_.first_impact({0.0, 0.0}, place, {0.0, 0.0, up}).hit) return true;
     examined_ += triangles_;
     // Beyond this much work only a place under the sky counts as outside; in the largest scenes one is examined.
     if (examined_ > std::max(most_examined, triangles_)) return false;

@@ -74,7 +74,7 @@ std::vector<Vec3> way_over(const Survey& survey, const Crack& crack, double run_
   std::vector<Vec3> way;
   for (const double side : {-1.0, 1.0}) {
     const Vec3 end = crack.point + side * half * crack.direction + Vec3(0.0, 0.0, rim_level);
-    const Impact floor = survey.floor().ray(end, Vec3(0.0, 0.0, -2.0 * rim_level));
+    const FirstImpact floor = survey.floor().first_impact({0.0, 0.0}, end, Vec3(0.0, 0.0, -2.0 * rim_level));
     if (!floor.hit) return {};
     way.push_back(end - Vec3(0.0, 0.0, 2.0 * rim_level * floor.time));
   }

@@ -35,7 +35,7 @@ double length_of(std::span<const Vec3> way) {
 /// z of the floor at a place, at most a step above or below.
 std::optional<double> level_at(const Survey& survey, const Vec3& place, double step) {
   const Vec3 above = place + Vec3(0.0, 0.0, step);
-  const Impact floor = survey.floor().ray(above, Vec3(0.0, 0.0, -2.0 * step));
+  const FirstImpact floor = survey.floor().first_impact({0.0, 0.0}, above, Vec3(0.0, 0.0, -2.0 * step));
   return floor.hit ? std::optional(above.z - 2.0 * step * floor.time) : std::nullopt;
 }
 

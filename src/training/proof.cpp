@@ -233,7 +233,7 @@ class Proof {
         const double looks = std::max(1.0, std::ceil(glm::length(along) / apart));
         for (double k = 0.0; k <= looks; k += 1.0) {
           const Vec3 above = part[i - 1] + (k / looks) * along + Vec3(0.0, 0.0, step);
-          const Impact floor = survey_.floor().ray(above, Vec3(0.0, 0.0, -2.0 * step));
+          const FirstImpact floor = survey_.floor().first_impact({0.0, 0.0}, above, Vec3(0.0, 0.0, -2.0 * step));
           if (floor.hit) z = std::max(z, above.z - 2.0 * step * floor.time);
         }
       }

@@ -46,7 +46,7 @@ void centre(const Survey& survey, OpeningView& view) {
     const Vec3 place = view.point + depth * along;
     double width = 0.0;
     for (const double side : {1.0, -1.0}) {
-      const Impact wall = survey.world().ray(place, side * reach * across);
+      const FirstImpact wall = survey.world().first_impact({0.0, 0.0}, place, side * reach * across);
       if (!wall.hit) return false;
       width += wall.time * reach;
     }
@@ -105,7 +105,7 @@ std::optional<OpeningView> gap_view(const Survey& survey, const ProbeQuestion& q
   const Vec3 place(answer.walk->at.x, answer.walk->at.y, answer.walk->on_way.z);
   const double step = question.step;
   const auto floor_at = [&](const Vec3& p) {
-    return survey.floor().ray(p + Vec3(0.0, 0.0, step), {0.0, 0.0, -2.0 * step}).hit;
+    return survey.floor().first_impact({0.0, 0.0}, p + Vec3(0.0, 0.0, step), {0.0, 0.0, -2.0 * step}).hit;
   };
   const auto rim = [&](const Vec3& way) {
     double away = 0.0;

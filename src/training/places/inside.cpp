@@ -234,7 +234,7 @@ class Judge {
   [[nodiscard]] Beyond beyond_rim(const ways::Node& node, const Vec3& direction, std::uint32_t i) const {
     const Vec3 eye = eye_over(measure_, node);
     const World& world = survey_.world();
-    if (world.ray(eye, stride * direction).hit) return Beyond::other;
+    if (world.first_impact({0.0, 0.0}, eye, stride * direction).hit) return Beyond::other;
     const Vec3 beyond = eye + stride * direction;
     const double deep = std::clamp(beyond.z - world.bounds().lower.z + 1.0, 1.0, 1e5);
     const Impact down = world.ray(beyond, Vec3(0.0, 0.0, -deep));

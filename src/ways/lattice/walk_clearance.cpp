@@ -82,7 +82,7 @@ bool is_too_high(const Survey& survey, const Measure& measure, double level, dou
   // An edge of floor that goes on towards the axis is floor.
   const double falls = in_front * std::sqrt(1.0 - upright * upright) / upright + touch;
   const Vec3 above = met.point + in_front * towards_axis + Vec3(0.0, 0.0, falls);
-  if (survey.floor().ray(above, Vec3(0.0, 0.0, -2.0 * falls)).hit) return false;
+  if (survey.floor().first_impact({0.0, 0.0}, above, Vec3(0.0, 0.0, -2.0 * falls)).hit) return false;
   return !is_next_step(survey, measure, level, radius, met.point, towards_axis);
 }
 

@@ -90,7 +90,7 @@ std::optional<Vec3> free_end(const Survey& survey, const Measure& measure, const
         const double angle = 2.0 * glm::pi<double>() * k / ring_places;
         Vec3 off(std::cos(angle), std::sin(angle), layer);
         off *= away / glm::length(off);
-        if (survey.world().ray(eye, off).hit) continue;
+        if (survey.world().first_impact({0.0, 0.0}, eye, off).hit) continue;
         const auto place = place_at(point + off);
         if (place && fits(survey, measure, *place)) return place;
       }

@@ -82,7 +82,7 @@ std::optional<Vec3> room_around(const ProbeSearch& search, const Vec3& place, do
         const double clearance = clearance_at(search.survey, measure, *there);
         const Vec3 eye = eye_of(measure, place);
         if (clearance < radius || clearance <= widest) continue;
-        if (seen && search.survey.world().ray(eye, eye_of(measure, *there) - eye).hit) continue;
+        if (seen && search.survey.world().first_impact({0.0, 0.0}, eye, eye_of(measure, *there) - eye).hit) continue;
         best = there;
         widest = clearance;
       }
@@ -115,7 +115,8 @@ std::optional<Vec3> nearest_from_afar(const ProbeSearch& search, const Vec3& giv
     const auto room = room_around(search, floor + Vec3(0.0, 0.0, above), radius, around_floor, false);
     if (!room) continue;
     const Vec3 view = eye_of(measure, *room) - given;
-    const bool hidden = largest(view) > Space::motion_limit || search.survey.world().ray(given, view).hit;
+    const bool hidden =
+        largest(view) > Space::motion_limit || search.survey.world().first_impact({0.0, 0.0}, given, view).hit;
     const bool higher = measure.mode == Mode::walk && room->z > given.z + measure.step;
     std::optional<Vec3>& best = found[(higher ? 2U : 0U) + (hidden ? 1U : 0U)];
     if (!best || glm::distance(*room, given) < glm::distance(*best, given)) best = room;
@@ -183,7 +184,7 @@ void refuse_end(const ProbeSearch& search, const Vec3& given, const char* end, d
   const Vec3 down(0.0, 0.0, -std::min(depth, Space::motion_limit));
   if (off_scene(search, given) > 0.0) {
     why = fmt::format("it is off the scene, which spans {} to {}", text_of(bounds.lower), text_of(bounds.upper));
-  } else if (walks && !search.survey.floor().ray(given + Vec3(0.0, 0.0, 0.1), down).hit) {
+  } else if (walks && !search.survey.floor().first_impact({0.0, 0.0}, given + Vec3(0.0, 0.0, 0.1), down).hit) {
     why = fmt::format("there is no floor below it: nothing that is at most {:g} degrees steep",
                       search.survey.slope_degrees());
   } else {
