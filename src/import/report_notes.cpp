@@ -10,6 +10,8 @@ namespace {
 /// Number of names in a sentence before "and others".
 constexpr std::size_t listed_names = 3;
 
+const char* by_number(std::uint64_t count, const char* one, const char* many) { return count == 1 ? one : many; }
+
 std::string listed(const std::vector<LeftOutObject>& objects) {
   std::string text;
   for (std::size_t i = 0; i < objects.size() && i < listed_names; ++i) {
@@ -36,17 +38,17 @@ void add_count_notes(ImportReport& report, const ImportOptions& options, const s
         report.bad_triangles, report.bad_vertices, listed(report.bad_objects)));
   }
   if (report.missing_pages > 0) {
-    const bool one = report.missing_pages == 1;
+    const std::uint64_t count = report.missing_pages;
     notes.push_back(fmt::format(
         "{} {} that the scene refers to {} absent or unreadable; coarser geometry stands in where there is "
         "one: {}.",
-        report.missing_pages, one ? "file" : "files", one ? "is" : "are", listed(report.missing_page_files)));
+        count, by_number(count, "file", "files"), by_number(count, "is", "are"), listed(report.missing_page_files)));
   }
   if (report.outside_references > 0) {
-    const bool one = report.outside_references == 1;
+    const std::uint64_t count = report.outside_references;
     notes.push_back(fmt::format(
         "{} {} out of the scene's folder and {} left out: {}. Allow the folder (--allow) if you trust the scene.",
-        report.outside_references, one ? "reference leads" : "references lead", one ? "was" : "were",
+        count, by_number(count, "reference leads", "references lead"), by_number(count, "was", "were"),
         listed(report.outside_files)));
   }
   if (const auto& walls = report.confinement; walls && (walls->landlock == 0 || !walls->system_calls)) {
@@ -66,9 +68,8 @@ void add_count_notes(ImportReport& report, const ImportOptions& options, const s
 
 std::optional<std::string> note_of_missing_images(std::uint64_t count, const std::vector<std::string>& files) {
   if (count == 0) return std::nullopt;
-  return fmt::format("{} that the scene refers to {} absent or unreadable; what they cover is shown without: {}.",
-                     count == 1 ? "1 image" : fmt::format("{} images", count), count == 1 ? "is" : "are",
-                     listed(files));
+  return fmt::format("{} {} that the scene refers to {} absent or unreadable; what they cover is shown without: {}.",
+                     count, by_number(count, "image", "images"), by_number(count, "is", "are"), listed(files));
 }
 
 }  // namespace roam::reader
