@@ -249,7 +249,7 @@ void check_moves(const WalkOptions& options, const OpenScene& scene, const verif
 ExitStatus walk(WalkOptions options) {
   check_way(options);
   take_kept_frame(options.scene);
-  if (!options.against.scenes.empty()) check_against(options.scene, options.against);
+  if (!options.against.scenes.empty()) prepare_against(options.scene, options.against);
   const RecordedPath recorded = load_recorded_path(options.path);
   options.recorded = recorded.body;
   take_profile(options);

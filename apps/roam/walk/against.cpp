@@ -9,7 +9,7 @@
 
 namespace roam::app {
 
-void check_against(SceneOptions& walked, SceneOptions& against) {
+void prepare_against(SceneOptions& walked, SceneOptions& against) {
   against.up = walked.up;
   against.unit = walked.unit;
   against.ignore = walked.ignore;
@@ -21,7 +21,7 @@ void check_against(SceneOptions& walked, SceneOptions& against) {
   against.check_files_there("--against takes its scene; say --verify to check against the store itself");
 }
 
-verification::Verification verify_against(const SceneOptions& scene, const OpenScene& walked,
+verification::Verification verify_against(const SceneOptions& against, const OpenScene& walked,
                                           const verification::PieceLog& pieces,
                                           const std::function<bool(std::uint64_t, std::uint64_t)>& progress,
                                           checking::SceneSum& sum) {
@@ -32,21 +32,21 @@ verification::Verification verify_against(const SceneOptions& scene, const OpenS
   std::uint64_t bytes = 0, reading_number = 0;  // in finished readings
   const auto check = [&](std::span<const verification::Piece> some) {
     verification::Verifier verifier(some);
-    ImportOptions reading = scene.import_options();
+    ImportOptions reading = against.import_options();
     std::uint64_t total = 0;
     reading.progress = [&](const ImportProgress& p) {
       total = p.bytes_total;
       return progress(bytes + p.bytes_read, p.bytes_total * std::max(readings, reading_number + 1));
     };
     TriangleId first = 0;
-    stream_scene(scene.scenes, reading, [&](const Mesh& piece, bool) {
+    stream_scene(against.scenes, reading, [&](const Mesh& piece, bool) {
       verifier.check({&piece, 1}, first);
       if (reading_number == 0) add(sum, piece);
       first += piece.triangles.size();
     });
     if (first != walked.triangles() && reading_number == 0) {
       tell(fmt::format("note: triangles of {}: {}; of the store: {}. Is it another scene, or a later one?",
-                       scene.names(), first, walked.triangles()));
+                       against.names(), first, walked.triangles()));
     }
     bytes += total;
     ++reading_number;

@@ -11,17 +11,16 @@
 
 namespace roam::app {
 
-/// Checks the input of verify_against() before a walk that may take hours. Throws UsageError for a store, and
-/// roam::Error for a missing scene. `against` takes the options of reading that the user gave for `walked`, which keeps
-/// them unless it is a store.
-void check_against(SceneOptions& walked, SceneOptions& against);
+/// Prepares verify_against() before a walk that may take hours: `against` takes the options of reading that the user
+/// gave for `walked`, which keeps them unless it is a store. Throws UsageError if `against` is a store, and roam::Error
+/// if it is missing.
+void prepare_against(SceneOptions& walked, SceneOptions& against);
 
-/// Checks every piece against every triangle of a scene of any size, which is read part by part. It reads the scene
-/// once for as many pieces as fit in half of the memory. If the triangle counts of scene and `walked` store differ, a
-/// note on standard error says so. `progress` is that of verify, with bytes: done, and in all. The scene is added to
-/// `sum`.
+/// Checks every piece against every triangle of `against`, a scene of any size, which is read part by part: once for as
+/// many pieces as fit in half of the memory. If its triangle count and that of the `walked` store differ, a note on
+/// standard error says so. `progress` is that of verify, with bytes: done, and in all. The scene is added to `sum`.
 [[nodiscard]] verification::Verification verify_against(
-    const SceneOptions& scene, const OpenScene& walked, const verification::PieceLog& pieces,
+    const SceneOptions& against, const OpenScene& walked, const verification::PieceLog& pieces,
     const std::function<bool(std::uint64_t, std::uint64_t)>& progress, checking::SceneSum& sum);
 
 }  // namespace roam::app
