@@ -134,8 +134,8 @@ class ObjReader {
 
   void say_what_was_skipped() const {
     if (small_faces_ > 0) {
-      sink_.report_note(
-          fmt::format("{}: {}, the first in line {}.", bytes_.path(), skipped_faces_text(small_faces_), first_small_face_));
+      sink_.report_note(fmt::format("{}: {}, the first in line {}.", bytes_.path(), skipped_faces_text(small_faces_),
+                                    first_small_face_));
     }
     if (free_form_ > 0) {
       sink_.report_note(fmt::format("{}: {} free-form curves and surfaces were skipped; only polygons are read.",
