@@ -92,6 +92,7 @@ void demand_size(const CheckOptions& options, const checking::Certificate& certi
 /// The remedy for a text that is not as it was written.
 const char* remedy(std::string_view text) {
   if (text.find('\r') != std::string_view::npos) return "its lines end with CR LF: let them end with LF alone";
+  if (!text.starts_with(std::string(checking::first_line) + "\n")) return "check it by the roam that wrote it";
   if (text.ends_with("\n\n")) return "an empty line was added at its end: remove it";
   return "it is damaged or cut short: copy it again";
 }

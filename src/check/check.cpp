@@ -56,10 +56,11 @@ Certificate read_certificate(std::string_view text) {
   if (text.substr(body.size()) != checksum_line(body)) throw std::invalid_argument("its checksum is wrong");
   std::istringstream in{std::string(body)};
   in.imbue(std::locale::classic());
-  std::string word;
-  demand(std::getline(in, word) && word == first_line, "it is not a certificate of this version");
-  in >> word >> all.scene.triangles >> std::hex >> all.scene.hash >> std::dec >> word >> count;
-  demand(read(in, place.x, place.y, place.z, end.x, end.y, end.z) && count <= 5'000'000, "its head is wrong");
+  std::string line, scene, way, word;
+  if (!std::getline(in, line) || line != first_line) throw std::invalid_argument("it is no certificate of version 1");
+  in >> scene >> all.scene.triangles >> std::hex >> all.scene.hash >> std::dec >> way >> count;
+  const bool read_ends = read(in, place.x, place.y, place.z, end.x, end.y, end.z);
+  demand(read_ends && scene == "scene" && way == "way" && count <= most_segments, "its head is wrong");
   for (in >> word; word == "size" && read(in, size.radius, size.half_height); in >> word) all.sizes.push_back(size);
   for (; word == "segment"; word.clear(), in >> word) {
     Segment s;
@@ -71,12 +72,11 @@ Certificate read_certificate(std::string_view text) {
     demand(s.from == place, "it does not begin where the one before it ends, or the head of the file says");
     demand(all.sizes.size() <= 1000 && std::find(all.sizes.begin(), all.sizes.end(), s.size) != all.sizes.end(),
            "the head of the file does not name this size of the body");
-    demand(number == 1 || s.size == size || (s.from.x == s.to.x && s.from.y == s.to.y),
+    demand(number == 1 || s.size == all.segments.back().size || (s.from.x == s.to.x && s.from.y == s.to.y),
            "the body has another size than before, and moves sideways");
     demand(s.size.radius > 0.0 && s.size.half_height >= 0.0, "no body has such a size");
     demand(s.clearance >= s.size.radius - 1e-6 && s.clearance > 1e-6, "its clearance is below the radius");
     place = s.to;
-    size = s.size;
     all.segments.push_back(s);
   }
   demand(in.eof() && count > 0 && number == count, "the head of the file says another number of segments");
@@ -94,9 +94,8 @@ bool apart(const Segment& segment, const Triangle& triangle, double distance) {
   const std::array<Vec3, 4> p{-half, way - half, way + half, half};
   const Triangle t{triangle[0] - segment.from, triangle[1] - segment.from, triangle[2] - segment.from};
   double size = distance;
-  for (const Vec3& q : {p[0], p[1], p[2], p[3], t[0], t[1], t[2]}) {
+  for (const Vec3& q : {p[0], p[1], p[2], p[3], t[0], t[1], t[2]})
     size = std::max(size, std::abs(q.x) + std::abs(q.y) + std::abs(q.z));
-  }
   // In units of 2^-53 size |n|: 2 for a coordinate, 3 for its product with n, both twice; 2 for the difference of two
   // products, 4 for |n| and its product. 32 are charged.
   const double wanted = distance + 0x1p-48 * size;

@@ -48,6 +48,7 @@ struct Refused : std::runtime_error {
   std::uint64_t segment;  ///< its number, from 1; 0: not one segment is wrong
 };
 inline constexpr const char* first_line = "roam certificate 1";
+inline constexpr std::uint64_t most_segments = 5'000'000;
 /// The last line of a certificate that begins with `text`.
 [[nodiscard]] std::string checksum_line(std::string_view text);
 /// Throws std::invalid_argument for a damaged text, Refused for one that does not hold together, whatever the scene.

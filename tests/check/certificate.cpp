@@ -93,6 +93,8 @@ TEST(Certificate, IsRefusedForEachForgery) {
            {"0.39\n", "nan\n", "3: it is not as the format says"},
            {"0.39\n", "1e300\n", "3: it is not as the format says"},
            {"segment 6", "segments 6", "another number of segments"},
+           {"way 6", "path 6", "0: its head is wrong"},
+           {"way 6", "way 5000001", "0: its head is wrong"},
        }) {
     const std::string found = forged(replaced(good, part, by));
     if (*why == '\0') {
@@ -101,6 +103,17 @@ TEST(Certificate, IsRefusedForEachForgery) {
       EXPECT_TRUE(contains(found, why)) << part << " -> " << by << ": " << found;
     }
   }
+}
+
+TEST(Certificate, NamesItsSceneAndItsVersion) {
+  const auto changed = [](const std::string& part, const std::string& by) {
+    const std::string all = replaced(with_head(good), part, by);
+    return refusal(all + checksum_line(all));
+  };
+  EXPECT_EQ(changed("\nscene ", "\nscenes "), "0: its head is wrong");
+  // Another form, which says nothing about the walk.
+  EXPECT_EQ(changed("certificate 1\n", "certificate 2\n"), "it is no certificate of version 1");
+  EXPECT_EQ(changed("certificate 1\n", "certificate 1\r\n"), "it is no certificate of version 1");
 }
 
 TEST(Certificate, NamesTheNumberOfASegmentThatWasLeftOutAndCovered) {

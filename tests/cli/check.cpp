@@ -233,10 +233,16 @@ TEST_F(CheckVerb, AcceptsNothingWithAWrongByte) {
 
 TEST_F(CheckVerb, SaysHowATextWasChangedThatIsNotAsItWasWritten) {
   const std::string text = course();
-  std::string windows;
-  for (const char c : text) windows += c == '\n' ? "\r\n" : std::string(1, c);
+  std::string windows, next;
+  for (const std::string& line : lines_of(text)) {
+    windows += line + "\r\n";
+    next += (next.empty() ? "roam certificate 2" : line) + "\n";
+  }
+  const auto summed = [](const std::string& lines) { return lines + roam::checking::checksum_line(lines); };
   for (const auto& [other, why] :
-       {std::pair{windows, "checksum is wrong; its lines end with CR LF"},
+       {std::pair{windows + "checksum 0\r\n", "checksum is wrong; its lines end with CR LF"},
+        {summed(windows), "it is no certificate of version 1; its lines end with CR LF"},
+        {summed(next), "it is no certificate of version 1; check it by the roam that wrote it"},
         {text + "\n", "checksum is wrong; an empty line was added at its end"},
         {text.substr(0, text.size() / 2), "checksum is wrong; it is damaged or cut short"}}) {
     folder_.write("certificate", other);

@@ -21,9 +21,6 @@ using verification::Piece;
 /// Pieces in memory at a time: 0.4 MB.
 constexpr std::size_t together = 4096;
 
-/// More are refused by read_certificate.
-constexpr std::uint64_t most_segments = 5'000'000;
-
 std::string numbers(const Vec3& p) { return fmt::format("{} {} {}", p.x, p.y, p.z); }
 std::string numbers(const Body& body) { return fmt::format("{} {}", body.radius, body.half_height); }
 bool same(const Body& a, const Body& b) { return a.radius == b.radius && a.half_height == b.half_height; }
@@ -40,7 +37,8 @@ class Segments {
     last_ = piece;
     const auto is_this = [&](const Body& size) { return same(size, piece.body); };
     if (std::none_of(sizes_.begin(), sizes_.end(), is_this)) sizes_.push_back(piece.body);
-    fmt::format_to(std::back_inserter(lines_), "segment {} {} {} {} {}\n", ++count_, numbers(piece.from),
+    if (++count_ > checking::most_segments) return;  // it will be refused
+    fmt::format_to(std::back_inserter(lines_), "segment {} {} {} {} {}\n", count_, numbers(piece.from),
                    numbers(piece.to), numbers(piece.body), piece.clearance);
   }
 
@@ -81,10 +79,12 @@ void certify(const std::filesystem::path& file, const OpenScene& scene, const ve
   if (segments.count() == 0) {
     throw Error("--certify " + file.string(), "the body was never free: nothing can be certified");
   }
-  if (segments.count() > most_segments) {
-    throw Error("--certify " + file.string(),
-                fmt::format("the walk has {} segments, and a certificate at most {}; walk its path in parts, each with --certify",
-                            segments.count(), most_segments));
+  if (segments.count() > checking::most_segments) {
+    throw Error(
+        "--certify " + file.string(),
+        fmt::format(
+            "the walk has {} segments, and a certificate at most {}; walk its path in parts, each with --certify",
+            segments.count(), checking::most_segments));
   }
   const std::string text = segments.certificate(sum);
   try {
