@@ -34,6 +34,7 @@
 #include "walk/certificate.h"
 #include "walk/options.h"
 #include "walk/report.h"
+#include "words/measures.h"
 
 namespace roam::app {
 namespace {
@@ -340,7 +341,13 @@ ExitStatus walk(WalkOptions options) {
   checking::SceneSum sum;
   if (options.checks()) check_moves(options, scene, recorder.pieces(), report, sum);
   Unwritten certificate;
-  certificate.attempt([&] { certify(options.certify, scene, recorder.pieces(), report.verified ? &sum : nullptr); });
+  certificate.attempt([&] {
+    const bool written = certify(options.certify, scene, recorder.pieces(), report.verified ? &sum : nullptr);
+    const auto freed = words::first(report.result, EventKind::freed);
+    if (!written || !freed) return;
+    tell(fmt::format("note: the certificate begins at {}, where the body was put: it did not fit where it should start",
+                     words::exactly_at(*freed)));
+  });
   const auto draw_way = [&] { drawing->write(sheet(options, scene, report, recorder.record(), *seen)); };
   // After Ctrl-C the picture may take more time than there is.
   if (drawing && !report.interrupted) draw_way();

@@ -231,6 +231,21 @@ TEST_F(CheckVerb, AcceptsNothingWithAWrongByte) {
   }
 }
 
+TEST_F(CheckVerb, SaysThatTheBodyWasPutElsewhere) {
+  const std::string scene = folder_.write("scene.obj", room_obj()), file = folder_.file("certificate");
+  const auto walk_from = [&](const std::string& start) {
+    const std::string path = folder_.write("p.path", start + "\n5 0 0.9\n");
+    return run_program(ROAM_PROGRAM, {"walk", scene, "--path", path, "--certify", file});
+  };
+  const ProgramResult inside = walk_from("0.05 0 0.9");
+  EXPECT_EQ(inside.status, 0) << inside.out;
+  EXPECT_TRUE(contains(inside.err, "the certificate begins at (0.300, 0.000, 0.9")) << inside.err;
+  expect_accepted("from a place beside the wall");
+  const ProgramResult off = walk_from("-0.1 0 0.9");  // off the floor: it falls, and is put back
+  EXPECT_EQ(off.status, 1) << off.out;
+  EXPECT_TRUE(contains(off.err, "no certificate, because the body was put elsewhere on its way: segment")) << off.err;
+}
+
 TEST_F(CheckVerb, SaysHowATextWasChangedThatIsNotAsItWasWritten) {
   const std::string text = course();
   std::string windows, next;

@@ -65,10 +65,13 @@ void add(checking::SceneSum& sum, const Mesh& mesh) {
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) sum.add(mesh.triangle(i));
 }
 
-void certify(const std::filesystem::path& file, const OpenScene& scene, const verification::PieceLog& pieces,
+bool certify(const std::filesystem::path& file, const OpenScene& scene, const verification::PieceLog& pieces,
              const checking::SceneSum* source) {
-  if (file.empty()) return;
-  if (scene.store() && !source) return tell("note: no certificate: Ctrl-C came before the scene was read");
+  if (file.empty()) return false;
+  if (scene.store() && !source) {
+    tell("note: no certificate: Ctrl-C came before the scene was read");
+    return false;
+  }
   checking::SceneSum sum;
   if (scene.store()) sum = *source;
   for (const Mesh& mesh : scene.loaded().meshes) add(sum, mesh);
@@ -90,10 +93,13 @@ void certify(const std::filesystem::path& file, const OpenScene& scene, const ve
   try {
     (void)checking::read_certificate(text);
   } catch (const checking::Refused& refused) {
-    throw Error::at("--certify " + file.string(),
-                    fmt::format("this walk has no certificate: segment {}: {}", refused.segment, refused.what()));
+    throw Error::at(
+        "--certify " + file.string(),
+        fmt::format("this walk has no certificate, because the body was put elsewhere on its way: segment {}: {}",
+                    refused.segment, refused.what()));
   }
   files::write_whole(file, text);
+  return true;
 }
 
 }  // namespace roam::app

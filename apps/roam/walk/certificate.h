@@ -13,10 +13,11 @@ namespace roam::app {
 
 void add(checking::SceneSum& sum, const Mesh& mesh);
 
-/// Writes the certificate of a walk to `file`, unless that is empty. `source`: of the scene whose store it was; null:
-/// not read to its end, and there is no certificate. Throws roam::Error if the file cannot be written, if nothing is
-/// certified, or if the segments do not hold together: the body was put elsewhere on its way.
-void certify(const std::filesystem::path& file, const OpenScene& scene, const verification::PieceLog& pieces,
+/// Writes the certificate of a walk to `file`, unless that is empty. Returns whether it was written. `source`: of the
+/// scene whose store it was; null: not read to its end, and there is no certificate. Throws roam::Error if the file
+/// cannot be written, if nothing is certified, or if the segments do not hold together: the body was put elsewhere on
+/// its way.
+bool certify(const std::filesystem::path& file, const OpenScene& scene, const verification::PieceLog& pieces,
              const checking::SceneSum* source);
 
 }  // namespace roam::app
