@@ -102,6 +102,8 @@ void add_kind(CLI::App& verb, const std::shared_ptr<MakeOptions>& options, std::
   verb.add_flag("--json", options->json, "Print one JSON object");
   verb.callback([options, maker, gallery, &run] {
     run = [options, maker, gallery] {
+      if (!generate::has_scene_extension(options->output))
+        throw UsageError("-o " + options->output.string(), "a scene is a .ply, an .obj or an .stl, by its extension");
       const generate::Scene scene = [&] {
         try {
           return maker(*options);

@@ -130,9 +130,14 @@ void write_stl(const Scene& scene, files::WholeFile& file, const Progress& progr
 
 }  // namespace
 
+bool has_scene_extension(const std::filesystem::path& path) {
+  const std::string extension = files::lower_extension(path);
+  return extension == ".ply" || extension == ".obj" || extension == ".stl";
+}
+
 void write_scene(const Scene& scene, const std::filesystem::path& path, const Progress& progress) {
   const std::string extension = files::lower_extension(path);
-  if (extension != ".ply" && extension != ".obj" && extension != ".stl") {
+  if (!has_scene_extension(path)) {
     throw Error::at(path.string(),
                     fmt::format("{} cannot be written: its extension must be .ply, .obj or .stl.", path.string()));
   }

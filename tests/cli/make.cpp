@@ -74,9 +74,9 @@ TEST(MakeVerb, ShiftsTheGalleryAndItsPathsTogether) {
 }
 
 TEST(MakeVerb, SaysWhatIsWrongWithTheOutput) {
-  for (const char* file : {"/no/such/folder/city.ply", "city.xyz"}) {
+  for (const auto& [file, status] : {std::pair{"/no/such/folder/city.ply", 1}, {"city.xyz", 2}, {"city", 2}}) {
     const ProgramResult result = roam({"make", "city", "-o", file, "--triangles", "10k"});
-    EXPECT_EQ(result.status, 1) << file;
+    EXPECT_EQ(result.status, status) << file;
     EXPECT_NE(result.err.find(file), std::string::npos) << result.err;
   }
 }
