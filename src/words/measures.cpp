@@ -1,5 +1,7 @@
 #include "words/measures.h"
 
+#include <cmath>
+
 #include "text/printable.h"
 
 namespace roam::words {
@@ -8,6 +10,13 @@ std::string grouped(std::uint64_t number) {
   if (number < 1000) return fmt::format("{}", number);
   return grouped(number / 1000) + fmt::format(",{:03}", number % 1000);
 }
+
+double down_to_mm(double length) {
+  const double nearest = std::round(1e3 * length);
+  return (nearest / 1e3 <= length ? nearest : nearest - 1.0) / 1e3;
+}
+
+double up_to_mm(double length) { return -down_to_mm(-length); }
 
 std::string counted(std::uint64_t count, std::string_view noun) {
   return fmt::format("{} {}{}", grouped(count), noun, count == 1 ? "" : "s");

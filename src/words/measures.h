@@ -28,6 +28,10 @@ namespace roam::words {
   return length >= 0.01 ? fmt::format("{:.3f} m", length) : fmt::format("{:.1f} mm", 1e3 * length);
 }
 
+/// Rounded down or up to a millimetre: as text of three decimals it is at most, or at least, the length itself.
+[[nodiscard]] double down_to_mm(double length);
+[[nodiscard]] double up_to_mm(double length);
+
 /// "499,936".
 [[nodiscard]] std::string grouped(std::uint64_t number);
 /// "1 tile", "2,000 tiles".

@@ -87,9 +87,9 @@ std::string ended(const Passage& p) {
                      grouped(p.places));
 }
 
-/// The certified upper bound on the width of ways, rounded up to millimetres.
+/// The certified upper bound on the width of ways.
 std::string certified(const Passage& p) {
-  return fmt::format("it is proven that nothing wider than {:.3f} m passes", 2e-3 * std::ceil(1e3 * p.bound - 1e-6));
+  return fmt::format("it is proven that nothing wider than {:.3f} m passes", up_to_mm(2.0 * p.bound));
 }
 
 /// How certain a "no" is.
@@ -171,8 +171,10 @@ std::string would_pass(const ProbeAnswer& answer) {
   if (answer.wide_enough || is_unknown(answer)) return {};
   std::string text;
   if (answer.limit && answer.limit->kind == Kind::height)
-    text = fmt::format("a body of that width up to {:.3f} m high", answer.limit->size);
-  if (p.found) text += fmt::format("{}up to {:.3f} m wide", text.empty() ? "" : ", or of that height ", 2.0 * p.radius);
+    text = fmt::format("a body of that width up to {:.3f} m high", down_to_mm(answer.limit->size));
+  if (p.found)
+    text +=
+        fmt::format("{}up to {:.3f} m wide", text.empty() ? "" : ", or of that height ", down_to_mm(2.0 * p.radius));
   return text;
 }
 
@@ -186,7 +188,7 @@ std::string way_line(const Passage& p, const ProbeDetails& details) {
 }
 
 std::string narrowest_line(const ProbeAnswer& answer, const ProbeDetails& details) {
-  if (!answer.limit) return fmt::format("nothing leaves less than {}", metres(2.0 * answer.passage.radius));
+  if (!answer.limit) return fmt::format("nothing leaves less than {}", metres(down_to_mm(2.0 * answer.passage.radius)));
   const ProbeLimit& limit = *answer.limit;
   std::string text = obstacle(limit, details);
   if (!is_end(limit.kind)) text += fmt::format(", {:.1f} m on the way", limit.along);

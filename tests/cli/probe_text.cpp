@@ -1,4 +1,5 @@
 // What roam probe says of answers that no scene gives as asked: walkers that contradict a way, searches that ended.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
@@ -108,7 +109,7 @@ TEST(ProbeText, SaysThatNobodyPassesOnlyWhereThatIsCertified) {
     answer.passage.bound = 0.1252;
     const std::string text = words::report(question, answer).sentences();
     EXPECT_TRUE(contains(text, "no way was found, even for a body 0.10 m wide")) << text;
-    EXPECT_TRUE(contains(text, "it is proven that nothing wider than 0.252 m passes; for narrower bodies")) << text;
+    EXPECT_TRUE(contains(text, "it is proven that nothing wider than 0.251 m passes; for narrower bodies")) << text;
     EXPECT_TRUE(contains(text, "openings under 0.14 m may have been missed")) << text;
     EXPECT_FALSE(contains(text, "there is no way")) << text;
     EXPECT_FALSE(contains(app::table(question, std::span(&answer, 1)), "no way at all"));
@@ -125,7 +126,7 @@ TEST(ProbeText, TellsWhatIsCertifiedOfASearchThatEnded) {
   answer.passage.places = 84'571;
   const std::string text = words::report(question, answer).sentences();
   EXPECT_TRUE(text.starts_with("NO: ")) << text;
-  EXPECT_TRUE(contains(text, "it is proven that nothing wider than 0.252 m passes; for narrower bodies")) << text;
+  EXPECT_TRUE(contains(text, "it is proven that nothing wider than 0.251 m passes; for narrower bodies")) << text;
   EXPECT_TRUE(contains(text, "ended at its limit of 84,571 places")) << text;
   EXPECT_FALSE(contains(text, "there is no way") || contains(text, "do not meet")) << text;
   const std::string row = app::table(question, std::span(&answer, 1));
@@ -138,7 +139,7 @@ TEST(ProbeText, TellsWhatIsCertifiedOfASearchThatEnded) {
   answer.limit->needed = 0.6;
   answer.missing = 0.4;
   const std::string narrow = words::report(question, answer).sentences();
-  EXPECT_TRUE(contains(narrow, "it is proven that nothing wider than 0.252 m passes; for narrower bodies")) << narrow;
+  EXPECT_TRUE(contains(narrow, "it is proven that nothing wider than 0.251 m passes; for narrower bodies")) << narrow;
 }
 
 TEST(ProbeText, CallsInATableUnknownWhatIsNotKnown) {
@@ -159,6 +160,36 @@ TEST(ProbeText, TellsTheBoundOfABodyThatMayStillGetThrough) {
   answer.passage.bound = 0.404;
   const std::string text = words::report(question, answer).sentences();
   EXPECT_TRUE(contains(text, "it is proven that nothing wider than 0.808 m passes.")) << text;
+}
+
+TEST(ProbeText, RoundsSoThatWhatItPrintsIsTrue) {
+  ProbeAnswer answer = wide_enough(Outcome::blocked);
+  answer.walk.reset();
+  answer.wide_enough = false;
+  answer.size = {0.5, 1.8};
+  answer.limit->kind = Kind::height;
+  const auto expect_printed = [&](const std::string& part) {
+    const std::string text = words::report(question, answer).sentences();
+    EXPECT_TRUE(contains(text, part)) << part << ": " << text;
+  };
+  // A body of exactly the printed size passes.
+  answer.passage.radius = 0.49998;
+  answer.limit->size = 1.7999;
+  answer.missing = 2e-5;
+  expect_printed("a body of that width up to 1.799 m high, or of that height up to 0.999 m wide");
+  const std::string row = app::table(question, std::span(&answer, 1));
+  EXPECT_TRUE(contains(row, "0.999 m") && contains(row, "< 1 mm")) << row;
+  EXPECT_FALSE(contains(row, "0.0 mm")) << row;
+  for (int mm = 1; mm < 2000; ++mm) {
+    answer.passage.radius = mm / 2000.0;
+    expect_printed(fmt::format("up to {:.3f} m wide", mm / 1000.0));
+  }
+  // Nothing wider passes.
+  answer.passage.proven = true;
+  answer.passage.bound = 0.2500000001;
+  expect_printed("nothing wider than 0.501 m passes");
+  answer.passage.bound = 0.25;
+  expect_printed("nothing wider than 0.500 m passes");
 }
 
 TEST(ProbeText, NamesWhatIsMeasuredByItsKind) {

@@ -118,7 +118,7 @@ std::string table(const ProbeQuestion& question, std::span<const ProbeAnswer> an
   for (const ProbeAnswer& answer : answers) {
     const Passage& p = answer.passage;
     const bool ended_early = !p.found && !p.complete;
-    std::string width = p.found ? metres(2.0 * p.radius) : ended_early ? "not known" : "none";
+    std::string width = p.found ? metres(down_to_mm(2.0 * p.radius)) : ended_early ? "not known" : "none";
     if (p.found && !p.limited) width = ">= " + width;
     std::string what;
     if (is_unknown(answer))
@@ -130,9 +130,10 @@ std::string table(const ProbeQuestion& question, std::span<const ProbeAnswer> an
     else if (!p.found)
       what = is_shut(answer) ? "no way at all" : ended_early ? "none that wide: certified" : "no way was found";
     const bool contradicts = answer.walk && !answer.passable && !falls(*answer.walk, question.mode);
+    const std::string missing = answer.missing <= 0.0 ? "" : answer.missing < 1e-3 ? "< 1 mm" : metres(answer.missing);
     const char* const word = answer.passable ? "yes" : contradicts || is_unknown(answer) ? "?" : "no";
     text += fmt::format("{:>6.3f} m  {:>6.3f} m  {:<4}  {:>11}  {:>9}  {}\n", answer.size.radius, answer.size.height,
-                        word, width, answer.missing > 0.0 ? metres(answer.missing) : "", what);
+                        word, width, missing, what);
   }
   return text;
 }
