@@ -59,8 +59,9 @@ struct ProbedSize {
 /// How the walker fared on the way.
 struct ProbeWalk {
   Outcome outcome = Outcome::reached;
-  Vec3 at{0.0};      ///< its centre at the end
-  Vec3 on_way{0.0};  ///< the nearest point of Passage::way
+  Vec3 at{0.0};       ///< its centre at the end
+  Vec3 on_way{0.0};   ///< the nearest point of Passage::way
+  double step = 0.0;  ///< m: if it is blocked by a step that is a little too high, the step's height; else 0
 };
 
 /// The limit: the narrowest position of the way, or the obstacle.

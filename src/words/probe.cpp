@@ -144,11 +144,15 @@ std::string stop_line(const ProbeQuestion& question, const ProbeAnswer& answer, 
   }
   if (answer.walk) {
     const Outcome outcome = answer.walk->outcome;
-    return fmt::format("a walker sent along the way {} at {}, although the measured way is wide enough",
+    const std::string step = answer.walk->step > 0.0
+                                 ? fmt::format(": a step there is {} high, and the body steps {}",
+                                               metres(answer.walk->step), metres(climbed(question, answer.size)))
+                                 : "";
+    return fmt::format("a walker sent along the way {} at {}, although the measured way is wide enough{}",
                        outcome == Outcome::left_scene ? "left the scene"
                        : outcome == Outcome::held     ? "was held"
                                                       : "was blocked",
-                       walked_to(question, answer));
+                       walked_to(question, answer), step);
   }
   if (is_unknown(answer)) return ended(answer.passage);
   if (!answer.limit && !answer.passage.found && !answer.passage.complete) return {};  // certainty() says it

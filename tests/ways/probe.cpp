@@ -164,6 +164,18 @@ TEST(Probe, NamesTheHighestStepAmongStepsOfSeveralHeights) {
   }
 }
 
+TEST(Probe, NamesAStepThatIsAFewMillimetresTooHighForTheWalker) {
+  for (const double rise : {0.3002, 0.304}) {
+    const ProbeQuestion question{.from = {1.0, 0.0, 0.2}, .to = {9.0, 0.0, 0.5}};
+    const ProbeAnswer answer = probe(survey_of(stairs({rise}, 1.0)), question, {.radius = 0.3, .height = 1.8});
+    EXPECT_EQ(answer.passable, rise < 0.3003) << "the walker grants twice its skin";
+    ASSERT_TRUE(answer.walk);
+    EXPECT_NEAR(answer.walk->step, answer.passable ? 0.0 : rise, 1e-6);
+    const std::string text = words::report(question, answer).sentences();
+    EXPECT_EQ(contains(text, ": a step there is 0.304 m high, and the body steps 0.300 m"), !answer.passable) << text;
+  }
+}
+
 TEST(Probe, NamesNoPlaceWhereWhatIsReachedIsFarApart) {
   Mesh m;
   add_floor(m, 0.0, -2.0, 5.0, 2.0, 0.0);

@@ -116,30 +116,6 @@ double width_at(const ProbeSearch& search, const std::vector<Vec3>& way, const P
   return widest < measure.widest ? 2.0 * widest : 0.0;
 }
 
-/// The highest step on a way, up to `most`: the largest change of floor height between neighbouring samples.
-ProbeLimit highest_step(const ProbeSearch& search, const Passage& passage, double most) {
-  ProbeLimit limit;
-  limit.kind = ProbeLimit::Kind::step;
-  limit.direction = {0.0, 0.0, 1.0};
-  std::vector<Vec3> floor;
-  for_each_station(passage.way, station, [&](const Vec3& foot, const Vec3&, double) {
-    const Vec3 knee = foot + Vec3(0.0, 0.0, search.options.step);
-    const Impact down = search.survey.floor().ray(knee, {0.0, 0.0, -2.0 * search.options.step - precision});
-    if (down.hit) floor.push_back(down.point);
-  });
-  for (std::size_t i = 1; i < floor.size(); ++i) {
-    const Vec3 run = floor[i] - floor[i - 1];
-    if (std::hypot(run.x, run.y) > rise_within) continue;
-    if (std::abs(run.z) <= limit.size + rounding || std::abs(run.z) > most) continue;
-    limit.size = std::abs(run.z);
-    limit.point = floor[i - 1] + 0.5 * run;
-    limit.feet = floor[i - 1];
-    limit.heading = level(run);
-  }
-  limit.along = nearest_on(passage.way, limit.point, Mode::walk).along;
-  return limit;
-}
-
 }  // namespace
 
 std::optional<ProbeLimit> limit_of(const ProbeSearch& search, const Passage& passage, const ProbeEnds& ends,
@@ -207,6 +183,30 @@ std::optional<ProbeLimit> headroom(const ProbeSearch& search, double radius) {
   return best;
 }
 
+ProbeLimit highest_step(const ProbeSearch& search, const Passage& passage) {
+  const double most = search.options.step + granted;
+  ProbeLimit limit;
+  limit.kind = ProbeLimit::Kind::step;
+  limit.direction = {0.0, 0.0, 1.0};
+  std::vector<Vec3> floor;
+  for_each_station(passage.way, station, [&](const Vec3& foot, const Vec3&, double) {
+    const Vec3 knee = foot + Vec3(0.0, 0.0, search.options.step);
+    const Impact down = search.survey.floor().ray(knee, {0.0, 0.0, -2.0 * search.options.step - precision});
+    if (down.hit) floor.push_back(down.point);
+  });
+  for (std::size_t i = 1; i < floor.size(); ++i) {
+    const Vec3 run = floor[i] - floor[i - 1];
+    if (std::hypot(run.x, run.y) > rise_within) continue;
+    if (std::abs(run.z) <= limit.size + rounding || std::abs(run.z) > most) continue;
+    limit.size = std::abs(run.z);
+    limit.point = floor[i - 1] + 0.5 * run;
+    limit.feet = floor[i - 1];
+    limit.heading = level(run);
+  }
+  limit.along = nearest_on(passage.way, limit.point, Mode::walk).along;
+  return limit;
+}
+
 std::optional<ProbeLimit> step_up(const ProbeSearch& search, double radius) {
   const PassageOptions& o = search.options;
   if (o.mode != Mode::walk || o.height == 0.0) return std::nullopt;
@@ -218,7 +218,7 @@ std::optional<ProbeLimit> step_up(const ProbeSearch& search, double radius) {
     higher.options.step = step;
     const Passage passage = higher.widest();
     if (!passage.found || passage.radius < radius) return false;
-    best = highest_step(higher, passage, step + granted);
+    best = highest_step(higher, passage);
     high = std::min(step, best->size);
     return true;
   };

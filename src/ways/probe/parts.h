@@ -59,6 +59,8 @@ struct ProbeEnds {
 /// no height helps.
 [[nodiscard]] std::optional<ProbeLimit> headroom(const ProbeSearch& search, double radius);
 
+/// The highest step of a way, as a limit without `needed`: the largest change of floor height between its samples.
+[[nodiscard]] ProbeLimit highest_step(const ProbeSearch& search, const Passage& passage);
 /// The highest step of the way on which a body of that radius climbs least, if no way was found. None if no step helps.
 [[nodiscard]] std::optional<ProbeLimit> step_up(const ProbeSearch& search, double radius);
 

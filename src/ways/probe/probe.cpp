@@ -10,6 +10,7 @@
 
 #include "math/boxes.h"
 #include "math/floating_point.h"
+#include "math/level_distance.h"
 #include "math/parallel_floating_point.h"
 #include "roam/standing.h"
 #include "text/names.h"
@@ -62,7 +63,8 @@ std::vector<Vec3> taken_to(const Box& box, const std::vector<Vec3>& way) {
 }
 
 /// Sends the walker along the way.
-ProbeWalk walk_way(const Survey& survey, const ProbeQuestion& question, const ProbeAnswer& answer) {
+ProbeWalk walk_way(const ProbeSearch& search, const ProbeAnswer& answer) {
+  const auto& [survey, question, options] = search;
   const std::vector<Vec3> path = probed_path(survey, question, answer);
   // A flying end may lie above or beside the scene.
   const double beyond = question.mode == Mode::fly ? glm::length(box_around(path).size()) : 0.0;
@@ -77,6 +79,11 @@ ProbeWalk walk_way(const Survey& survey, const ProbeQuestion& question, const Pr
     if (e.event.kind == EventKind::airborne) walk.at = e.event.point;
   }
   walk.on_way = nearest_on(answer.passage.way, walk.at, question.mode).place;
+  if (walk.outcome != Outcome::blocked || question.mode != Mode::walk) return walk;
+  // The search grants some millimetres more than the walker.
+  const ProbeLimit step = highest_step(search, answer.passage);
+  if (step.size > options.step && level_distance(step.point, walk.at) <= 2.0 * answer.size.radius)
+    walk.step = step.size;
   return walk;
 }
 
@@ -215,7 +222,7 @@ std::vector<ProbeAnswer> answers_to(const Survey& survey, const ProbeQuestion& q
     } else {
       find_limit(*group.search, answer);
     }
-    if (answer.wide_enough) answer.walk = walk_way(survey, question, answer);
+    if (answer.wide_enough) answer.walk = walk_way(*group.search, answer);
     answer.passable = answer.walk && answer.walk->outcome == Outcome::reached;
     answers.push_back(std::move(answer));
   }
