@@ -90,7 +90,9 @@ EngineFindings find(const Options& options) {
 
 app::ExitStatus run(const Options& options) {
   const std::vector<std::filesystem::path> scenes(options.scene_names().begin(), options.scene_names().end());
-  if (!options.picture.empty()) app::check_output(scenes, "--picture", options.picture);
+  if (!options.picture.empty()) app::check_output("--picture", options.picture);
+  const app::NamedFile drawn{"--picture", options.picture};
+  app::demand_no_overwriting(app::named_scenes(scenes), {&drawn, 1});
   std::optional<draw::PictureFile> drawing;
   if (!options.picture.empty()) drawing.emplace(options.picture);
   const EngineFindings findings = find(options);

@@ -110,7 +110,7 @@ bool broke_its_promise(const LabelledSweep& s, const SweepResult& answer) {
 }
 
 app::ExitStatus make(const Options& options) {
-  app::check_output({}, "FILE", options.file);
+  app::check_output("FILE", options.file);
   if (std::error_code none; std::filesystem::exists(options.file, none) && !is_labelled(options.file)) {
     throw app::UsageError(options.file, "this is another file, which would be lost; name a new one");
   }

@@ -97,7 +97,9 @@ PaperFindings find(const Options& options, const std::vector<PaperRow>& rows) {
 app::ExitStatus run(const Options& options) {
   const std::vector<PaperRow> rows = chosen_rows(options);
   const std::filesystem::path scene = options.paper.scene;
-  if (!options.picture.empty()) app::check_output({&scene, 1}, "--picture", options.picture);
+  if (!options.picture.empty()) app::check_output("--picture", options.picture);
+  const app::NamedFile drawn{"--picture", options.picture};
+  app::demand_no_overwriting(app::named_scenes({&scene, 1}), {&drawn, 1});
   std::optional<draw::PictureFile> drawing;
   if (!options.picture.empty()) drawing.emplace(options.picture);
   const PaperFindings findings = find(options, rows);

@@ -208,7 +208,7 @@ Json to_json(const std::vector<Row>& rows, const Options& options) {
 
 app::ExitStatus run(const Options& options) {
   if (options.least > options.triangles) throw app::UsageError("--least is larger than --triangles");
-  if (!options.picture.empty()) app::check_output({}, "--picture", options.picture);
+  if (!options.picture.empty()) app::check_output("--picture", options.picture);
   std::optional<draw::PictureFile> drawing;
   if (!options.picture.empty()) drawing.emplace(options.picture);
   const ScratchFolder scratch(options.scratch);

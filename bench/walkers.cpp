@@ -108,7 +108,7 @@ WalkerFindings find(const Options& options) {
 }
 
 app::ExitStatus run(const Options& options) {
-  if (!options.picture.empty()) app::check_output({}, "--picture", options.picture);
+  if (!options.picture.empty()) app::check_output("--picture", options.picture);
   std::optional<draw::PictureFile> drawing;
   if (!options.picture.empty()) drawing.emplace(options.picture);
   const WalkerFindings findings = find(options);

@@ -222,11 +222,12 @@ ExitStatus probe(ProbeOptions o) {
   o.question = question_of(o);
   const std::vector<ProbedSize> sizes = sizes_of(o);
   if (o.path) demand_one_output("--path", *o.path, o.json);
-  if (o.path && !is_standard(*o.path)) check_output(o.scene.scenes, "--path", *o.path);
-  if (o.picture) check_output(o.scene.scenes, "--picture", *o.picture);
+  if (o.path && !is_standard(*o.path)) check_output("--path", *o.path);
+  if (o.picture) check_output("--picture", *o.picture);
+  std::vector<NamedFile> inputs = named_scenes(o.scene.scenes);
+  inputs.push_back({"the profile", profile_path(o.scene.scenes)});
   const NamedFile outputs[] = {{"--path", o.path.value_or("")}, {"--picture", o.picture.value_or("")}};
-  const NamedFile kept{"the profile", profile_path(o.scene.scenes)};
-  demand_no_overwriting({&kept, 1}, outputs);
+  demand_no_overwriting(inputs, outputs);
   std::optional<tbb::global_control> limit;
   if (o.scene.threads > 0) {
     limit.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(o.scene.threads));

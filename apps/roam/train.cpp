@@ -63,7 +63,7 @@ class StagedProgress {
 std::filesystem::path profile_file(const TrainVerbOptions& o) {
   if (o.scene.no_profile) return {};
   if (o.profile) {
-    check_output(o.scene.scenes, "-o", *o.profile);
+    check_output("-o", *o.profile);
     return *o.profile;
   }
   const std::string& scene = o.scene.scenes.front().native();
@@ -131,9 +131,11 @@ ExitStatus train(TrainVerbOptions o) {
   if (o.scene.no_profile && o.profile) throw UsageError("-o and --no-profile", "one of them");
   const std::filesystem::path profile = profile_file(o);
   take_kept_frame(o.scene);
-  if (o.picture) check_output(o.scene.scenes, "--picture", *o.picture);
-  const NamedFile kept{"the profile", profile}, drawn{"--picture", o.picture.value_or("")};
-  demand_no_overwriting({&kept, 1}, {&drawn, 1});
+  if (o.picture) check_output("--picture", *o.picture);
+  std::vector<NamedFile> inputs = named_scenes(o.scene.scenes);
+  if (!o.profile) inputs.push_back({"the profile", profile});
+  const NamedFile outputs[] = {{"-o", o.profile.value_or("")}, {"--picture", o.picture.value_or("")}};
+  demand_no_overwriting(inputs, outputs);
   std::optional<draw::PictureFile> drawing;
   if (o.picture) drawing.emplace(*o.picture, draw::PictureFile::Views::in_metres);
   const Surveyed scene = survey_scene(o.scene, o.slope);

@@ -71,12 +71,9 @@ void demand_no_overwriting(std::span<const NamedFile> inputs, std::span<const Na
   }
 }
 
-void check_output(std::span<const std::filesystem::path> scenes, const std::string& option,
-                  const std::filesystem::path& file) {
+void check_output(const std::string& option, const std::filesystem::path& file) {
   if (is_standard(file)) throw UsageError(option + " -", "standard output takes paths and traces only; name a file");
   demand_no_address(option, file);
-  const NamedFile output{option, file};
-  demand_no_overwriting(named_scenes(scenes), {&output, 1});
   if (const std::optional<Obstacle> found = obstacle(file)) {
     throw UsageError(option + " " + file.string(), found->what + "; " + found->advice);
   }

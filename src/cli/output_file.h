@@ -35,10 +35,9 @@ struct NamedFile {
 /// input.
 void demand_no_overwriting(std::span<const NamedFile> inputs, std::span<const NamedFile> outputs);
 
-/// Throws UsageError, naming the option, for a file that cannot be written: an address, a folder, a pipe, one of the
-/// scenes, or one in a folder that does not exist or is not writable.
-void check_output(std::span<const std::filesystem::path> scenes, const std::string& option,
-                  const std::filesystem::path& file);
+/// Throws UsageError, naming the option, for a file that cannot be written: an address, a folder, a pipe, or one in a
+/// folder that does not exist or is not writable.
+void check_output(const std::string& option, const std::filesystem::path& file);
 
 /// Keeps the error of a failed write until the result has been printed.
 class Unwritten {

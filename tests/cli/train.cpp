@@ -119,6 +119,10 @@ TEST(TrainVerb, RefusesAFileThatCannotBeWrittenBeforeAnyWork) {
     EXPECT_TRUE(contains(Train({}, {option, "@."}).result.err, "that is a folder")) << option;
   }
   EXPECT_TRUE(contains(Train({}, {"-o", "@scene.obj"}).result.err, "would overwrite the scene"));
+  EXPECT_TRUE(contains(Train({}, {"--picture", "@scene.obj.roam.json"}).result.err, "would overwrite the profile"));
+  const Train both({}, {"-o", "@p.svg", "--picture", "@p.svg"});
+  EXPECT_EQ(both.result.status, 2);
+  EXPECT_TRUE(contains(both.result.err, "would overwrite the file of -o")) << both.result.err;
 }
 
 TEST(TrainVerb, TellsItsAnswerThoughTheProfileCannotBeWritten) {

@@ -69,7 +69,7 @@ void check_outputs(const WalkOptions& options) {
       {"--trace", options.trace}, {"--picture", options.picture}, {"--certify", options.certify}};
   demand_no_overwriting(inputs, outputs);
   if (options.certify.empty()) return;
-  check_output(options.scene.scenes, "--certify", options.certify);
+  check_output("--certify", options.certify);
   if (options.scene.name_a_store() && options.against.scenes.empty()) {
     throw UsageError("--certify", "a store keeps triangles to within 2 mm only; name its scene by --against, too");
   }
