@@ -29,6 +29,9 @@
 namespace roam::app {
 namespace {
 
+/// The first bytes of each file that save_profile() writes.
+constexpr std::string_view profile_start = "{\n  \"roam_profile\":";
+
 struct TrainVerbOptions {
   SceneOptions scene;
   TrainOptions train;
@@ -134,7 +137,7 @@ ExitStatus train(TrainVerbOptions o) {
   if (o.picture) check_output("--picture", *o.picture);
   std::vector<NamedFile> inputs = named_scenes(o.scene.scenes);
   if (!o.profile) inputs.push_back({"the profile", profile});
-  const NamedFile outputs[] = {{"-o", o.profile.value_or("")}, {"--picture", o.picture.value_or("")}};
+  const NamedFile outputs[] = {{"-o", o.profile.value_or(""), profile_start}, {"--picture", o.picture.value_or("")}};
   demand_no_overwriting(inputs, outputs);
   std::optional<draw::PictureFile> drawing;
   if (o.picture) drawing.emplace(*o.picture, draw::PictureFile::Views::in_metres);

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <fstream>
 
 #include "cli/exit_status.h"
 #include "cli/standard_streams.h"
@@ -52,6 +53,12 @@ void demand_no_overwriting(std::span<const NamedFile> inputs, std::span<const Na
     const fs::path from = whole(folder), to = whole(file);
     return std::mismatch(from.begin(), from.end(), to.begin(), to.end()).first == from.end();
   };
+  const auto begins_with = [](const fs::path& file, std::string_view start) {
+    std::string read(start.size(), '\0');
+    std::ifstream in(file, std::ios::binary);
+    in.read(read.data(), static_cast<std::streamsize>(read.size()));
+    return in.gcount() == 0 || read == start;
+  };
   const auto is_file = [](const fs::path& file) { return !file.empty() && !is_standard(file); };
   for (std::size_t i = 0; i < outputs.size(); ++i) {
     const fs::path& output = outputs[i].file;
@@ -65,6 +72,8 @@ void demand_no_overwriting(std::span<const NamedFile> inputs, std::span<const Na
       if (same(input.file, output)) refuse(input.name);
       if (has_part(input.file, output)) refuse("a file of " + input.name);
     }
+    if (fs::is_regular_file(output, none) && !begins_with(output, outputs[i].start))
+      refuse("a file that " + outputs[i].name + " did not write");
     for (const NamedFile& other : outputs.first(i)) {
       if (is_file(other.file) && same(other.file, output)) refuse("the file of " + other.name);
     }

@@ -7,6 +7,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "roam/error.h"
@@ -27,12 +28,13 @@ void demand_no_address(const std::string& option, const std::filesystem::path& o
 struct NamedFile {
   std::string name;
   std::filesystem::path file;
+  std::string_view start{};  ///< of an output: the first bytes of each file that the option writes; empty: they vary
 };
 /// The scenes, each named "the scene".
 [[nodiscard]] std::vector<NamedFile> named_scenes(std::span<const std::filesystem::path> scenes);
 
-/// Throws UsageError if an output is the same file as an input or another output, or a file in a folder that is an
-/// input.
+/// Throws UsageError if an output is the same file as an input or another output, a file in a folder that is an input,
+/// or one that does not begin with `start`: the scene may refer to it.
 void demand_no_overwriting(std::span<const NamedFile> inputs, std::span<const NamedFile> outputs);
 
 /// Throws UsageError, naming the option, for a file that cannot be written: an address, a folder, a pipe, or one in a

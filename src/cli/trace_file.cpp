@@ -27,7 +27,7 @@ std::string joined_events(const StepReport& report) {
 
 TraceFile::TraceFile(const std::filesystem::path& file) {
   if (!is_standard(file)) out_.emplace(file);
-  rows_ = "step,t,x,y,z,radius,height,clearance,contacts,event,teleport\n";
+  rows_ = std::string(trace_start) + "radius,height,clearance,contacts,event,teleport\n";
 }
 
 void TraceFile::add(std::uint64_t step, double step_start, const StepReport& report) {

@@ -55,12 +55,12 @@ TEST_F(FullDisk, IsSaidOfAFilmWhoseIndexFindsNoRoom) {
 }
 
 TEST_F(FullDisk, LeavesATraceOfBefore) {
-  const std::string trace = folder_.write("disk/t.csv", "of before");
+  const std::string trace = folder_.write("disk/t.csv", "step,t,x,y,z,of before");
   const ProgramResult result = run_program(
       "/bin/sh", {"-c", "ulimit -f 20; exec " ROAM_PROGRAM " walk " + scene_ + " --wander 60 --trace " + trace});
   EXPECT_EQ(result.status, 1) << result.err;
   EXPECT_TRUE(contains(result.err, "t.csv: File too large")) << result.err;
-  EXPECT_EQ(folder_.read("disk/t.csv"), "of before");
+  EXPECT_EQ(folder_.read("disk/t.csv"), "step,t,x,y,z,of before");
   EXPECT_EQ(std::distance(fs::directory_iterator(folder_.file("disk")), fs::directory_iterator()), 1);
 }
 

@@ -65,12 +65,12 @@ TEST(ProbePath, FromAPlaceToItselfIsOneThatWalkTakes) {
 TEST(ProbePath, SaysThatAPathWithoutAWayIsNotWritten) {
   const TestFolder folder;
   const std::string scene = folder.write("room.obj", door_obj(0.5));
-  const std::string path = folder.write("way.path", "# another day's\n1 0 1\n");
+  const std::string path = folder.write("way.path", "# roam: mode walk another day\n1 0 1\n");
   const ProgramResult none = run_program(ROAM_PROGRAM, {"probe", scene, "--from", "2,0,1", "--to", "18,0,1", "--radius",
                                                         "0.3", "--height", "1.8", "--path", path});
   EXPECT_EQ(none.status, 3);
   EXPECT_TRUE(contains(none.err, "way.path") && contains(none.err, "was not written")) << none.err;
-  EXPECT_EQ(folder.read("way.path"), "# another day's\n1 0 1\n");
+  EXPECT_EQ(folder.read("way.path"), "# roam: mode walk another day\n1 0 1\n");
 }
 
 TEST(ProbePath, ThatBreaksOffHasNoOpeningThatIsTooSmall) {

@@ -60,17 +60,6 @@ TEST(WalkVerb, ReportsAPathThatWasWalkedToItsEnd) {
   EXPECT_GE(report["step_ns"]["max"], report["step_ns"]["p99"]);
 }
 
-TEST(WalkVerb, DoesNotWriteItsTraceOverWhatItReads) {
-  const TestFolder folder;
-  const std::string scene = folder.write("scene.obj", room_obj()), path = folder.write("p.path", "2 0 1\n3 0 1\n");
-  for (const std::string& file : {scene, path}) {
-    const ProgramResult result = run_program(ROAM_PROGRAM, {"walk", scene, "--path", path, "--trace", file});
-    EXPECT_EQ(result.status, 2);
-    EXPECT_TRUE(contains(result.err, "would overwrite")) << result.err;
-  }
-  EXPECT_EQ(folder.read("scene.obj"), room_obj());
-}
-
 TEST(WalkVerb, RefusesWhatWouldNeverEnd) {
   const Walk far(room_obj(), "2 0 1\n1e300 0 1\n", {"--mode", "fly"});
   EXPECT_EQ(far.result.status, 1);

@@ -14,6 +14,7 @@
 #include "cli/help.h"
 #include "cli/output_file.h"
 #include "cli/standard_streams.h"
+#include "cli/trace_file.h"
 #include "cli/values.h"
 #include "files/extension.h"
 #include "graphics/capture.h"
@@ -114,7 +115,7 @@ void check_files(const ViewOptions& options, const ViewSettings& settings) {
   const NamedFile outputs[] = {{"--screenshot", options.screenshot},
                                {"--record", options.record},
                                {"--record-path", options.record_path},
-                               {"--trace", options.trace}};
+                               {"--trace", options.trace, trace_start}};
   if (is_standard(options.record_path))
     throw UsageError("--record-path -", "standard output does not take a path; name a file");
   demand_one_output("--trace", options.trace, options.json);

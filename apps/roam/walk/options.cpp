@@ -5,9 +5,11 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "check/check.h"
 #include "cli/exit_status.h"
 #include "cli/output_file.h"
 #include "cli/standard_streams.h"
+#include "cli/trace_file.h"
 #include "cli/values.h"
 #include "measure/room.h"
 #include "roam/error.h"
@@ -65,8 +67,9 @@ void check_outputs(const WalkOptions& options) {
   for (const NamedFile& scene : named_scenes(options.against.scenes)) inputs.push_back(scene);
   inputs.push_back({"the path", options.path});
   inputs.push_back({"the profile", profile_path(options.scene.scenes)});
-  const NamedFile outputs[] = {
-      {"--trace", options.trace}, {"--picture", options.picture}, {"--certify", options.certify}};
+  const NamedFile outputs[] = {{"--trace", options.trace, trace_start},
+                               {"--picture", options.picture},
+                               {"--certify", options.certify, checking::first_line}};
   demand_no_overwriting(inputs, outputs);
   if (options.certify.empty()) return;
   check_output("--certify", options.certify);
