@@ -35,7 +35,7 @@ double sphere_impact_time(const Body& body, const Vec3& motion, const LocalTrian
   const ErrorBound error = error_bound(body, motion, triangle);
   const FacePlane plane(body, motion, triangle, error);
   double free = t_begin;
-  if (plane.is_known() && plane.slack > t_begin * std::max(plane.speed, 0.0)) {
+  if (plane.is_known() && plane.slack > t_begin * plane.speed) {
     if (plane.speed <= 0.0 || plane.slack >= t_end * plane.speed) return t_end;
     free = plane.slack / plane.speed;
     const double doubt = error.at(free);
