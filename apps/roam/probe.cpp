@@ -54,9 +54,6 @@ struct ProbeOptions {
   [[nodiscard]] double slope_degrees() const { return slope.value_or(45.0); }
 };
 
-/// The first bytes of each path that write_path() writes.
-constexpr std::string_view path_start = "# roam: mode ";
-
 /// Maximum length of a file of sizes, in bytes.
 constexpr std::uint64_t longest_matrix = 1 << 20;
 
@@ -229,7 +226,8 @@ ExitStatus probe(ProbeOptions o) {
   if (o.picture) check_output("--picture", *o.picture);
   std::vector<NamedFile> inputs = named_scenes(o.scene.scenes);
   inputs.push_back({"the profile", profile_path(o.scene.scenes)});
-  const NamedFile outputs[] = {{"--path", o.path.value_or(""), path_start}, {"--picture", o.picture.value_or("")}};
+  const NamedFile outputs[] = {{"--path", o.path.value_or(""), recorded_path_start},
+                               {"--picture", o.picture.value_or("")}};
   demand_no_overwriting(inputs, outputs);
   std::optional<tbb::global_control> limit;
   if (o.scene.threads > 0) {

@@ -11,6 +11,7 @@
 #include "view/bookmarks.h"
 #include "view/commands.h"
 #include "view/options.h"
+#include "view/path_recorder.h"
 #include "view/settings.h"
 
 namespace {
@@ -227,6 +228,11 @@ TEST(ViewPlan, RefusesOutputsThatWouldReplaceOrMissSomething) {
   ViewSettings settings;
   settings.file = folder.file("one");
   EXPECT_TRUE(contains(error(settings), "would overwrite the settings"));
+  options.record_path = folder.write("scene.bin", "a buffer that the scene refers to");
+  EXPECT_TRUE(contains(error(), "would overwrite a file that --record-path did not write")) << error();
+  PathRecorder(folder.file("way.path"), {}, Mode::walk, SceneFrame{}).close();
+  options.record_path = folder.file("way.path");
+  EXPECT_EQ(error(), "");
   options.record = folder.file("gone/film.mp4");
   EXPECT_TRUE(contains(error(), "there is no folder " + folder.file("gone"))) << error();
   options.record.clear();

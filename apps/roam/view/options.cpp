@@ -22,6 +22,7 @@
 #include "roam/profile.h"
 #include "roam/route.h"
 #include "roam/store.h"
+#include "scenes/recorded_body.h"
 #include "scenes/web_options.h"
 #include "view/section.h"
 
@@ -114,7 +115,7 @@ int film_rate(const ViewOptions& options) {
 void check_files(const ViewOptions& options, const ViewSettings& settings) {
   const NamedFile outputs[] = {{"--screenshot", options.screenshot},
                                {"--record", options.record},
-                               {"--record-path", options.record_path},
+                               {"--record-path", options.record_path, recorded_path_start},
                                {"--trace", options.trace, trace_start}};
   if (is_standard(options.record_path))
     throw UsageError("--record-path -", "standard output does not take a path; name a file");

@@ -19,9 +19,9 @@ constexpr double period = 0.1;  // s: a person's shorter movements need no line
 PathRecorder::PathRecorder(const std::filesystem::path& file, const WalkerSettings& body, Mode mode,
                            const std::optional<SceneFrame>& frame, files::Naming naming)
     : out_(file, naming), mode_(mode) {
+  write(body_line(body, mode) + "\n");
   if (frame) write(frame_line(*frame) + "\n");
-  write("# t x y z qx qy qz qw: seconds, the body's centre in metres, the camera's rotation\n" + body_line(body, mode) +
-        "\n");
+  write("# t x y z qx qy qz qw: seconds, the body's centre in metres, the camera's rotation\n");
 }
 
 PathRecorder::~PathRecorder() {
