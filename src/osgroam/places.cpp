@@ -92,8 +92,7 @@ std::optional<roam::Vec3> landing_place(const roam::Space& space, const roam::Wa
 
 bool has_floor(const roam::Space& space, const roam::WalkerSettings& s, const roam::Vec3& centre) {
   constexpr double least = 2.0;  // metres
-  const roam::Impact floor = space.ray(centre, {0.0, 0.0, -(0.5 * s.height + std::max(s.height, least))});
-  return floor.hit;
+  return space.first_impact({0.0, 0.0}, centre, {0.0, 0.0, -(0.5 * s.height + std::max(s.height, least))}).hit;
 }
 
 }  // namespace osgRoam

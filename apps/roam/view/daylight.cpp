@@ -14,7 +14,7 @@ double open_sky(const Space& space, const Vec3& eye) {
   const double reach = sight(space, eye);
   int open = 0, known = 0;
   const auto look = [&](const Vec3& direction) {
-    const Impact hit = space.ray(eye, reach * direction);
+    const FirstImpact hit = space.first_impact({0.0, 0.0}, eye, reach * direction);
     open += hit.hit ? 0 : 1;
     known += hit.unknown ? 0 : 1;
   };

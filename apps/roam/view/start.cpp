@@ -36,7 +36,7 @@ bool sees_something(const Space& space, const Vec3& eye, double yaw) {
   const double reach = box.empty() ? 0.0 : std::min(2.0 * glm::length(box.size()), Space::motion_limit);
   for (const double aside : {-20.0, 0.0, 20.0}) {
     for (const double up : {-20.0, 0.0, 20.0}) {
-      if (space.ray(eye, reach * direction(yaw + aside, up)).hit) return true;
+      if (space.first_impact({0.0, 0.0}, eye, reach * direction(yaw + aside, up)).hit) return true;
     }
   }
   return false;
