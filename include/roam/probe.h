@@ -74,7 +74,7 @@ struct ProbeLimit {
     start,   ///< `from` is beside a wall, and `size` is from it to the axis; or under a ceiling, see `too_low`
     target,  ///< likewise for `to`
     height,  ///< headroom; `size` is the height that a body of this radius may have
-    step,    ///< the highest step of the way that climbs least; `size` is its height
+    step,    ///< the highest step of the way that climbs least, to 2 cm; `size` is its height
     apart,   ///< no way: here the positions reached from both ends come nearest, within 1 m, flying 2 m; no `size`
   };
   Kind kind = Kind::door;

@@ -165,9 +165,10 @@ TEST(Probe, NamesTheHighestStepAmongStepsOfSeveralHeights) {
 }
 
 TEST(Probe, NamesAStepThatIsAFewMillimetresTooHighForTheWalker) {
-  for (const double rise : {0.3002, 0.304}) {
-    const ProbeQuestion question{.from = {1.0, 0.0, 0.2}, .to = {9.0, 0.0, 0.5}};
-    const ProbeAnswer answer = probe(survey_of(stairs({rise}, 1.0)), question, {.radius = 0.3, .height = 1.8});
+  for (const std::vector<double>& risers : std::vector<std::vector<double>>{{0.3002}, {0.304}, {0.304, 0.306}}) {
+    const double rise = risers.front(), top = std::reduce(risers.begin(), risers.end());
+    const ProbeQuestion question{.from = {1.0, 0.0, 0.2}, .to = {9.0, 0.0, top + 0.2}};
+    const ProbeAnswer answer = probe(survey_of(stairs(risers, 1.0)), question, {.radius = 0.3, .height = 1.8});
     EXPECT_EQ(answer.passable, rise < 0.3003) << "the walker grants twice its skin";
     ASSERT_TRUE(answer.walk);
     EXPECT_NEAR(answer.walk->step, answer.passable ? 0.0 : rise, 1e-6);

@@ -50,7 +50,7 @@ double least_lift_in(const Survey& survey, const Measure& measure) {
 
 /// The height (m) of the highest obstacle that a walker steps on from `level`: it grants two of its skins, each twice
 /// the error of stored triangles and 0.1 mm.
-double highest_step(const Survey& survey, const Measure& measure, double level) {
+double climbable_height(const Survey& survey, const Measure& measure, double level) {
   return level + knee(measure) + std::max(touch, 4.0 * survey.world().largest_error() + 2e-4);
 }
 
@@ -63,7 +63,7 @@ bool is_next_step(const Survey& survey, const Measure& measure, double level, do
   const Vec3 centre = centre_of(measure, {axis.x, axis.y, level}, {radius, knee(measure)});
   const double down = knee(measure) - least_lift_in(survey, measure);
   const Impact met = survey.world().sweep(body_of(measure, radius), centre, Vec3(0.0, 0.0, -down));
-  return met.hit && met.time > 0.0 && met.point.z <= highest_step(survey, measure, level) &&
+  return met.hit && met.time > 0.0 && met.point.z <= climbable_height(survey, measure, level) &&
          met.point.z >= edge.z - measure.step - touch;
 }
 
@@ -71,7 +71,7 @@ bool is_next_step(const Survey& survey, const Measure& measure, double level, do
 /// the knee, and neither floor nor a step after another one.
 bool is_too_high(const Survey& survey, const Measure& measure, double level, double radius, const Impact& met) {
   constexpr double in_front = 0.05;  // m
-  if (met.point.z <= highest_step(survey, measure, level)) return false;
+  if (met.point.z <= climbable_height(survey, measure, level)) return false;
   if (met.normal.z < rim_cosine) return true;
   const double upright = least_upright(survey.slope_degrees());
   if (met.feature == Feature::face) return met.normal.z < upright;
@@ -117,7 +117,7 @@ std::optional<Stand> capsule_at(const Survey& survey, const Measure& measure, co
       return Stand{radius, knee(measure) - met.time * down};
     // Where a wall leans, the first impact is far from the deepest contact.
     const Clearance deepest = survey.world().clearance(body, centre, Vec3(0.0, 0.0, -down), 0.0);
-    const bool is_high = deepest.found && deepest.point.z > highest_step(survey, measure, place.z);
+    const bool is_high = deepest.found && deepest.point.z > climbable_height(survey, measure, place.z);
     const Vec3& point = is_high ? deepest.point : met.point;
     radius = std::min(capsule_limit(level_distance(point, centre), point.z - place.z, top - point.z),
                       radius - std::max(least_cut, is_high ? -deepest.distance : 0.0));
@@ -266,7 +266,7 @@ bool meets_high_obstacle(const Survey& survey, const Measure& measure, const Vec
                          double radius) {
   constexpr double bumps = 0.02;  // m, above the floor: they hide no obstacle behind them
   // A body may touch an upright edge anywhere above its lower half ball, so that begins at the highest step.
-  const double uneven = std::max(bumps, highest_step(survey, measure, 0.0) + touch - radius);
+  const double uneven = std::max(bumps, climbable_height(survey, measure, 0.0) + touch - radius);
   const auto meets = [&](double lift) {
     const Vec3 down(0.0, 0.0, knee(measure) - lift);
     const Impact met = survey.world().sweep(body_of(measure, radius), centre_of(measure, from, {}) - down, to - from);

@@ -5,6 +5,7 @@
 #include <numbers>
 #include <vector>
 
+#include "math/boxes.h"
 #include "ways/lattice/walk_place.h"
 #include "ways/probe/parts.h"
 #include "ways/refine/refine.h"
@@ -22,6 +23,7 @@ constexpr double precision = 1e-3;       ///< of a headroom
 constexpr double slack = 5e-4;           ///< ways are certified to this
 constexpr double rounding = 1e-6;        ///< of the floor's height
 constexpr double granted = 0.02;         ///< more than a search grants above its step
+constexpr double step_precision = 0.02;  ///< of the step that a body would have to climb
 constexpr double headroom_beyond = 0.5;  ///< how far above the body to search for a lintel
 constexpr double rise_within = 0.3;      ///< floors farther apart than this are no step
 /// A wall on one side only: moved aside by 1 m, a body gains at least this much clearance.
@@ -183,13 +185,14 @@ std::optional<ProbeLimit> headroom(const ProbeSearch& search, double radius) {
   return best;
 }
 
-ProbeLimit highest_step(const ProbeSearch& search, const Passage& passage) {
+ProbeLimit highest_step(const ProbeSearch& search, const std::vector<Vec3>& way, const Box& where) {
   const double most = search.options.step + granted;
   ProbeLimit limit;
   limit.kind = ProbeLimit::Kind::step;
   limit.direction = {0.0, 0.0, 1.0};
   std::vector<Vec3> floor;
-  for_each_station(passage.way, station, [&](const Vec3& foot, const Vec3&, double) {
+  for_each_station(way, station, [&](const Vec3& foot, const Vec3&, double) {
+    if (!where.holds(foot)) return;
     const Vec3 knee = foot + Vec3(0.0, 0.0, search.options.step);
     const Impact down = search.survey.floor().ray(knee, {0.0, 0.0, -2.0 * search.options.step - precision});
     if (down.hit) floor.push_back(down.point);
@@ -203,33 +206,33 @@ ProbeLimit highest_step(const ProbeSearch& search, const Passage& passage) {
     limit.feet = floor[i - 1];
     limit.heading = level(run);
   }
-  limit.along = nearest_on(passage.way, limit.point, Mode::walk).along;
+  limit.along = nearest_on(way, limit.point, Mode::walk).along;
   return limit;
 }
 
-std::optional<ProbeLimit> step_up(const ProbeSearch& search, double radius) {
+std::optional<StepUp> step_up(const ProbeSearch& search, double radius) {
   const PassageOptions& o = search.options;
   if (o.mode != Mode::walk || o.height == 0.0) return std::nullopt;
   double low = o.step, high = std::min(0.5 * o.height, o.height - 2.0 * radius);
   if (low >= high) return std::nullopt;
   ProbeSearch higher = search;
-  std::optional<ProbeLimit> best;
+  std::optional<StepUp> best;
   const auto passes = [&](double step) {
     higher.options.step = step;
     const Passage passage = higher.widest();
     if (!passage.found || passage.radius < radius) return false;
-    best = highest_step(higher, passage);
-    high = std::min(step, best->size);
+    best = {highest_step(higher, passage.way, box_around(passage.way).grown(precision)), radius, passage.radius};
+    high = std::min(step, best->limit.size);
     return true;
   };
   if (!passes(high)) return std::nullopt;
   // As headroom() does: tries a little less than the highest step of the known way, and half the interval.
-  for (bool below = true; high - low > granted; below = !below) {
-    const double next = below ? high - granted : 0.5 * (low + high);
+  for (bool below = true; high - low > step_precision + rounding; below = !below) {
+    const double next = below ? high - step_precision : 0.5 * (low + high);
     if (!passes(next)) low = next;
   }
-  if (best->size <= o.step) return std::nullopt;
-  best->needed = o.step;
+  if (best->limit.size <= o.step) return std::nullopt;
+  best->limit.needed = o.step;
   return best;
 }
 

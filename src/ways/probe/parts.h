@@ -3,6 +3,7 @@
 /// Parts of a probe besides the widest way: standing places at the ends, and the limit that stops a body.
 
 #include <optional>
+#include <vector>
 
 #include "roam/probe.h"
 #include "ways/lattice/lattice.h"
@@ -59,9 +60,16 @@ struct ProbeEnds {
 /// no height helps.
 [[nodiscard]] std::optional<ProbeLimit> headroom(const ProbeSearch& search, double radius);
 
-/// The highest step of a way, as a limit without `needed`: the largest change of floor height between its samples.
-[[nodiscard]] ProbeLimit highest_step(const ProbeSearch& search, const Passage& passage);
-/// The highest step of the way on which a body of that radius climbs least, if no way was found. None if no step helps.
-[[nodiscard]] std::optional<ProbeLimit> step_up(const ProbeSearch& search, double radius);
+/// The highest step of the part of a way that lies in a box, as a limit without `needed`: the largest change of floor
+/// height between its samples.
+[[nodiscard]] ProbeLimit highest_step(const ProbeSearch& search, const std::vector<Vec3>& way, const Box& where);
+
+/// The highest step of a way that climbs least, to 2 cm.
+struct StepUp {
+  ProbeLimit limit;
+  double least = 0.0, widest = 0.0;  ///< the radii of bodies for which it holds
+};
+/// For a body of that radius, if no way was found. None if no step helps.
+[[nodiscard]] std::optional<StepUp> step_up(const ProbeSearch& search, double radius);
 
 }  // namespace roam::ways

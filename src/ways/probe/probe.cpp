@@ -10,7 +10,6 @@
 
 #include "math/boxes.h"
 #include "math/floating_point.h"
-#include "math/level_distance.h"
 #include "math/parallel_floating_point.h"
 #include "roam/standing.h"
 #include "text/names.h"
@@ -80,10 +79,11 @@ ProbeWalk walk_way(const ProbeSearch& search, const ProbeAnswer& answer) {
   }
   walk.on_way = nearest_on(answer.passage.way, walk.at, question.mode).place;
   if (walk.outcome != Outcome::blocked || question.mode != Mode::walk) return walk;
-  // The search grants some millimetres more than the walker.
-  const ProbeLimit step = highest_step(search, answer.passage);
-  if (step.size > options.step && level_distance(step.point, walk.at) <= 2.0 * answer.size.radius)
-    walk.step = step.size;
+  // The search grants up to 2 cm more than the walker.
+  const double near = 2.0 * answer.size.radius;
+  const Box around = Box{walk.on_way, walk.on_way}.grown(near);
+  const ProbeLimit step = highest_step(search, answer.passage.way, around);
+  if (step.size > options.step) walk.step = step.size;
   return walk;
 }
 
@@ -91,14 +91,17 @@ bool falls_short(const ProbeLimit& limit) {
   return limit.kind == ProbeLimit::Kind::step ? limit.size > limit.needed : limit.size < limit.needed;
 }
 
-/// Finds the limit for one size of a search.
-void find_limit(const ProbeSearch& search, ProbeAnswer& answer) {
+/// Finds the limit for one size of a search. `known`: the step of another size.
+void find_limit(const ProbeSearch& search, ProbeAnswer& answer, std::optional<StepUp>& known) {
   const double radius = answer.size.radius;
   answer.limit = limit_of(search, answer.passage, {answer.start, answer.target}, radius);
   const bool at_end = answer.limit && is_end(answer.limit->kind);
   if (!answer.wide_enough && !at_end) {
     auto other = headroom(search, radius);
-    if (!other && !answer.passage.found && answer.passage.complete) other = step_up(search, radius);
+    if (!other && !answer.passage.found && answer.passage.complete) {
+      if (!known || radius < known->least || radius > known->widest) known = step_up(search, radius);
+      if (known) other = known->limit;
+    }
     if (other) answer.limit = other;
   }
   if (!answer.limit || answer.limit->kind == ProbeLimit::Kind::apart) return;
@@ -174,6 +177,7 @@ std::vector<ProbeAnswer> answers_to(const Survey& survey, const ProbeQuestion& q
     Vec3 start{0.0}, target{0.0};
     std::optional<ProbeLimit> low;  ///< an end where no body of the group can stand upright
     Passage passage;
+    std::optional<StepUp> step;
   };
   using Kind = std::pair<double, double>;  // height, or 0 for spheres; step
   const auto kind_of = [&](const ProbedSize& size) {
@@ -204,7 +208,7 @@ std::vector<ProbeAnswer> answers_to(const Survey& survey, const ProbeQuestion& q
   }
   std::vector<ProbeAnswer> answers;
   for (const ProbedSize& size : sizes) {
-    const Group& group = groups[kind_of(size)];
+    Group& group = groups[kind_of(size)];
     ProbeAnswer answer;
     answer.size = size;
     answer.narrowest = group.search->options.narrowest;
@@ -220,7 +224,7 @@ std::vector<ProbeAnswer> answers_to(const Survey& survey, const ProbeQuestion& q
       answer.proven = true;
       answer.room = nearest_room(*group.search, group.low->feet, size.radius);
     } else {
-      find_limit(*group.search, answer);
+      find_limit(*group.search, answer, group.step);
     }
     if (answer.wide_enough) answer.walk = walk_way(*group.search, answer);
     answer.passable = answer.walk && answer.walk->outcome == Outcome::reached;
