@@ -11,12 +11,20 @@ std::string grouped(std::uint64_t number) {
   return grouped(number / 1000) + fmt::format(",{:03}", number % 1000);
 }
 
-double down_to_mm(double length) {
-  const double nearest = std::round(1e3 * length);
-  return (nearest / 1e3 <= length ? nearest : nearest - 1.0) / 1e3;
+namespace {
+
+double down_to(double length, double parts_a_metre) {
+  const double nearest = std::round(parts_a_metre * length);
+  return (nearest / parts_a_metre <= length ? nearest : nearest - 1.0) / parts_a_metre;
 }
 
+}  // namespace
+
+double down_to_mm(double length) { return down_to(length, 1e3); }
+
 double up_to_mm(double length) { return -down_to_mm(-length); }
+
+std::string metres_down(double length) { return metres(length >= 0.01 ? down_to_mm(length) : down_to(length, 1e4)); }
 
 std::string counted(std::uint64_t count, std::string_view noun) {
   return fmt::format("{} {}{}", grouped(count), noun, count == 1 ? "" : "s");

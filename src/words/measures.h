@@ -31,6 +31,8 @@ namespace roam::words {
 /// Rounded down or up to a millimetre: as text of three decimals it is at most, or at least, the length itself.
 [[nodiscard]] double down_to_mm(double length);
 [[nodiscard]] double up_to_mm(double length);
+/// As metres(), but at most the length itself.
+[[nodiscard]] std::string metres_down(double length);
 
 /// "499,936".
 [[nodiscard]] std::string grouped(std::uint64_t number);

@@ -192,7 +192,7 @@ std::string way_line(const Passage& p, const ProbeDetails& details) {
 }
 
 std::string narrowest_line(const ProbeAnswer& answer, const ProbeDetails& details) {
-  if (!answer.limit) return fmt::format("nothing leaves less than {}", metres(down_to_mm(2.0 * answer.passage.radius)));
+  if (!answer.limit) return fmt::format("nothing leaves less than {}", metres_down(2.0 * answer.passage.radius));
   const ProbeLimit& limit = *answer.limit;
   std::string text = obstacle(limit, details);
   if (!is_end(limit.kind)) text += fmt::format(", {:.1f} m on the way", limit.along);

@@ -88,7 +88,10 @@ Json json_report(const ProbeAnswer& answer, bool with_way) {
   json["complete"] = p.complete;
   json["places"] = p.places;
   json["walked"] = nullptr;
-  if (answer.walk) json["walked"] = {{"outcome", to_string(answer.walk->outcome)}, {"at", to_json(answer.walk->at)}};
+  if (const auto& walk = answer.walk) {
+    json["walked"] = {{"outcome", to_string(walk->outcome)}, {"at", to_json(walk->at)}};
+    json["walked"]["step_m"] = walk->step > 0.0 ? Json(walk->step) : Json(nullptr);
+  }
   return json;
 }
 
@@ -118,7 +121,7 @@ std::string table(const ProbeQuestion& question, std::span<const ProbeAnswer> an
   for (const ProbeAnswer& answer : answers) {
     const Passage& p = answer.passage;
     const bool ended_early = !p.found && !p.complete;
-    std::string width = p.found ? metres(down_to_mm(2.0 * p.radius)) : ended_early ? "not known" : "none";
+    std::string width = p.found ? metres_down(2.0 * p.radius) : ended_early ? "not known" : "none";
     if (p.found && !p.limited) width = ">= " + width;
     std::string what;
     if (is_unknown(answer))
