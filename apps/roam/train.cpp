@@ -136,8 +136,10 @@ ExitStatus train(TrainVerbOptions o) {
   take_kept_frame(o.scene);
   if (o.picture) check_output("--picture", *o.picture);
   std::vector<NamedFile> inputs = named_scenes(o.scene.scenes);
-  if (!o.profile) inputs.push_back({"the profile", profile});
-  const NamedFile outputs[] = {{"-o", o.profile.value_or(""), profile_start}, {"--picture", o.picture.value_or("")}};
+  const std::filesystem::path kept = profile_path(o.scene.scenes);
+  if (!o.profile || *o.profile != kept) inputs.push_back({"the profile", kept});
+  const NamedFile outputs[] = {{"-o", o.profile.value_or(""), begins_with(profile_start)},
+                               {"--picture", o.picture.value_or("")}};
   demand_no_overwriting(inputs, outputs);
   std::optional<draw::PictureFile> drawing;
   if (o.picture) drawing.emplace(*o.picture, draw::PictureFile::Views::in_metres);

@@ -10,6 +10,8 @@
 
 #include "cli/exit_status.h"
 #include "cli/standard_streams.h"
+#include "roam/path_file.h"
+#include "text/byte_order_mark.h"
 #include "text/web_address.h"
 
 namespace roam::app {
@@ -34,6 +36,24 @@ void demand_no_address(const std::string& option, const std::filesystem::path& o
       Error(option + " " + output.string(), "a web server cannot be written to; name a place on the disk"));
 }
 
+std::function<bool(const std::filesystem::path&)> begins_with(std::string_view start) {
+  return [start](const std::filesystem::path& file) {
+    std::string read(byte_order_mark.size() + start.size(), '\0');
+    std::ifstream in(file, std::ios::binary);
+    in.read(read.data(), static_cast<std::streamsize>(read.size()));
+    read.resize(static_cast<std::size_t>(in.gcount()));
+    return read.empty() || without_byte_order_mark(read).starts_with(start);
+  };
+}
+
+bool is_path(const std::filesystem::path& file) {
+  try {
+    return begins_with("# roam: ")(file) || !load_path(file).empty();
+  } catch (const Error&) {
+    return false;
+  }
+}
+
 std::vector<NamedFile> named_scenes(std::span<const std::filesystem::path> scenes) {
   std::vector<NamedFile> named;
   for (const auto& scene : scenes) named.push_back({"the scene", scene});
@@ -53,12 +73,6 @@ void demand_no_overwriting(std::span<const NamedFile> inputs, std::span<const Na
     const fs::path from = whole(folder), to = whole(file);
     return std::mismatch(from.begin(), from.end(), to.begin(), to.end()).first == from.end();
   };
-  const auto begins_with = [](const fs::path& file, std::string_view start) {
-    std::string read(start.size(), '\0');
-    std::ifstream in(file, std::ios::binary);
-    in.read(read.data(), static_cast<std::streamsize>(read.size()));
-    return in.gcount() == 0 || read == start;
-  };
   const auto is_file = [](const fs::path& file) { return !file.empty() && !is_standard(file); };
   for (std::size_t i = 0; i < outputs.size(); ++i) {
     const fs::path& output = outputs[i].file;
@@ -72,8 +86,8 @@ void demand_no_overwriting(std::span<const NamedFile> inputs, std::span<const Na
       if (same(input.file, output)) refuse(input.name);
       if (has_part(input.file, output)) refuse("a file of " + input.name);
     }
-    if (fs::is_regular_file(output, none) && !begins_with(output, outputs[i].start))
-      refuse("a file that " + outputs[i].name + " did not write");
+    if (outputs[i].is_like && fs::is_regular_file(output, none) && !outputs[i].is_like(output))
+      refuse("a file of another kind");
     for (const NamedFile& other : outputs.first(i)) {
       if (is_file(other.file) && same(other.file, output)) refuse("the file of " + other.name);
     }

@@ -4,6 +4,7 @@
 /// the result.
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -28,13 +29,18 @@ void demand_no_address(const std::string& option, const std::filesystem::path& o
 struct NamedFile {
   std::string name;
   std::filesystem::path file;
-  std::string_view start{};  ///< of an output: the first bytes of each file that the option writes; empty: they vary
+  std::function<bool(const std::filesystem::path&)> is_like{};  ///< whether an output may replace this file; empty: any
 };
+/// Whether a file begins with a text, or is empty. A byte order mark before it does not count.
+[[nodiscard]] std::function<bool(const std::filesystem::path&)> begins_with(std::string_view start);
+/// Whether a file is a path, or is empty, or a recording that ended before its first place.
+[[nodiscard]] bool is_path(const std::filesystem::path& file);
+
 /// The scenes, each named "the scene".
 [[nodiscard]] std::vector<NamedFile> named_scenes(std::span<const std::filesystem::path> scenes);
 
 /// Throws UsageError if an output is the same file as an input or another output, a file in a folder that is an input,
-/// or one that does not begin with `start`: the scene may refer to it.
+/// or a file that it is not `is_like`: the scene may refer to that.
 void demand_no_overwriting(std::span<const NamedFile> inputs, std::span<const NamedFile> outputs);
 
 /// Throws UsageError, naming the option, for a file that cannot be written: an address, a folder, a pipe, or one in a

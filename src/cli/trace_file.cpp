@@ -4,7 +4,9 @@
 
 #include <iterator>
 #include <span>
+#include <string_view>
 
+#include "cli/output_file.h"
 #include "cli/standard_streams.h"
 #include "roam/error.h"
 
@@ -13,6 +15,7 @@ namespace {
 
 // Rows are written in blocks: a write for each row would cost more than the step that it describes.
 constexpr std::size_t block_bytes = 1 << 16;
+constexpr std::string_view first_columns = "step,t,x,y,z,";
 
 std::string joined_events(const StepReport& report) {
   std::string text;
@@ -25,9 +28,11 @@ std::string joined_events(const StepReport& report) {
 
 }  // namespace
 
+bool is_trace(const std::filesystem::path& file) { return begins_with(first_columns)(file); }
+
 TraceFile::TraceFile(const std::filesystem::path& file) {
   if (!is_standard(file)) out_.emplace(file);
-  rows_ = std::string(trace_start) + "radius,height,clearance,contacts,event,teleport\n";
+  rows_ = std::string(first_columns) + "radius,height,clearance,contacts,event,teleport\n";
 }
 
 void TraceFile::add(std::uint64_t step, double step_start, const StepReport& report) {

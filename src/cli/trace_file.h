@@ -7,15 +7,14 @@
 #include <filesystem>
 #include <optional>
 #include <string>
-#include <string_view>
 
 #include "files/whole_file.h"
 #include "roam/walker.h"
 
 namespace roam::app {
 
-/// The first bytes of each trace.
-inline constexpr std::string_view trace_start = "step,t,x,y,z,";
+/// Whether a file is a trace, or is empty.
+[[nodiscard]] bool is_trace(const std::filesystem::path& file);
 
 /// Writes `--trace`: a row for the start and one or more for each step. A step has a row for each corner of its way.
 /// Contacts and events stand in its last row, several events joined by `+`. `clearance` is certified along the straight

@@ -14,6 +14,7 @@
 namespace roam::app {
 namespace {
 
+constexpr const char* mode_mark = "# roam: mode ";
 constexpr const char* frame_mark = "# roam: frame ";
 
 std::optional<Mode> parse_mode(const std::string& text) {
@@ -49,7 +50,7 @@ std::vector<MarkedLine> marked_lines(const std::string& text, const std::string&
 
 std::optional<RecordedBody> recorded_body(const std::string& text, const std::string& name_of_file) {
   std::optional<RecordedBody> body;
-  for (const MarkedLine& line : marked_lines(text, name_of_file, recorded_path_start)) {
+  for (const MarkedLine& line : marked_lines(text, name_of_file, mode_mark)) {
     std::istringstream words(line.words);
     words.imbue(std::locale::classic());
     std::string word;
@@ -129,7 +130,7 @@ void demand_frame(const RecordedPath& path, const std::optional<SceneFrame>& fra
                                 there, here, there));
 }
 
-std::string mode_line(Mode mode) { return fmt::format("{}{}", recorded_path_start, to_string(mode)); }
+std::string mode_line(Mode mode) { return fmt::format("{}{}", mode_mark, to_string(mode)); }
 
 RecordedPath load_recorded_path(const std::filesystem::path& file) {
   RecordedPath path;

@@ -13,7 +13,6 @@
 #include <filesystem>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "roam/error.h"
@@ -23,9 +22,6 @@
 #include "scenes/scene_options.h"
 
 namespace roam::app {
-
-/// The first bytes of each path that roam writes with its body.
-inline constexpr std::string_view recorded_path_start = "# roam: mode ";
 
 struct RecordedBody {
   Mode mode = Mode::walk;  ///< walk if all of the way was walked, else fly

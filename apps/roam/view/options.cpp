@@ -115,8 +115,8 @@ int film_rate(const ViewOptions& options) {
 void check_files(const ViewOptions& options, const ViewSettings& settings) {
   const NamedFile outputs[] = {{"--screenshot", options.screenshot},
                                {"--record", options.record},
-                               {"--record-path", options.record_path, recorded_path_start},
-                               {"--trace", options.trace, trace_start}};
+                               {"--record-path", options.record_path, is_path},
+                               {"--trace", options.trace, is_trace}};
   if (is_standard(options.record_path))
     throw UsageError("--record-path -", "standard output does not take a path; name a file");
   demand_one_output("--trace", options.trace, options.json);
@@ -127,10 +127,7 @@ void check_files(const ViewOptions& options, const ViewSettings& settings) {
   inputs.push_back({"the profile", profile_path(options.scene.scenes)});
   demand_no_overwriting(inputs, outputs);
   for (const NamedFile& output : outputs) {
-    if (output.file.empty() || is_standard(output.file)) continue;
-    if (const std::optional<Obstacle> found = obstacle(output.file)) {
-      throw UsageError(fmt::format("{} {}", output.name, output.file.string()), found->what + "; " + found->advice);
-    }
+    if (!output.file.empty() && !is_standard(output.file)) check_output(output.name, output.file);
   }
 }
 

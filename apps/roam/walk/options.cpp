@@ -67,9 +67,9 @@ void check_outputs(const WalkOptions& options) {
   for (const NamedFile& scene : named_scenes(options.against.scenes)) inputs.push_back(scene);
   inputs.push_back({"the path", options.path});
   inputs.push_back({"the profile", profile_path(options.scene.scenes)});
-  const NamedFile outputs[] = {{"--trace", options.trace, trace_start},
+  const NamedFile outputs[] = {{"--trace", options.trace, is_trace},
                                {"--picture", options.picture},
-                               {"--certify", options.certify, checking::first_line}};
+                               {"--certify", options.certify, begins_with(checking::first_line)}};
   demand_no_overwriting(inputs, outputs);
   if (options.certify.empty()) return;
   check_output("--certify", options.certify);
