@@ -92,7 +92,8 @@ void demand_size(const CheckOptions& options, const checking::Certificate& certi
 /// The remedy for a text that is not as it was written.
 const char* remedy(std::string_view text) {
   if (text.find('\r') != std::string_view::npos) return "its lines end with CR LF: let them end with LF alone";
-  if (!text.starts_with(std::string(checking::first_line) + "\n")) return "check it by the roam that wrote it";
+  if (const std::size_t end = text.find('\n'); end != text.npos && text.substr(0, end) != checking::first_line)
+    return "check it by the roam that wrote it";
   if (text.ends_with("\n\n")) return "an empty line was added at its end: remove it";
   return "it is damaged or cut short: copy it again";
 }

@@ -95,7 +95,7 @@ bool certify(const std::filesystem::path& file, const OpenScene& scene, const ve
   } catch (const checking::Refused& refused) {
     throw Error::at(
         "--certify " + file.string(),
-        fmt::format("this walk has no certificate, because the body was put elsewhere on its way: segment {}: {}",
+        fmt::format("this walk has no certificate: segment {}: {} (a body that was put elsewhere on its way has none)",
                     refused.segment, refused.what()));
   }
   files::write_whole(file, text);
