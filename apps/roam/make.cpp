@@ -103,7 +103,7 @@ void add_kind(CLI::App& verb, const std::shared_ptr<MakeOptions>& options, std::
   verb.callback([options, maker, gallery, &run] {
     run = [options, maker, gallery] {
       if (!generate::has_scene_extension(options->output))
-        throw UsageError("-o " + options->output.string(), "a scene is a .ply, an .obj or an .stl, by its extension");
+        throw UsageError("-o " + options->output.string(), "name a file that ends in .ply, .obj or .stl");
       const generate::Scene scene = [&] {
         try {
           return maker(*options);

@@ -58,8 +58,8 @@ class Scene {
 ///   .stl  binary floats, without names; refused for bounds beyond 32,768 m, where floats are off by more than 1 mm
 /// Throws roam::Error for another extension and if writing fails. Then, or if cancelled, `path` is as it was before.
 void write_scene(const Scene& scene, const std::filesystem::path& path, const Progress& progress = {});
-[[nodiscard]] bool has_scene_extension(
-    const std::filesystem::path& path);  ///< whether write_scene() knows its extension
+/// Whether write_scene() knows the extension.
+[[nodiscard]] bool has_scene_extension(const std::filesystem::path& path);
 
 /// A straight path of a body's centre.
 struct Path {
