@@ -97,9 +97,7 @@ double levelness(const TurnedTriangle& t) {
   return length > 0.0 ? std::abs(normal.z) / length : 0.0;
 }
 
-void cut_plan(const TurnedTriangle& t, const Rect& box, double lowest, double highest, const PlanView& view,
-              PlanCut& out) {
-  if (!meet(box, view.map.area().with_border())) return;
+void cut_plan(const TurnedTriangle& t, double lowest, double highest, const PlanView& view, PlanCut& out) {
   const auto levels_in = [&](double shift, const auto& take) {
     auto level = std::lower_bound(view.cuts.begin(), view.cuts.end(), lowest + shift);
     for (; level != view.cuts.end() && *level <= highest + shift; ++level) {
@@ -180,14 +178,16 @@ struct Cutter::State {
   std::span<const Frame> frames;
   StretchTree tree;
   std::uint64_t done = 0;
+  std::vector<Rect> areas;                 ///< of each view, with border
   std::vector<ThinSegments> walls, below;  ///< of each view
   std::vector<ThinSegments> sections;      ///< of each frame
 };
 
 Cutter::Cutter(const Turn& turn, std::span<const PlanView> views, std::span<const Stretch> section,
                std::span<const Frame> frames, std::size_t most) {
-  state_ = std::make_unique<State>(State{turn, views, section, frames, StretchTree(section), 0, {}, {}, {}});
+  state_ = std::make_unique<State>(State{turn, views, section, frames, StretchTree(section), 0, {}, {}, {}, {}});
   for (const PlanView& view : views) {
+    state_->areas.push_back(view.map.area().with_border());
     state_->walls.emplace_back(Frame{view.map.area()}, most);
     state_->below.emplace_back(Frame{view.map.area()}, most);
   }
@@ -248,7 +248,7 @@ void Cutter::add(std::span<const Mesh> meshes, const std::function<void(std::uin
       }
       const double lowest = std::min({t[0].z, t[1].z, t[2].z}), highest = std::max({t[0].z, t[1].z, t[2].z});
       for (std::size_t k = 0; k < s.views.size(); ++k) {
-        cut_plan(t, box, lowest, highest, s.views[k], task.plans[k]);
+        if (meet(box, s.areas[k])) cut_plan(t, lowest, highest, s.views[k], task.plans[k]);
       }
       s.tree.near(box, [&](const Stretch& stretch) {
         if (lowest <= stretch.highest && highest >= stretch.lowest) cut_section(t, stretch, task.section);
