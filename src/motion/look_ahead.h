@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What a body finds by trying strides in its space, without moving.
+/// Strides that a body tries in its space, without moving.
 
 #include <algorithm>
 #include <cmath>
@@ -14,7 +14,7 @@ namespace roam::wandering {
 constexpr double stride = 0.5;      // m of one probe
 constexpr double fly_height = 2.0;  // m above the floor, where there is no ceiling to stay under
 
-/// What a body flies in: the scene, and the air around it that takes the body over a roof and round an object.
+/// The scene, and the air around it that takes a flying body over a roof and round an object.
 inline Box airspace(const Space& space, const WalkerSettings& settings) {
   return space.bounds().grown(fly_height + settings.height + stride);
 }
@@ -25,7 +25,7 @@ inline Vec3 level(int i, int count) {
   return {std::cos(angle), std::sin(angle), 0.0};
 }
 
-/// What a body is that looks ahead.
+/// A body that looks ahead.
 struct Prober {
   const Space& space;
   const WalkerSettings& settings;
@@ -39,7 +39,7 @@ template <class Visit>
 void stride_ahead(const Prober& prober, Vec3 place, const Vec3& direction, int count, const Visit& visit) {
   const auto& [space, settings, mode, body] = prober;
   const bool on_foot = mode == Mode::walk;
-  // What a stride may climb, on a slope or up a kerb.
+  // A stride may climb a slope or a kerb.
   const double slope = std::tan(settings.slope_degrees * std::numbers::pi / 180.0);
   const double climb = on_foot ? std::min(stride * slope + settings.step, settings.height) : 0.0;
   for (int i = 0; i < count; ++i) {

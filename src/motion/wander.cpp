@@ -15,9 +15,9 @@
 
 namespace roam {
 
-using namespace wandering;
-
 namespace {
+
+using namespace wandering;
 
 constexpr int headings = 16;
 constexpr int most_strides = static_cast<int>(Wander::look_around / stride);
