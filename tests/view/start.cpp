@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "box_made.h"
+#include "motion/open_direction.h"
 #include "roam/generate.h"
 #include "roam/world.h"
 #include "walker_scenes.h"
@@ -153,8 +154,17 @@ TEST(StartPlace, IsInALongRoomFullOfFurnitureRatherThanInASmallOne) {
   EXPECT_GT(world.ray(eye, 20.0 * ahead(start.pose)).time * 20.0, 4.0);
 }
 
+TEST(StartPlace, LooksAlongAHallFromAnEyeNearTheFloor) {
+  Mesh mesh{.name = "hall"};
+  scenes::add_room(mesh, {0, 0, 0}, {4, 20, 3});
+  const WalkerSettings ball = WalkerSettings::sphere(0.1);
+  const StartPlace start = find_start(World::build({&mesh, 1}), ball, Mode::walk, {&mesh, 1}, [] { return true; });
+  EXPECT_EQ(start.mode, Mode::walk);
+  EXPECT_GT(std::abs(ahead(start.pose).y), 0.9) << start.pose.yaw;
+}
+
 TEST(StartPlace, LooksPastASlit) {
-  // Towards +x a wall with a slit of 10 cm, and 18 m behind it.
+  // A room of 4 m x 6 m. Towards +x its wall has a slit of 10 cm, and 18 m behind that is another wall.
   Mesh mesh{.name = "room"};
   const auto wall = [&](const Vec3& a, const Vec3& b) {
     scenes::add_quad(mesh, a, {b.x, b.y, a.z}, b, {a.x, a.y, b.z});
@@ -165,8 +175,25 @@ TEST(StartPlace, LooksPastASlit) {
   wall({-2, -3, 0}, {-2, 3, 2.6});
   wall({-2, 3, 0}, {20, 3, 2.6});
   wall({-2, -3, 0}, {20, -3, 2.6});
-  const double yaw = open_yaw(World::build({&mesh, 1}), {0, 0, 1.6});
-  EXPECT_GT(std::abs(std::remainder(yaw, 360.0)), 20.0) << "not through the slit: " << yaw;
+  const OpenDirection open = open_direction(World::build({&mesh, 1}), {0, 0, 1.6}, 30.0);
+  EXPECT_GT(std::abs(std::sin(open.yaw * std::numbers::pi / 180.0)), 0.9) << "along the room: " << open.yaw;
+  EXPECT_NEAR(open.length, 3.0, 0.3);
+}
+
+TEST(OpenDirection, IsTheOneWithoutAnEndAndWithinReach) {
+  // A yard, closed but towards +y, in a wide land.
+  Mesh mesh{.name = "yard"};
+  scenes::add_quad(mesh, {-100, -100, 0}, {100, -100, 0}, {100, 100, 0}, {-100, 100, 0});
+  scenes::add_room(mesh, {-4, -4, 0}, {-3, 12, 3}, true);
+  scenes::add_room(mesh, {3, -4, 0}, {4, 12, 3}, true);
+  scenes::add_room(mesh, {-4, -4, 0}, {4, -3, 3}, true);
+  const World world = World::build({&mesh, 1});
+  const OpenDirection far = open_direction(world, {0, 0, 1.6}, 1000.0), near = open_direction(world, {0, 0, 1.6}, 15.0);
+  EXPECT_EQ(far.yaw, 90.0);
+  EXPECT_EQ(near.yaw, 90.0);
+  EXPECT_NEAR(far.length, 80.0, 4.0) << "to the end of the land";
+  EXPECT_NEAR(near.length, 13.0, 1.0);
+  EXPECT_EQ(open_direction(World(), {0, 0, 1.6}, 15.0).length, 0.0) << "an empty scene";
 }
 
 }  // namespace

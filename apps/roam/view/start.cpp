@@ -3,11 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <numbers>
 
+#include "motion/open_direction.h"
 #include "roam/error.h"
 #include "roam/world.h"
 #include "scenes/free_start.h"
@@ -18,8 +18,6 @@ namespace roam::app {
 namespace {
 
 constexpr double degree = std::numbers::pi / 180.0;
-constexpr int headings = 32;
-constexpr double slit = 0.15;  // m, radius: a view through narrower ones is none
 // m: radius that is loaded from a store to choose the direction
 constexpr double view_limit = 60.0;
 constexpr double overview_yaw = 60.0;     // degrees: shows two sides of a building, neither frontally
@@ -44,12 +42,12 @@ bool sees_something(const Space& space, const Vec3& eye, double yaw) {
 
 /// The view from an eye.
 struct View {
-  double yaw = 0.0;  ///< degrees, direction of the longest view
+  double yaw = 0.0;  ///< degrees, direction in which most is open
   bool anything = false;
 };
 
 View look(const Space& space, const Vec3& eye) {
-  const double yaw = open_yaw(space, eye);
+  const double yaw = open_direction(space, eye, Space::motion_limit).yaw;
   return {yaw, sees_something(space, eye, yaw)};
 }
 
@@ -98,28 +96,6 @@ StartPlace start_place(const WalkerSettings& settings, Mode mode, const Box& bou
 }
 
 }  // namespace
-
-double open_yaw(const Space& space, const Vec3& eye) {
-  // Only the part of a view inside the scene's bounds counts, not the open space outside.
-  const Box box = space.bounds();
-  const double reach = box.empty() ? 0.0 : std::min(glm::length(box.size()), Space::motion_limit);
-  std::array<double, headings> way{};
-  for (int i = 0; i < headings; ++i) {
-    const Vec3 motion = reach * direction(360.0 * i / headings, 0.0);
-    const Vec3 end = eye + space.first_impact({slit, 0.0}, eye, motion).time * motion;
-    way[static_cast<std::size_t>(i)] = glm::distance(glm::clamp(end, box.lower, box.upper), eye);
-  }
-  // The longest way; its neighbours count, too, so that it is in the middle of what is open.
-  const auto openness = [&](int i) {
-    const auto at = [&](int k) { return way[static_cast<std::size_t>((i + k + headings) % headings)]; };
-    return at(0) + 0.5 * (at(-1) + at(1));
-  };
-  int best = 0;
-  for (int i = 1; i < headings; ++i) {
-    if (openness(i) > openness(best)) best = i;
-  }
-  return 360.0 * best / headings;
-}
 
 Pose overview(const Box& box, double fov, double least) {
   const double radius = box.empty() ? 1.0 : std::max(0.5 * glm::length(box.size()), 1e-3);

@@ -19,7 +19,7 @@ struct StartPlace {
   std::string note;        ///< a sentence for the user if the start is not as desired; else empty
 };
 
-/// A free pose on a floor, indoors if there is an indoors, in the direction with the most to see; see wander_start.
+/// A free pose on a floor, indoors if there is an indoors, in the direction in which most is open; see wander_start.
 /// `meshes`: the triangles of the space. If the body fits on no floor: in the air, flying. If there is no place but on
 /// a roof, on an object or within a closed hull, or none at all: outside of the scene, flying, all of it in view.
 /// Throws roam::Cancelled when `goes_on` returns false.
@@ -29,9 +29,6 @@ struct StartPlace {
 /// The same in a store, near a few points only; see free_start.
 [[nodiscard]] StartPlace find_start(const Store& store, std::uint64_t memory, const WalkerSettings& settings, Mode mode,
                                     const std::function<bool()>& goes_on);
-
-/// The horizontal direction, in degrees, with the longest view from `eye` before a wall, not through a slit.
-[[nodiscard]] double open_yaw(const Space& space, const Vec3& eye);
 
 /// A pose from which a camera of this field of view sees all of `box`. `fov`: degrees, of the picture's smaller side.
 /// `least`: metres that it is at least away from the ball around the box.
