@@ -34,14 +34,14 @@ namespace roam {
 /// A free place, and how much room there is.
 struct WanderStart {
   Vec3 place{0.0};      ///< of the centre, metres, for Walker::place
-  double room = 0.0;    ///< metres that the body can stride from there, weighted by the walls in sight; >= 0
+  double room = 0.0;    ///< metres that the body can stride from there, weighted by walls and view; >= 0
   bool on_top = false;  ///< under the sky, over a hollow or with little room: a roof, a deck, the top of an object
 };
 
 /// The candidate from which the body can stride farthest, in eight directions. Candidates are `floors`, and all floors
 /// under a grid of `columns` x `columns` (>= 0) over the space. Walls in sight count; a place within walls and under a
-/// ceiling counts fourfold, unless it is only a closet; there long views come first. A place on top counts only if
-/// there is no other. So a walk starts in a tunnel or a house, not on top of it. None if the body fits at no candidate.
+/// ceiling counts up to fivefold for a long view. A place on top counts only if there is no other. So a walk starts in
+/// a tunnel or a house, not on top of it. None if the body fits at no candidate.
 ///
 /// `accepts` is called with the centres of candidates, best first; the first that it accepts is returned.
 ///

@@ -1,36 +1,30 @@
 #include <algorithm>
-#include <array>
-#include <cmath>
-#include <glm/geometric.hpp>
 #include <optional>
 #include <vector>
 
 #include "math/floating_point.h"
 #include "math/slope.h"
 #include "motion/look_ahead.h"
+#include "motion/open_direction.h"
 #include "roam/error.h"
 #include "roam/wander.h"
 
 namespace roam {
 
-using namespace wandering;
-
 namespace {
+
+using namespace wandering;
 
 constexpr int most_floors = 64;       // that are looked at in a column
 constexpr double lift = 0.05;         // m, a start is looked for so high above a floor, then let down
 constexpr double floor_gap = 0.01;    // m, at least: the next floor of a column is looked for so far below the last
 constexpr int most_more_rays = 2048;  // in all, for scenes that are higher than a ray is long
 constexpr double wall_reach = 30.0;   // m, farther is the open
-constexpr double hall = 15.0;         // m, who sees farther from within walls is in no closet and no hollow house
-constexpr double inside_worth = 4.0;
+// m: indoors, a view counts from the one to the other
+constexpr double short_view = 4.0, long_view = 7.0;
 constexpr double hollow = 1.0;            // m, of air below a floor under the sky: that is a roof
 constexpr double least_open_room = 10.0;  // m, the sum of eight directions: under the sky, less is no ground to walk on
 constexpr int room_strides = 20;          // 10 m: farther is free enough
-constexpr std::size_t most_rooms = 16;    // whose views are compared
-constexpr double same_room = 3.0;         // m: nearer places are in the same room
-constexpr double long_view = 7.0;         // m: who sees so far is in no small room
-constexpr double view_share = 0.75;       // of the longest view: that is long, too
 
 /// Whether there is air below the surface at `floor`, over another one.
 bool is_over_hollow(const Space& space, const Vec3& floor) {
@@ -38,6 +32,14 @@ bool is_over_hollow(const Space& space, const Vec3& floor) {
   const double depth = std::min(floor.z - space.bounds().lower.z + 1.0, Space::motion_limit);
   const FirstImpact below = space.first_impact({0.0, 0.0}, floor - Vec3(0, 0, gap), {0, 0, -depth});
   return below.hit && gap + below.time * depth > hollow;
+}
+
+/// The weight of a place indoors by its view. A bed leaves more room to stride than a table and chairs, but a living
+/// room is larger than a bedroom.
+double worth_of_view(const Space& space, const Vec3& eye) {
+  const double view = open_direction(space, eye, 2.0 * long_view).length;
+  const double times = std::clamp(view, short_view, long_view) / short_view;
+  return times * times * times;
 }
 
 /// A place on the floor at `floor`, or in the air above it, and how much room there is; less than 0: the body does not
@@ -73,53 +75,10 @@ WanderStart start_at(const Space& space, const WalkerSettings& settings, Mode mo
   // In the open, a place with walls all around has no view: a hollow of the land.
   if (above.hit || sight >= wall_reach) start.room *= 1.0 + walls;
   // A long corridor is open at its ends.
-  if (above.hit && walls >= directions - 1 && sight > hall) start.room *= inside_worth;
+  if (above.hit && walls >= directions - 1) {
+    start.room *= worth_of_view(space, start.place + Vec3(0, 0, settings.eye - 0.5 * settings.height));
+  }
   return start;
-}
-
-/// Metres to the walls at the height of the eye, on average over a sixth of the horizon: where they are farthest.
-double view_from(const Space& space, const WalkerSettings& settings, const Vec3& place) {
-  constexpr int directions = 32, beside = 2;
-  constexpr double slit = 0.2;  // m, radius: nobody looks through narrower ones
-  const Vec3 eye = place + Vec3(0, 0, std::max(0.0, settings.eye - 0.5 * settings.height));
-  std::array<double, directions> way{};
-  for (int i = 0; i < directions; ++i) {
-    const FirstImpact wall = space.first_impact({slit, 0.0}, eye, wall_reach * level(i, directions));
-    way[static_cast<std::size_t>(i)] = wall.hit ? wall.time * wall_reach : 0.0;
-  }
-  double best = 0.0;
-  for (int i = 0; i < directions; ++i) {
-    double sum = 0.0;
-    for (int k = -beside; k <= beside; ++k) sum += way[static_cast<std::size_t>((i + k + directions) % directions)];
-    best = std::max(best, sum / (2 * beside + 1));
-  }
-  return best;
-}
-
-/// Puts places with a long view before the others, of places that are sorted, best first. A bed leaves more room to
-/// stride than a table and chairs, but a living room is larger than a bedroom. In the open nothing changes.
-void prefer_views(std::vector<WanderStart>& places, const Space& space, const WalkerSettings& settings) {
-  if (places.empty() || !space.first_impact({0.0, 0.0}, places.front().place, {0, 0, wall_reach}).hit) return;
-  struct Room {
-    WanderStart start;
-    double view;
-  };
-  std::vector<Room> rooms;
-  double longest = 0.0;
-  for (const WanderStart& start : places) {
-    if (rooms.size() == most_rooms || start.on_top != places.front().on_top) break;
-    if (std::any_of(rooms.begin(), rooms.end(),
-                    [&](const Room& room) { return glm::distance(room.start.place, start.place) < same_room; })) {
-      continue;
-    }
-    rooms.push_back({start, std::min(view_from(space, settings, start.place), long_view)});
-    if (rooms.front().view == long_view) return;
-    longest = std::max(longest, rooms.back().view);
-  }
-  std::erase_if(rooms, [&](const Room& room) { return room.view < view_share * longest; });
-  std::vector<WanderStart> preferred;
-  for (const Room& room : rooms) preferred.push_back(room.start);
-  places.insert(places.begin(), preferred.begin(), preferred.end());
 }
 
 /// Metres from a place down to the triangle below it, if that is within `depth`. A ray reaches no farther than a
@@ -169,7 +128,6 @@ std::optional<WanderStart> wander_start(const Space& space, const WalkerSettings
   std::stable_sort(found.begin(), found.end(), [](const WanderStart& a, const WanderStart& b) {
     return a.on_top != b.on_top ? b.on_top : a.room > b.room;
   });
-  prefer_views(found, space, settings);
   const auto best = std::find_if(found.begin(), found.end(),
                                  [&](const WanderStart& start) { return !accepts || accepts(start.place); });
   return best == found.end() ? std::nullopt : std::optional(*best);

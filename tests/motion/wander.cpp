@@ -3,9 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
 #include <set>
 #include <string>
+#include <tuple>
+#include <vector>
 
 #include "messages.h"
 #include "roam/world.h"
@@ -128,6 +131,51 @@ TEST(WanderStart, IsOnAFloorWithinWalls) {
   EXPECT_FALSE(wander_start(world, {.radius = 2.0, .height = 8.0}, Mode::fly, {}, 0)) << "no candidate";
   EXPECT_FALSE(wander_start(World(), person, Mode::walk)) << "an empty scene";
   EXPECT_THROW((void)wander_start(world, {.radius = -1.0}, Mode::walk), Error);
+}
+
+TEST(WanderStart, IsInAHouseOfSmallRoomsRatherThanInItsGarden) {
+  // Four rooms of 4 m x 4 m under one ceiling, joined by doors; the garden wall is 15 m from their middle.
+  Mesh mesh;
+  scenes::add_floor(mesh, -11, -11, 19, 19, 0);
+  scenes::add_floor(mesh, 0, 0, 8, 8, 2.6);
+  const auto walls = [&](double low, double high, double top) {
+    scenes::add_wall(mesh, low, low, high, low, 0, top);
+    scenes::add_wall(mesh, low, high, high, high, 0, top);
+    scenes::add_wall(mesh, low, low, low, high, 0, top);
+    scenes::add_wall(mesh, high, low, high, high, 0, top);
+  };
+  walls(-11, 19, 2);
+  walls(0, 8, 2.6);
+  for (const double corner : {0.0, 4.0}) {  // two doors in each wall between the rooms
+    for (const double part : {0.0, 2.5}) {
+      const double from = corner + part, to = from + 1.5;
+      scenes::add_wall(mesh, from, 4, to, 4, 0, 2.6);
+      scenes::add_wall(mesh, 4, from, 4, to, 0, 2.6);
+    }
+  }
+  const World world = scenes::build(mesh);
+  std::vector<Vec3> refused;
+  const auto refuse = [&](const Vec3& place) { return refused.push_back(place), false; };
+  for (const Mode mode : {Mode::walk, Mode::fly}) {
+    const std::optional<WanderStart> start = wander_start(world, person, mode);
+    ASSERT_TRUE(start);
+    EXPECT_TRUE(world.ray(start->place, {0, 0, 3}).hit) << start->place.x << " " << start->place.y;
+  }
+  EXPECT_FALSE(wander_start(world, person, Mode::walk, {}, 32, {}, refuse));
+  std::sort(refused.begin(), refused.end(),
+            [](const Vec3& a, const Vec3& b) { return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z); });
+  EXPECT_EQ(std::adjacent_find(refused.begin(), refused.end()), refused.end()) << "a candidate is judged once";
+}
+
+TEST(WanderStart, IsInALongRoomRatherThanInASmallOneWithMoreFloor) {
+  // 4 m x 4 m, empty, beside 4 m x 14 m with tables that leave aisles of 0.8 m.
+  Mesh mesh;
+  scenes::add_box(mesh, {0, 0, 0}, {4, 4, 2.6});
+  scenes::add_box(mesh, {10, 0, 0}, {14, 14, 2.6});
+  for (double y = 0.8; y < 13.0; y += 1.8) scenes::add_box(mesh, {10.8, y, 0}, {13.2, y + 1, 0.9});
+  const std::optional<WanderStart> start = wander_start(scenes::build(mesh), person, Mode::walk);
+  ASSERT_TRUE(start);
+  EXPECT_GT(start->place.x, 10.0);
 }
 
 TEST(WanderStart, IsLookedForOnceOnEachFloorOfAHugeScene) {
