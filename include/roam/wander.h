@@ -52,6 +52,15 @@ struct WanderStart {
                                                       const std::function<bool()>& goes_on = {},
                                                       const std::function<bool(const Vec3&)>& accepts = {});
 
+struct OpenDirection {
+  double yaw = 0.0;     ///< degrees
+  double length = 0.0;  ///< metres that are open there, on average over a sixth of the horizon, most of all its middle
+};
+
+/// The level direction from `eye` in which most is open, up to `reach` metres and within the bounds of the space. Views
+/// through slits count for nothing. Thread-safe as the space's queries are.
+[[nodiscard]] OpenDirection open_direction(const Space& space, const Vec3& eye, double reach);
+
 struct WanderOptions {
   double speed = 1.4;      ///< metres per second, > 0
   double dt = 1.0 / 60.0;  ///< seconds a step, >= Route::shortest_step

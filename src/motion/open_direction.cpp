@@ -1,9 +1,9 @@
-#include "motion/open_direction.h"
-
 #include <algorithm>
 #include <array>
 
+#include "math/floating_point.h"
 #include "motion/look_ahead.h"
+#include "roam/wander.h"
 
 namespace roam {
 
@@ -13,6 +13,7 @@ OpenDirection open_direction(const Space& space, const Vec3& eye, double reach) 
   constexpr double all_weights = 9.0;
   constexpr int beside = 2;
   constexpr double slit = 0.15;  // m, radius: narrower ones are closed
+  const DefaultFloatingPoint guard;
   const Box box = space.bounds();
   if (box.empty()) return {};
   // Near a floor or a wall a smaller ball: it must not touch them from the start.

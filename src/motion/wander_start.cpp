@@ -5,7 +5,6 @@
 #include "math/floating_point.h"
 #include "math/slope.h"
 #include "motion/look_ahead.h"
-#include "motion/open_direction.h"
 #include "roam/error.h"
 #include "roam/wander.h"
 

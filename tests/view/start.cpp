@@ -8,8 +8,8 @@
 #include <numbers>
 
 #include "box_made.h"
-#include "motion/open_direction.h"
 #include "roam/generate.h"
+#include "roam/wander.h"
 #include "roam/world.h"
 #include "walker_scenes.h"
 

@@ -7,8 +7,8 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
-#include "motion/open_direction.h"
 #include "roam/error.h"
+#include "roam/wander.h"
 #include "roam/world.h"
 #include "scenes/free_start.h"
 #include "scenes/triangles_around.h"
