@@ -95,6 +95,8 @@ void write_profile(const TrainVerbOptions& o, const std::filesystem::path& file,
     learnt.frame = frame_to_keep(o.scene);
     save_profile(learnt, file);
     report.profile = file;
+    std::error_code none;
+    report.is_beside = std::filesystem::equivalent(file, profile_path(o.scene.scenes), none);
   }
 }
 
@@ -146,7 +148,7 @@ ExitStatus train(TrainVerbOptions o) {
   const Surveyed scene = survey_scene(o.scene, o.slope);
   constexpr double narrow_door = 0.6;  // m: width of a person without clearance
   check_spacing(scene, o.train.spacing, narrow_door);
-  TrainReport report{o.scene.names(), scene.survey.triangles(), o.train, {}, {}, {}};
+  TrainReport report{o.scene.names(), scene.survey.triangles(), o.train, {}, {}, {}, {}};
   report.frame = frame_of(o.scene);
   {
     StagedProgress progress;

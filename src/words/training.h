@@ -29,8 +29,9 @@ struct Decisive {
 using TrainingNames = std::vector<std::pair<std::string, std::string>>;
 
 /// The report: the answer in one line, and labelled lines. `profile`: the file that was written, or empty.
+/// `is_beside`: whether other verbs find it beside the scene.
 [[nodiscard]] std::string report(const Training& training, const TrainOptions& options, const TrainingNames& names,
-                                 const std::string& profile);
+                                 const std::string& profile, bool is_beside);
 
 /// "On path 3 a body with radius 0.300 m (the chosen body) should come through, but was blocked at (1.00, 2.00, 3.00)."
 [[nodiscard]] std::string contradiction(const Contradiction& contradiction);

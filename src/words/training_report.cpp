@@ -128,7 +128,7 @@ std::string not_reached(const Training& t) {
 }  // namespace
 
 std::string report(const Training& t, const TrainOptions& options, const TrainingNames& names,
-                   const std::string& profile) {
+                   const std::string& profile, bool is_beside) {
   Lines lines(headline(t));
   const bool is_plain = t.complete && !t.paper && !t.paths.empty() && !t.nowhere && t.contradictions.empty();
   if (!is_plain || (!t.feasible && t.support_radius <= t.radius)) lines.add("why", answer(t, options));
@@ -146,9 +146,11 @@ std::string report(const Training& t, const TrainOptions& options, const Trainin
   lines.add("separate", separate(t));
   lines.add("not reached", not_reached(t));
   lines.add("left out", left_out(t));
-  lines.add("saved", profile.empty() ? "nothing, so walk and view do not know this body"
-                                     : printable(profile, longest_sentence) +
-                                           ": walk and view use this body from now on (--no-profile: they do not)");
+  lines.add("saved", profile.empty()
+                         ? "nothing, so walk and view do not know this body"
+                         : printable(profile, longest_sentence) +
+                               (is_beside ? ": walk and view use this body from now on (--no-profile: they do not)"
+                                          : ": walk and view do not read it, only the one beside the scene"));
   return lines.text();
 }
 

@@ -139,7 +139,7 @@ Json json_report(const TrainReport& report) {
 }
 
 std::string text_report(const TrainReport& report) {
-  return words::report(report.training, report.options, report.names, report.profile.string());
+  return words::report(report.training, report.options, report.names, report.profile.string(), report.is_beside);
 }
 
 std::string stats_report(const TrainReport& report) {

@@ -22,6 +22,7 @@ struct TrainReport {
   TrainOptions options;
   Training training;
   std::filesystem::path profile;  ///< the written file; empty: none
+  bool is_beside = false;         ///< the scene, where other verbs find it
   words::TrainingNames names;
   std::optional<SceneFrame> frame{};
 };
