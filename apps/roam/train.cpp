@@ -137,12 +137,12 @@ ExitStatus train(TrainVerbOptions o) {
   const std::filesystem::path profile = profile_file(o);
   take_kept_frame(o.scene);
   if (o.picture) check_output("--picture", *o.picture);
-  std::vector<NamedFile> inputs = named_scenes(o.scene.scenes);
-  const std::filesystem::path kept = profile_path(o.scene.scenes);
-  if (!o.profile || *o.profile != kept) inputs.push_back({"the profile", kept});
   const NamedFile outputs[] = {{"-o", o.profile.value_or(""), begins_with(profile_start)},
                                {"--picture", o.picture.value_or("")}};
-  demand_no_overwriting(inputs, outputs);
+  demand_no_overwriting(named_scenes(o.scene.scenes), outputs);
+  // -o may name the scene's own profile, in any spelling.
+  const NamedFile kept{"the profile", profile_path(o.scene.scenes)};
+  demand_no_overwriting({&kept, 1}, {&outputs[1], 1});
   std::optional<draw::PictureFile> drawing;
   if (o.picture) drawing.emplace(*o.picture, draw::PictureFile::Views::in_metres);
   const Surveyed scene = survey_scene(o.scene, o.slope);

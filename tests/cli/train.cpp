@@ -59,7 +59,7 @@ TEST(TrainVerb, EndsWithThreeWhereNoOneBodyServesAndSaysWhatToUse) {
   EXPECT_TRUE(train.wrote("p.json"));
   EXPECT_FALSE(train.wrote("scene.obj.roam.json"));
   EXPECT_TRUE(contains(train.result.out, "walk and view do not read it")) << train.result.out;
-  const Train beside({}, {"-o", "@scene.obj.roam.json"});
+  const Train beside({}, {"-o", "@./scene.obj.roam.json"});
   EXPECT_TRUE(contains(beside.result.out, "walk and view use this body")) << beside.result.out;
 }
 
