@@ -16,8 +16,8 @@ namespace roam::index::HWY_NAMESPACE {
 /// Data of a ray's tests in addition to its Motion.
 struct Ray {
   static constexpr bool is_ray = true;
-  /// Of the vectors of the projection: sqrt(2), as no slope is over 1. The surplus of a thousand roundings covers those
-  /// of `room` and of its products, which are fewer than twenty.
+  /// The vectors of the projection are at most sqrt(2) long, because no slope is over 1. The surplus is a thousand
+  /// roundings; `room` and its products have fewer than twenty.
   static constexpr float longest_across = 1.4143F;
   // 1 / forward[k] in 16 bits, so that the product with a bound of a node is exact, and at least 2^-16 of it too small
   // and too large: far more than the roundings of a time.
