@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* program_name = "roam-bench";
 
-constexpr const char* help = R"(Kinds:
+constexpr const char* bench_help = R"(Kinds:
   engines   sweeps through scenes: roam, Bullet, Embree, FCL, OpenSceneGraph, PhysX, Jolt, Box3D,
             three-mesh-bvh and the paper's method
   labels    a million sweeps with exact answers, to judge any engine
@@ -69,7 +69,7 @@ ExitStatus become(std::vector<std::string> arguments) {
 void add_bench(CLI::App& program, Run& run) {
   CLI::App* verb =
       program.add_subcommand("bench", "Measure roam beside other engines: engines, labels, paper, scale or walkers");
-  verb->footer(help);
+  verb->footer(bench_help);
   verb->prefix_command();
   verb->callback([verb, &run] {
     const std::vector<std::string> arguments = verb->remaining();

@@ -98,7 +98,7 @@ void tell_notes(const BuildVerb& verb, const StoreBuildReport& report) {
   for (const std::string& note : notes_as_sentences(report, verb.output)) tell("note: " + note);
 }
 
-void print_report(const BuildVerb& verb, const Json& report) {
+void print_json(const BuildVerb& verb, const Json& report) {
   if (verb.json_lines) {
     print_line(report);
   } else {
@@ -140,7 +140,7 @@ void tell_store(const BuildVerb& verb, const StoreBuildReport& report, double se
     json["bytes"] = info.bytes;
     json["bytes_per_triangle"] = per_triangle;
     json["hash"] = info.hash;
-    print_report(verb, json);
+    print_json(verb, json);
   } else if (report.unchanged) {
     print(fmt::format("{} is up to date: {} triangles, nothing has changed\n", printable_part(verb.output.string()),
                       info.triangles));
@@ -164,7 +164,7 @@ void tell_task(const BuildVerb& verb, const StoreBuildReport& report, double sec
       json["task_shards"] = report.task_shards;
     }
     if (verb.array) json["array"] = {{"engine", verb.array->engine}, {"variable", verb.array->variable}};
-    print_report(verb, json);
+    print_json(verb, json);
     return;
   }
   const std::string job = verb.array ? fmt::format(" ({}, {})", verb.array->engine, verb.array->variable) : "";
@@ -181,7 +181,7 @@ void tell_task(const BuildVerb& verb, const StoreBuildReport& report, double sec
 /// job after the merge.
 ExitStatus nothing_to_do(const BuildVerb& verb, const std::string& why) {
   if (verb.json) {
-    print_report(verb, {{"store", verb.output.string()}, {"nothing_to_do", why}});
+    print_json(verb, {{"store", verb.output.string()}, {"nothing_to_do", why}});
   } else {
     print(fmt::format("nothing to do: {}\n", printable_part(why)));
   }
@@ -208,7 +208,7 @@ ExitStatus run_steps(const BuildVerb& verb) {
         if (verb.json) {
           Json json = json_report(verb, report, seconds());
           if (report.tasks > 0) json["balance"] = balance(report);
-          print_report(verb, json);
+          print_json(verb, json);
         } else {
           tell_tasks(verb, report);
         }
@@ -306,7 +306,7 @@ void take(const Given& given, BuildVerb& verb) {
   }
 }
 
-constexpr const char* help =
+constexpr const char* build_help =
     R"(A store is a folder that `roam walk`, `view`, `sweep` and `info` take like a scene. You walk in it at
 full detail, in little memory. A build may be stopped or killed at any moment: the same command continues it, and the
 result is the same to the last byte. After a change of the scene only the changed parts are built again.
@@ -332,7 +332,7 @@ Examples:
 
 void add_build(CLI::App& program, Run& run) {
   CLI::App* verb = program.add_subcommand("build", "Make a collision store of a scene of any size");
-  verb->footer(help);
+  verb->footer(build_help);
   const auto options = std::make_shared<BuildVerb>();
   options->scene.add_to(*verb);
   verb->get_option("SCENE")->required(false)->description(

@@ -203,7 +203,7 @@ ExitStatus check_certificate(CheckOptions options) {
   return result.refused ? answer_no : done;
 }
 
-constexpr const char* help =
+constexpr const char* check_help =
     R"(A certificate lists the straight segments of a walk: `roam walk --certify FILE` writes it. `roam check`
 proves each segment again, against every triangle of the scene. It shares no code with the program that walked: only
 the scene is read in the same way. The proof is short enough to be read (src/check), and docs/format.md describes the
@@ -229,7 +229,7 @@ Examples:
 void add_check(CLI::App& program, Run& run) {
   CLI::App* verb =
       program.add_subcommand("check", "Check the certificate of a walk against every triangle of its scene");
-  verb->footer(help);
+  verb->footer(check_help);
   const auto options = std::make_shared<CheckOptions>();
   CheckOptions& o = *options;
   verb->add_option("FILE", o.certificate, "The certificate (-: standard input)")->required()->type_name("");

@@ -241,7 +241,7 @@ ExitStatus info(SceneOptions options, bool json, bool stats) {
   return done;
 }
 
-constexpr const char* help =
+constexpr const char* info_help =
     R"(The report has the scene's triangles, objects and box, and the parts left out. --stats adds the memory of
 the index, the largest movement of a vertex in it, and the hash of the triangles: two files of any formats share it if
 their triangles are the same to the last digit, in the same order.
@@ -256,7 +256,7 @@ Examples:
 
 void add_info(CLI::App& program, Run& run) {
   CLI::App* verb = program.add_subcommand("info", "Report the contents of a scene and the memory of its index");
-  verb->footer(help);
+  verb->footer(info_help);
   struct Options {
     SceneOptions scene;
     bool json = false, stats = false;

@@ -266,7 +266,7 @@ ExitStatus probe(ProbeOptions o) {
   return all ? done : answer_no;
 }
 
-constexpr const char* help =
+constexpr const char* probe_help =
     R"(The answer is yes with the way and its narrowest place, or no with the opening that stops the body
 and the missing width. The widest way decides. It is certified, and a walker follows it before the answer is yes. Exit
 status 0 for yes; 3 for no, and if the walker does not get through; with --matrix, 0 if all sizes get through.
@@ -287,7 +287,7 @@ Examples:
 
 void add_probe(CLI::App& program, Run& run) {
   CLI::App* verb = program.add_subcommand("probe", "Find out whether a body of a given size gets from A to B");
-  verb->footer(help);
+  verb->footer(probe_help);
   const auto options = std::make_shared<ProbeOptions>();
   ProbeOptions& o = *options;
   add_surveyed_to(*verb, o.scene);

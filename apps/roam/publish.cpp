@@ -108,7 +108,7 @@ ExitStatus publish(const PublishOptions& options) {
   return done;
 }
 
-constexpr const char* help =
+constexpr const char* publish_help =
     R"(Publishing copies a store into DIR, from which a web server serves it. Each file that it copies is
 compared with its SHA-256 and renamed into place, CURRENT last: readers see the old store or the new one. A file
 that is there with its size stays, also if `roam verify` calls it damaged: remove it before. Files of the version
@@ -126,7 +126,7 @@ Examples:
 
 void add_publish(CLI::App& program, Run& run) {
   CLI::App* verb = program.add_subcommand("publish", "Copy a store to where a web server serves it");
-  verb->footer(help);
+  verb->footer(publish_help);
   const auto options = std::make_shared<PublishOptions>();
   PublishOptions& o = *options;
   CLI::Option* store =

@@ -19,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* help = R"(The folder gets the names of share/ in an installation.
+constexpr const char* reference_help = R"(The folder gets the names of share/ in an installation.
 
 Examples:
   roam reference share
@@ -60,7 +60,7 @@ void write_completion(const HelpPage& program, const fs::path& folder) {
 void add_reference(CLI::App& program, Run& run) {
   CLI::App* verb = program.add_subcommand("reference", "Write pages of the manual, and completion for shells");
   verb->group("");
-  verb->footer(help);
+  verb->footer(reference_help);
   const auto folder = std::make_shared<fs::path>();
   verb->add_option("FOLDER", *folder, "Folder to write to")->required()->type_name("");
   verb->callback([folder, &program, &run] {

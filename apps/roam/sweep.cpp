@@ -206,7 +206,7 @@ ExitStatus sweep(SceneOptions options) {
   return missing.any(options) ? answer_no : done;
 }
 
-constexpr const char* help =
+constexpr const char* sweep_help =
     R"(Queries come from standard input, one a line; answers go to standard output in the same order:
 
   in   x,y,z,dx,dy,dz,radius[,half_height]   a header of these names may come first
@@ -230,7 +230,7 @@ Examples:
 
 void add_sweep(CLI::App& program, Run& run) {
   CLI::App* verb = program.add_subcommand("sweep", "Sweep bodies through a scene: queries and answers as CSV");
-  verb->footer(help);
+  verb->footer(sweep_help);
   const auto options = std::make_shared<SceneOptions>();
   options->add_to(*verb);
   add_web_options(*verb, *verb->get_option("SCENE"), options->web);

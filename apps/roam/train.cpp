@@ -175,7 +175,7 @@ ExitStatus train(TrainVerbOptions o) {
   return report.training.feasible ? done : answer_no;
 }
 
-constexpr const char* help =
+constexpr const char* train_help =
     R"(Training plans paths between the scene's rooms. The narrowest opening on them gives the largest
 radius; the widest crack gives the smallest radius. Bodies of these sizes then walk the paths as proof. The result is
 saved beside the scene, in SCENE.roam.json, for `roam walk` and `roam view`. Exit status 0 if one body serves all
@@ -197,7 +197,7 @@ Examples:
 void add_train(CLI::App& program, Run& run) {
   CLI::App* verb =
       program.add_subcommand("train", "Find the sizes of a body that get everywhere in a scene and fall nowhere");
-  verb->footer(help);
+  verb->footer(train_help);
   const auto options = std::make_shared<TrainVerbOptions>();
   TrainVerbOptions& o = *options;
   add_surveyed_to(*verb, o.scene);

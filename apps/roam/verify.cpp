@@ -156,7 +156,7 @@ ExitStatus verify_or_repair(const VerifyOptions& options) {
   return found.whole() ? done : answer_no;
 }
 
-constexpr const char* help =
+constexpr const char* verify_help =
     R"(Verifying reads every byte of a store: the hash of each file, the checksum of each tile and page. It
 decodes every tile, and compares counts, boxes and the hash of all triangles. Damage is named by tile and place. The
 store is solid there; everywhere else you can walk in it.
@@ -177,7 +177,7 @@ Examples:
 
 void add_verify(CLI::App& program, Run& run) {
   CLI::App* verb = program.add_subcommand("verify", "Check whether a store is whole, and repair it");
-  verb->footer(help);
+  verb->footer(verify_help);
   const auto options = std::make_shared<VerifyOptions>();
   VerifyOptions& o = *options;
   add_web_options(*verb,

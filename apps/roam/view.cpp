@@ -157,7 +157,7 @@ ExitStatus view(ViewOptions options) {
   return report.result && !reached ? answer_no : done;
 }
 
-constexpr const char* help =
+constexpr const char* view_help =
     R"(W A S D and the mouse move you, H shows all keys. Gravity pulls you down and walls stop you; the
 display says what stops you. The window opens at once; you are held until the walls are loaded.
 
@@ -186,7 +186,7 @@ Examples:
 
 void add_view(CLI::App& program, Run& run) {
   CLI::App* verb = program.add_subcommand("view", "Open a window on a scene and roam in it");
-  verb->footer(help);
+  verb->footer(view_help);
   const auto options = std::make_shared<ViewOptions>();
   options->add_to(*verb);
   verb->callback([options, &run] { run = [options] { return view(*options); }; });

@@ -363,7 +363,7 @@ ExitStatus walk(WalkOptions options) {
   return report.result.outcome == Outcome::reached ? done : answer_no;
 }
 
-constexpr const char* help =
+constexpr const char* walk_help =
     R"(The report says how the walk ended: reached, blocked (where and by what), fell, left_scene
 or held; then the narrowest place of the way and the headroom. Exit status 0 if the end is reached, 3 if not. After
 Ctrl-C, report, trace and picture of the way so far are still written (status 130).
@@ -390,7 +390,7 @@ Examples:
 
 void add_walk(CLI::App& program, Run& run) {
   CLI::App* verb = program.add_subcommand("walk", "Send a body along a path through a scene and report how it went");
-  verb->footer(help);
+  verb->footer(walk_help);
   const auto options = std::make_shared<WalkOptions>();
   options->add_to(*verb);
   verb->callback([options, &run] { run = [options] { return walk(*options); }; });

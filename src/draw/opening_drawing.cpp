@@ -10,8 +10,8 @@ namespace roam::draw {
 namespace {
 
 // Pixels.
-constexpr double most_height = 760.0;
-constexpr double least_height = 360.0;
+constexpr double opening_most_height = 760.0;
+constexpr double opening_least_height = 360.0;
 
 /// Metres. A surface above a plan is cut this far above its lower side. Walls are shown this far beyond an opening's
 /// depth.
@@ -32,7 +32,7 @@ Turn turn_of(const OpeningView& o, bool is_level) {
   return {{o.point.x, o.point.y, 0.0}, across.x, across.y};
 }
 
-Frame section_frame(const OpeningView& o, bool is_level, double panel_width) {
+Frame section_frame(const OpeningView& o, bool is_level, double width) {
   const bool crack = o.kind == OpeningView::Kind::crack;
   const double upright_half = 0.5 * o.width * std::abs(o.direction.z);
   const double margin = o.mode == Mode::fly ? 1.5 * o.radius : 0.2 * o.height;
@@ -41,7 +41,7 @@ Frame section_frame(const OpeningView& o, bool is_level, double panel_width) {
   const double high = std::max(o.floor + o.height, o.point.z + upright_half) + margin;
   const double level_width = is_level ? o.width : 0.0;
   const double wide = std::max({(crack ? 3.0 : 4.0) * level_width, 8.0 * o.radius, 3.0 * o.support_radius});
-  return Frame::fitted({{-0.5 * wide, low}, {0.5 * wide, high}}, panel_width, least_height, most_height);
+  return Frame::fitted({{-0.5 * wide, low}, {0.5 * wide, high}}, width, opening_least_height, opening_most_height);
 }
 
 /// Adds `make(triangle)` for each triangle where that is not empty. Clears `areas` if they are too many for a drawing.
@@ -114,13 +114,13 @@ Cuts cut_out(const std::string& what, std::span<const Mesh> meshes, const Turn& 
   return cut(meshes, turn, views, section, [&](std::uint64_t done) { progress.at(done, all); });
 }
 
-OpeningDrawing drawing_of(const OpeningView& o, std::span<const Mesh> meshes, double panel_width) {
+OpeningDrawing drawing_of(const OpeningView& o, std::span<const Mesh> meshes, double width) {
   OpeningDrawing d;
   const double level = std::hypot(o.direction.x, o.direction.y);
   d.is_level = level > upright;
   d.turn = turn_of(o, d.is_level);
   if (o.body) d.body = d.turn.plan(*o.body);
-  d.section = section_frame(o, d.is_level, panel_width);
+  d.section = section_frame(o, d.is_level, width);
   const Rect& shown = d.section.view;
   d.plan = {Rect::around({0.0, 0.0}, shown.width(), shown.height()), d.section.scale_x, d.section.scale_y};
   const bool points_right = o.direction.x * d.turn.cosine + o.direction.y * d.turn.sine >= 0.0;

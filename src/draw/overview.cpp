@@ -13,8 +13,8 @@ namespace roam::draw {
 namespace {
 
 // Pixels.
-constexpr double most_height = 760.0;
-constexpr double least_height = 240.0;
+constexpr double overview_most_height = 760.0;
+constexpr double overview_least_height = 240.0;
 constexpr double dot = 8.0;         ///< least radius of an end
 constexpr double least_cell = 5.0;  ///< of the reached places
 
@@ -118,7 +118,7 @@ void add_overview(Page& page, const Overview& o, std::span<const Mesh> meshes) {
     turn = {turn.origin, 0.0, 1.0};  // y points to the left
     view = shown(o, turn);
   }
-  const Frame frame = Frame::fitted(view, content_width, least_height, most_height);
+  const Frame frame = Frame::fitted(view, content_width, overview_least_height, overview_most_height);
   const std::vector<Station> stations = stations_of(o);
   const Levels levels = find_levels(stations, o.height);
   const double below = 0.5 * o.height - o.step - 0.02 * o.height;

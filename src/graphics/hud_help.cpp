@@ -7,11 +7,11 @@
 namespace roam::graphics {
 namespace {
 
-const osg::Vec4 panel_color(0.04f, 0.05f, 0.065f, 0.90f);
-const osg::Vec4 focus_color(0.30f, 0.45f, 0.62f, 0.95f);
+const osg::Vec4 help_panel_color(0.04f, 0.05f, 0.065f, 0.90f);
+const osg::Vec4 focused_color(0.30f, 0.45f, 0.62f, 0.95f);
 const osg::Vec4 heading_color(0.52f, 0.80f, 1.0f, 1.0f);
 const osg::Vec4 key_color(1.0f, 1.0f, 1.0f, 1.0f);
-const osg::Vec4 text_color(0.86f, 0.89f, 0.92f, 1.0f);
+const osg::Vec4 deed_color(0.86f, 0.89f, 0.92f, 1.0f);
 /// Pixels. Smaller letters are unreadable.
 constexpr int smallest_letter = 7;
 /// Pixels. Lines are broken before letters get smaller than this.
@@ -99,7 +99,7 @@ Arrangement arrange(const std::vector<HelpLine>& lines, int letter, std::vector<
         column.deeds = std::max(column.deeds, width - column.keys - a.gap);
       } else {
         column.keys = std::max(column.keys, width);
-        column.deeds = std::max(column.deeds, width_of(lines[i].effect, {letter, false, text_color}));
+        column.deeds = std::max(column.deeds, width_of(lines[i].effect, {letter, false, deed_color}));
       }
     }
     a.width += std::ceil(column.keys + a.gap + column.deeds);
@@ -116,7 +116,7 @@ float bottom_of_help(const Page& page) {
 
 /// The lines, broken so that a column of them is at most `width` pixels wide. Text without a space is shortened.
 std::vector<HelpLine> narrowed(const std::vector<HelpLine>& lines, int letter, float width) {
-  const Look key_look{letter, true, key_color}, deed_look{letter, false, text_color};
+  const Look key_look{letter, true, key_color}, deed_look{letter, false, deed_color};
   const float gap = blank(letter).gap;
   float keys = 0;
   for (const HelpLine& line : lines) {
@@ -199,7 +199,7 @@ Clickable make_help(const Page& page, const std::vector<HelpLine>& lines, const 
   const float middle = 0.5f * (bottom_of_help(page) + page.height - page.margin);
   const float top = std::round(middle + 0.5f * a.height);
   made.where = {left, top - a.height, a.width, a.height};
-  add_plate(made.where, 0.6f * page.margin, panel_color);
+  add_plate(made.where, 0.6f * page.margin, help_panel_color);
 
   float x = left + 1.5f * a.gap;
   for (const Column& column : a.columns) {
@@ -210,12 +210,12 @@ Clickable make_help(const Page& page, const std::vector<HelpLine>& lines, const 
       if (is_heading(line) && i > column.first) y -= std::round(heading_space * a.line);
       const Rectangle row{x - 0.5f * a.gap, y - std::round(0.3f * a.line), width + a.gap, a.line};
       if (!line.name.empty()) made.targets.push_back({row, line.name});
-      if (!line.name.empty() && line.name == focus) add_plate(row, 0.25f * a.line, focus_color);
+      if (!line.name.empty() && line.name == focus) add_plate(row, 0.25f * a.line, focused_color);
       group->addChild(
           make_text(line.key, {a.letter, true, is_heading(line) ? heading_color : key_color}, std::round(x), y));
       if (!is_heading(line)) {
         const float deed_x = std::round(x + column.keys + a.gap);
-        group->addChild(make_text(line.effect, {a.letter, false, text_color}, deed_x, y));
+        group->addChild(make_text(line.effect, {a.letter, false, deed_color}, deed_x, y));
       }
       y -= a.line;
     }

@@ -6,11 +6,11 @@
 namespace roam::graphics {
 namespace {
 
-const osg::Vec4 panel_color(0.04f, 0.05f, 0.065f, 0.87f);
+const osg::Vec4 list_panel_color(0.04f, 0.05f, 0.065f, 0.87f);
 const osg::Vec4 field_color(0.96f, 0.97f, 0.98f, 0.14f);
 const osg::Vec4 focus_color(0.30f, 0.45f, 0.62f, 0.95f);
 const osg::Vec4 title_color(0.52f, 0.80f, 1.0f, 1.0f);
-const osg::Vec4 text_color(0.95f, 0.96f, 0.97f, 1.0f);
+const osg::Vec4 row_color(0.95f, 0.96f, 0.97f, 1.0f);
 const osg::Vec4 faint_color(0.72f, 0.79f, 0.86f, 1.0f);
 
 /// The places of the list's parts, in pixels.
@@ -40,7 +40,7 @@ Clickable make_list(const Page& page, const HudList& list, const std::string& fo
   const Places places(page);
   osg::ref_ptr<osg::Group> group = new osg::Group;
   Clickable made{group, {}, places.panel};
-  const Look title_look{page.letter, true, title_color}, look{page.letter, false, text_color},
+  const Look title_look{page.letter, true, title_color}, look{page.letter, false, row_color},
       faint{page.letter, false, faint_color};
   const auto add_plate = [&](const Rectangle& where, float radius, const osg::Vec4& color) {
     const osg::ref_ptr<osg::Geometry> plate = make_plate(where, radius, color);
@@ -49,7 +49,7 @@ Clickable make_list(const Page& page, const HudList& list, const std::string& fo
   };
   const float left = places.panel.x + places.pad, right = places.panel.x + places.panel.width - places.pad;
   const float letter = static_cast<float>(page.letter), rise = std::round(0.3f * page.line);
-  add_plate(places.panel, 0.5f * page.margin, panel_color);
+  add_plate(places.panel, 0.5f * page.margin, list_panel_color);
   float y = places.panel.y + places.panel.height - places.pad - page.line;  // the lower edge of the line
   group->addChild(make_text(shorten(list.title, title_look, right - left), title_look, left, y + rise));
   y = std::round(y - 1.1f * page.line);
@@ -76,7 +76,7 @@ Clickable make_list(const Page& page, const HudList& list, const std::string& fo
       add_plate({x, bottom, side, side}, 0.2f * side, faint_color);
       const float inner = side - 2.0f, mark = row.box == ListRow::Box::off ? inner : std::round(0.5f * inner);
       if (row.box != ListRow::Box::on) {
-        add_plate({x + 1.0f, bottom + side - 1.0f - mark, inner, mark}, 0.15f * side, panel_color);
+        add_plate({x + 1.0f, bottom + side - 1.0f - mark, inner, mark}, 0.15f * side, list_panel_color);
       }
       x += side + std::round(0.5f * letter);
     }

@@ -25,8 +25,8 @@ constexpr double least_pace = 4.0;
 /// Factor by which a reach that did not fit into memory grows again with each wait.
 constexpr double recovery = 1.01;
 
-double seconds_since(std::chrono::steady_clock::time_point begin) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+double age(std::chrono::steady_clock::time_point event) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - event).count();
 }
 
 }  // namespace
@@ -40,10 +40,10 @@ bool Arrivals::wait(const Body& body, const Vec3& place, const Vec3& velocity, d
   if (now.loads != loads_) last_ = Clock::now();
   if (now.loads != loads_ || now.reading > 0) read_ = Clock::now();
   loads_ = now.loads;
-  return !settled_ && !stuck() && seconds_since(read_) < (now.full ? full_after : idle_after);
+  return !settled_ && !stuck() && age(read_) < (now.full ? full_after : idle_after);
 }
 
-double Arrivals::silence() const { return seconds_since(last_); }
+double Arrivals::silence() const { return age(last_); }
 
 TilesAround::TilesAround(Pager& pager, std::function<bool()> goes_on, double stuck)
     : pager_(pager), goes_on_(std::move(goes_on)), stuck_(stuck) {}
