@@ -74,6 +74,24 @@ TEST(ViewNews, AreShownUntilTheyAreReadAndKeptOnce) {
   EXPECT_EQ(news.shown().size(), 4u) << "no more lines than fit";
 }
 
+TEST(ViewNews, ShowTheFrameBeforeWhatIsMissing) {
+  News news({"/scenes/mine.dae"});
+  news.note("/scenes/mine.dae states its unit.");
+  for (int i = 0; i < 9; ++i) news.note("image " + std::to_string(i) + " is missing");
+  news.note_first("/scenes/mine.dae states its unit.", "Ctrl+U applies it");
+  news.note_first("floors face y", "U turns it");
+  news.note("/scenes/mine.dae states its unit.");
+  for (int i = 0; i < 9; ++i) news.tell("more");
+  ASSERT_EQ(news.shown().size(), 4u);
+  EXPECT_EQ(news.shown()[0].text, "mine.dae states its unit. Ctrl+U applies it.");
+  EXPECT_EQ(news.shown()[1].text, "floors face y; U turns it");
+  EXPECT_EQ(news.shown()[3].text, "more");
+  ASSERT_EQ(news.notes().size(), 11u) << "each once";
+  EXPECT_EQ(news.notes()[0], "/scenes/mine.dae states its unit.");
+  EXPECT_EQ(news.notes()[1], "floors face y");
+  EXPECT_EQ(news.notes()[2], "image 0 is missing");
+}
+
 TEST_F(ViewObjects, ArrivalPutsTheBodyToItsPlace) {
   Arrival arrival(options_, plan(), what(), *roamer_, news_);
   wait_until([&] { return is_over(arrival.loader().state()); });

@@ -43,7 +43,7 @@ TEST(Unit, IsAppliedByAKeyAndKept) {
   const std::string scene = d.folder.write("scene.dae", test::collada("Z_UP", "0.0254"));
   d.options.scene.scenes = {scene};
   d.begin();
-  EXPECT_TRUE(contains(d.hud(), "Ctrl+U applies the unit that the file states: in")) << d.hud();
+  EXPECT_TRUE(contains(d.hud(), "(--unit in). Ctrl+U applies it.")) << d.hud();
   d.press(osgGA::GUIEventAdapter::KEY_Control_L);
   d.press('u');
   EXPECT_FALSE(d.session->frame());
@@ -53,7 +53,17 @@ TEST(Unit, IsAppliedByAKeyAndKept) {
   d.session.reset();
   d.options.scene.unit = "in";
   d.begin();
-  EXPECT_FALSE(contains(d.hud(), "applies the unit")) << d.hud();
+  EXPECT_FALSE(contains(d.hud(), "Ctrl+U")) << d.hud();
+}
+
+TEST(Unit, IsNotedOnce) {
+  DrivenSession d;
+  d.options.scene.scenes = {d.folder.write("scene.dae", test::collada("Z_UP", "0.0254"))};
+  d.begin();
+  d.run(0.5);
+  const std::vector<std::string> notes = d.session->finish().notes;
+  EXPECT_EQ(std::count_if(notes.begin(), notes.end(), [](const std::string& note) { return contains(note, " unit "); }),
+            1);
 }
 
 TEST(Turn, EndsTheSessionAndIsKept) {

@@ -72,20 +72,11 @@ bool Arrival::receive(const Seen& seen) {
   if (loaded_->start) {
     start_ = loaded_->start->pose;
     mode = loaded_->start->mode;
-    if (!loaded_->start->note.empty()) news_.note(loaded_->start->note);
+    if (!loaded_->start->note.empty()) news_.note_first(loaded_->start->note);
   } else {
     start_ = plan_.at ? *plan_.at : Pose{plan_.path.front().position, 0.0, 0.0};
   }
-  if (const auto up = loaded_->likely_up) {
-    const std::string key = key_of(roamer_.controls(), "turn");
-    news_.note(words::likely_up(scene_names_, *up) + (key.empty() ? key : fmt::format("; {} turns it", key)));
-  }
-  if (const auto unit = stated_unit()) {
-    const std::string key = key_of(roamer_.controls(), "unit");
-    if (!key.empty()) {
-      news_.note(fmt::format("{} applies the unit that the file states: {}", key, to_string(*unit)));
-    }
-  }
+  note_frame();
   roamer_.setMode(mode);
   pager_ = loaded_->pager;
   if (pager_) {
@@ -94,6 +85,21 @@ bool Arrival::receive(const Seen& seen) {
     roamer_.setSpace(std::shared_ptr<const Space>(loaded_->world));
   }
   return true;
+}
+
+/// Notes what the file states about its frame, and what its geometry makes likely, with the keys that apply it.
+void Arrival::note_frame() {
+  const auto remedy = [&](const char* command, const char* effect) {
+    const std::string key = key_of(roamer_.controls(), command);
+    return key.empty() ? key : fmt::format("{} {}", key, effect);
+  };
+  const std::string turns = remedy("turn", "turns it");
+  for (const std::string& note : loaded_->report.notes) {
+    const bool of_unit = note.find("--unit ") != std::string::npos;
+    if (of_unit && stated_unit()) news_.note_first(note, remedy("unit", "applies it"));
+    if (!of_unit && note.find("--up=") != std::string::npos) news_.note_first(note, turns);
+  }
+  if (const auto up = loaded_->likely_up) news_.note_first(words::likely_up(scene_names_, *up), turns);
 }
 
 void Arrival::place_ghost(const Seen& seen, const Error& why) {

@@ -85,6 +85,7 @@ class Arrival {
   void fill(ViewReport& report);
 
  private:
+  void note_frame();
   void place_ghost(const Seen& seen, const Error& why);
   void tell_where_put();
   [[nodiscard]] bool is_ground_below() const;

@@ -27,26 +27,48 @@ void erase_where_a_path_begins(std::string& text, const std::string& folder) {
 
 }  // namespace
 
-void News::tell(std::string sentence, bool warning) {
+void News::tell(std::string sentence, bool warning) { show(without_folders(std::move(sentence)), {"", warning}); }
+
+void News::tell_as_is(const std::string& sentence, bool warning) { show(sentence, {"", warning}); }
+
+std::string News::without_folders(std::string sentence) const {
   for (const auto& scene : scenes_) {
     for (const auto& path : {std::filesystem::absolute(scene), scene}) {
       const std::string folder = path.parent_path().string() + "/";
       if (folder != "/") erase_where_a_path_begins(sentence, folder);
     }
   }
-  tell_as_is(sentence, warning);
+  return sentence;
 }
 
-void News::tell_as_is(const std::string& sentence, bool warning) {
-  std::string shown = printable(without_secrets(sentence), longest_sentence);
-  const double seconds = std::max(least_seconds, letter_seconds * static_cast<double>(shown.size()));
-  items_.push_back({{std::move(shown), warning}, now_ + seconds});
-  if (items_.size() > most_items) items_.erase(items_.begin());
+/// Shows `item` with this sentence: after the others, or after the others that come first. The oldest that does not
+/// come first makes room.
+void News::show(const std::string& sentence, Item item) {
+  item.text = printable(without_secrets(sentence), longest_sentence);
+  item.until = now_ + std::max(least_seconds, letter_seconds * static_cast<double>(item.text.size()));
+  const auto others = std::find_if(items_.begin(), items_.end(), [](const Item& one) { return !one.first; });
+  items_.insert(item.first ? others : items_.end(), std::move(item));
+  if (items_.size() <= most_items) return;
+  const auto oldest = std::find_if(items_.begin(), items_.end(), [](const Item& one) { return !one.first; });
+  items_.erase(oldest == items_.end() ? items_.begin() : oldest);
 }
 
 void News::note(const std::string& sentence) {
-  tell(sentence, true);
+  const auto led =
+      std::find_if(items_.begin(), items_.end(), [&](const Item& one) { return one.first && one.note == sentence; });
+  if (led == items_.end()) show(without_folders(sentence), {sentence, true});
   if (std::find(notes_.begin(), notes_.end(), sentence) == notes_.end()) notes_.push_back(sentence);
+}
+
+void News::note_first(const std::string& sentence, const std::string& remedy) {
+  std::erase_if(items_, [&](const Item& one) { return one.note == sentence; });
+  std::string shown = without_folders(sentence);
+  if (!remedy.empty()) shown += shown.ends_with('.') ? " " + remedy + "." : "; " + remedy;
+  show(shown, {sentence, true, true});
+  const auto known = std::find(notes_.begin(), notes_.end(), sentence);
+  if (known - notes_.begin() < first_notes_) return;
+  if (known != notes_.end()) notes_.erase(known);
+  notes_.insert(notes_.begin() + first_notes_++, sentence);
 }
 
 void News::written(const std::filesystem::path& file) {
@@ -57,7 +79,7 @@ void News::written(const std::filesystem::path& file) {
 std::vector<Told> News::shown() {
   std::erase_if(items_, [&](const Item& item) { return item.until < now_; });
   std::vector<Told> told;
-  for (const Item& item : items_) told.push_back(item.told);
+  for (const Item& item : items_) told.push_back({item.text, item.warning});
   return told;
 }
 

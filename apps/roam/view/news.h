@@ -25,6 +25,9 @@ class News {
   void tell_as_is(const std::string& sentence, bool warning = false);
   /// Shows a warning, and keeps it for the report.
   void note(const std::string& sentence);
+  /// The same before all other sentences, with its remedy, which the report leaves out: "U turns it". If the sentence
+  /// is shown already, it moves to this place.
+  void note_first(const std::string& sentence, const std::string& remedy = {});
   /// Shows that a file was written, with its absolute path, and keeps its name for the report.
   void written(const std::filesystem::path& file);
 
@@ -36,13 +39,20 @@ class News {
 
  private:
   struct Item {
-    Told told;
+    std::string note;  ///< that it shows; empty: none
+    bool warning = false;
+    bool first = false;
+    std::string text = {};
     double until = 0.0;  ///< s
   };
+  [[nodiscard]] std::string without_folders(std::string sentence) const;
+  void show(const std::string& sentence, Item item);
+
   std::vector<std::filesystem::path> scenes_;
   double now_ = 0.0;
   std::vector<Item> items_;
   std::vector<std::string> notes_;
+  std::ptrdiff_t first_notes_ = 0;  ///< of these, from the beginning
   std::vector<std::string> files_;
 };
 
