@@ -30,10 +30,10 @@ constexpr std::uint64_t most_examined = 30'000'000;
 constexpr std::uint64_t bytes_a_triangle = 400;
 
 [[noreturn]] void fail_to_start(const WalkerSettings& settings) {
-  throw Error(
-      fmt::format("found no free place for a body of radius {:g} m and height {:g} m; is the up axis right (--up)? "
-                  "Else take a smaller body, or lead it with --path",
-                  settings.radius, settings.height));
+  throw Error(fmt::format(
+      "found no free place for a body of radius {:g} m and height {:g} m; are the up axis and the unit right "
+      "(--up, --unit)? Else take a smaller body, or lead it with --path",
+      settings.radius, settings.height));
 }
 
 /// Whether places are not within anything solid.

@@ -15,6 +15,7 @@
 #include "import/likely_up.h"
 #include "math/boxes.h"
 #include "roam/error.h"
+#include "roam/space.h"
 #include "roam/wander.h"
 #include "text/web_address.h"
 #include "words/frame.h"
@@ -187,6 +188,27 @@ std::optional<UpAxis> doubted_up(const SceneOptions& options, std::span<const Me
   return likely_up(meshes);
 }
 
+std::optional<double> doubted_ceilings(const SceneOptions& options, const ImportReport& report,
+                                       const std::optional<UpAxis>& up, const Space& space,
+                                       std::span<const Vec3> floors) {
+  constexpr double highest = 20.0;         // m: few halls are higher, and storeys in feet or inches are not
+  constexpr double covered = 0.25;         // of the floors: a city has roofs over less
+  constexpr double typical = 0.9;          // of the covered floors: things lie under tables
+  constexpr double over_the_floor = 0.05;  // m
+  if (!options.unit.empty() || report.stated_unit || up) return std::nullopt;
+  std::vector<double> heights;
+  for (const Vec3& floor : floors) {
+    const FirstImpact above =
+        space.first_impact({0.0, 0.0}, floor + Vec3(0.0, 0.0, over_the_floor), {0.0, 0.0, Space::motion_limit});
+    if (above.hit) heights.push_back(over_the_floor + above.time * Space::motion_limit);
+  }
+  const auto count = static_cast<double>(heights.size());
+  if (heights.empty() || count < covered * static_cast<double>(floors.size())) return std::nullopt;
+  const auto at = heights.begin() + static_cast<std::ptrdiff_t>(typical * count);
+  std::nth_element(heights.begin(), at, heights.end());
+  return *at > highest ? std::optional(*at) : std::nullopt;
+}
+
 ImportedScene read_scene(const SceneOptions& options) {
   options.check_there();
   ImportOptions how = options.import_options();
@@ -219,6 +241,9 @@ LoadedScene load(const SceneOptions& options, Source source) {
   loaded.build_seconds = seconds_since(indexing);
   for (const Mesh& mesh : scene.meshes) loaded.bounds.include(box_around(mesh.vertices));
   loaded.floors = floor_samples(scene.meshes);
+  if (const auto metres = doubted_ceilings(options, scene.report, loaded.likely_up, loaded.world, loaded.floors)) {
+    tell("note: " + words::high_ceilings(printable_part(options.file_names()), *metres));
+  }
   if (options.identify) loaded.identity = identity_of(scene.meshes);
   if (source == Source::keep) loaded.meshes = std::move(scene.meshes);
   loaded.report = std::move(scene.report);

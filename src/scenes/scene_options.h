@@ -83,7 +83,15 @@ enum class Source : std::uint8_t { keep, release };
 /// states one.
 [[nodiscard]] std::optional<UpAxis> doubted_up(const SceneOptions& options, std::span<const Mesh> meshes);
 
-/// The same, with a note on standard error.
+/// The height of the ceilings in metres, if the scene is so large that its unit is in doubt: nine tenths of the covered
+/// `floors` (see floor_samples) are no farther from what covers them, and that is over 20 m. None if less than a
+/// quarter of the floors are covered, if an option or the file states a unit, or if `up`, see doubted_up, is in doubt,
+/// as walls then count as ceilings. Takes microseconds a floor.
+[[nodiscard]] std::optional<double> doubted_ceilings(const SceneOptions& options, const ImportReport& report,
+                                                     const std::optional<UpAxis>& up, const Space& space,
+                                                     std::span<const Vec3> floors);
+
+/// The same as doubted_up, with a note on standard error.
 std::optional<UpAxis> tell_doubted_up(const SceneOptions& options, std::span<const Mesh> meshes);
 
 /// Reads, with progress and the import's notes on standard error. Throws what import_scene throws.

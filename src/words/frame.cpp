@@ -9,4 +9,11 @@ std::string likely_up(const std::string& scene, UpAxis axis) {
                      to_string(axis), to_string(axis));
 }
 
+std::string high_ceilings(const std::string& scene, double metres) {
+  return fmt::format(
+      "{} is read in metres, but its ceilings are {:.0f} m high: if it is too large, add --unit=cm, mm, "
+      "ft or in",
+      scene, metres);
+}
+
 }  // namespace roam::words

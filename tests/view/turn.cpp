@@ -66,6 +66,37 @@ TEST(Unit, IsNotedOnce) {
             1);
 }
 
+/// An OBJ with other coordinates.
+std::string scaled(const std::string& obj, double by) {
+  std::string text;
+  std::istringstream lines(obj);
+  for (std::string line; std::getline(lines, line);) {
+    std::istringstream fields(line);
+    std::string kind;
+    double x = 0.0, y = 0.0, z = 0.0;
+    if (fields >> kind && kind == "v" && fields >> x >> y >> z) {
+      line = "v " + std::to_string(by * x) + ' ' + std::to_string(by * y) + ' ' + std::to_string(by * z);
+    }
+    text += line + '\n';
+  }
+  return text;
+}
+
+TEST(Unit, IsDoubtedWhereCeilingsAreHigh) {
+  for (const double by : {1.0, 39.37}) {
+    DrivenSession d;
+    d.write_scene(scaled(room_obj(), by));
+    d.begin();
+    const char* const doubt =
+        "its ceilings are 118 m high: if it is too large, add --unit=cm, mm, ft or in; Ctrl+U applies";
+    EXPECT_EQ(contains(d.hud(), doubt), by > 1.0) << d.hud();
+    d.session.reset();
+    d.options.scene.unit = "m";
+    d.begin();
+    EXPECT_FALSE(contains(d.hud(), "ceilings")) << "it is stated: " << d.hud();
+  }
+}
+
 TEST(Turn, EndsTheSessionAndIsKept) {
   DrivenSession d;
   d.write_scene();

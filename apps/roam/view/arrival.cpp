@@ -100,6 +100,10 @@ void Arrival::note_frame() {
     if (!of_unit && note.find("--up=") != std::string::npos) news_.note_first(note, turns);
   }
   if (const auto up = loaded_->likely_up) news_.note_first(words::likely_up(scene_names_, *up), turns);
+  if (loaded_->doubted_ceilings) {
+    news_.note_first(words::high_ceilings(scene_names_, *loaded_->doubted_ceilings),
+                     remedy("unit", "applies the next unit"));
+  }
 }
 
 void Arrival::place_ghost(const Seen& seen, const Error& why) {

@@ -118,6 +118,8 @@ void CollisionLoader::load_scene() {
   for (const Mesh& mesh : scene.meshes) loaded.objects.push_back(mesh.name);
   loaded.report = std::move(scene.report);
   loaded.likely_up = doubted_up(options, scene.meshes);
+  loaded.doubted_ceilings =
+      doubted_ceilings(options, loaded.report, loaded.likely_up, *loaded.world, floor_samples(scene.meshes));
   loaded.identity = identity_of(scene.meshes);
   if (!wish_.place) {
     loading_.tell(LoadState::Phase::looking, 0.0, loaded.report.triangles);

@@ -29,8 +29,9 @@ struct Collision {
   std::vector<Mesh> meshes;          ///< the triangles as read, if the wish keeps them
   SceneIdentity identity;            ///< of the scene or the store
   ImportReport report;
-  std::optional<UpAxis> likely_up;  ///< see doubted_up
-  std::optional<StartPlace> start;  ///< set if the wish has no position
+  std::optional<UpAxis> likely_up;         ///< see doubted_up
+  std::optional<double> doubted_ceilings;  ///< see there
+  std::optional<StartPlace> start;         ///< set if the wish has no position
 };
 
 /// The options of a load.
