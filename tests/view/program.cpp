@@ -30,6 +30,24 @@ TEST(ViewPicture, ShowsASceneHigherThanAMotion) {
   }
 }
 
+TEST(ViewPicture, ShowsASceneOfMillimetres) {
+  std::string cube = "o cube\n";
+  for (int i = 0; i < 8; ++i) {
+    cube += std::string("v ") + ((i & 1) != 0 ? "0.008 " : "0 ") + ((i & 2) != 0 ? "0.008 " : "0 ") +
+            ((i & 4) != 0 ? "0.008\n" : "0\n");
+  }
+  cube += "f 1 3 4 2\nf 5 6 8 7\nf 1 2 6 5\nf 3 7 8 4\nf 1 5 7 3\nf 2 4 8 6\n";
+  View tiny(cube);
+  tiny.shot({});
+  ASSERT_EQ(tiny.result.status, 0) << tiny.result.err;
+  const Shot seen = tiny.picture();
+  // Top and sides differ in light, and from what is around them.
+  const osg::Vec4 top = seen.at(160, 130), side = seen.at(140, 85), around = seen.at(40, 100);
+  EXPECT_GT((top - side).length(), 0.05f);
+  EXPECT_GT((side - around).length(), 0.1f);
+  EXPECT_GT((top - around).length(), 0.1f);
+}
+
 TEST(ViewPicture, IsAsLargeAsAskedFor) {
   View view;
   view.run({"--headless", "--size", "5000x2000", "--json", "--at", "2,0,0.95,0", "--screenshot",

@@ -72,6 +72,11 @@ bool Arrival::receive(const Seen& seen) {
   if (loaded_->start) {
     start_ = loaded_->start->pose;
     mode = loaded_->start->mode;
+    if (mode == Mode::ghost && plan_.mode != Mode::ghost) {
+      // Before a small scene a key leads past it within a second, not within a frame.
+      const Box box = loaded_->pager ? loaded_->pager->bounds() : loaded_->world->bounds();
+      roamer_.setSpeed(std::min(roamer_.speed(), glm::length(box.size())));
+    }
     if (!loaded_->start->note.empty()) news_.note_first(loaded_->start->note);
   } else {
     start_ = plan_.at ? *plan_.at : Pose{plan_.path.front().position, 0.0, 0.0};

@@ -142,7 +142,11 @@ double Display::aspect() const {
 
 void Display::update(bool has_body, double room, graphics::Marks marks) {
   graphics::Frame& frame = stage_.frame();
-  const double near = graphics::near_limit(room, frame.vertical_fov(), aspect());
+  // A scene smaller than the body is looked at from nearer than the body comes to anything.
+  constexpr double share = 0.05;
+  const Box bounds = scene_.bounds();
+  const double limit = bounds.empty() ? room : std::min(room, share * glm::length(bounds.size()));
+  const double near = graphics::near_limit(std::max(limit, 1e-6), frame.vertical_fov(), aspect());
   if (near != frame.near()) frame.set_near(near);
   if (marks_ && has_body) {
     const Walker& walker = *roamer_.walker();

@@ -59,20 +59,66 @@ bool is_land(const Box& bounds, double room) {
   return room >= wide && size.z < flat * std::min(size.x, size.y);
 }
 
+/// Of the ball around a box, m.
+double radius_of(const Box& box) { return box.empty() ? 1.0 : std::max(0.5 * glm::length(box.size()), 1e-4); }
+
+/// From its middle to a camera that sees all of it, m.
+double distance_for(const Box& box, double fov) { return radius_of(box) / std::sin(0.5 * fov * degree); }
+
+/// "19 x 11.4 x 3 m", "7.6 x 4.56 x 1.2 mm"
+std::string size_text(const Box& box) {
+  constexpr double small = 0.1;  // m
+  const bool in_mm = std::max({box.size().x, box.size().y, box.size().z}) < small;
+  const Vec3 size = (in_mm ? 1e3 : 1.0) * box.size();
+  return fmt::format("{:.3g} x {:.3g} x {:.3g} {}", size.x, size.y, size.z, in_mm ? "mm" : "m");
+}
+
+/// Why a body does not start on top of a scene.
+std::string no_floor_text(const Box& bounds) {
+  constexpr double large = 100.0;  // m: few things that are seen from outside are longer
+  const bool doubted = std::max({bounds.size().x, bounds.size().y, bounds.size().z}) > large;
+  return fmt::format("the scene, {}, has no floor with room for this body{}", size_text(bounds),
+                     doubted ? "; is its unit right (--unit)?" : "");
+}
+
+/// Where a camera is beside a body's centre.
+Vec3 eye_offset(const WalkerSettings& settings) { return {0.0, 0.0, settings.eye - 0.5 * settings.height}; }
+
+/// Outside of the scene, flying, with all of it in view. A ghost near to a scene that would be small in the picture
+/// because the body has no room nearer to it.
+StartPlace outside(const WalkerSettings& settings, Mode mode, const Box& bounds, const std::string& why) {
+  constexpr double fov = 60.0;
+  constexpr double gap = 0.1;    // m, at least, between the body and the ball around the scene
+  constexpr double small = 0.5;  // of its greatest size in the picture
+  StartPlace start;
+  start.mode = mode == Mode::ghost ? Mode::ghost : Mode::fly;
+  start.pose = overview(bounds, fov);
+  const double whole = distance_for(bounds, fov);
+  const double needed = (radius_of(bounds) + settings.radius + gap) / std::cos(overview_pitch * degree);
+  if (whole < small * needed) {
+    start.mode = Mode::ghost;
+    start.note = fmt::format("A ghost, because the scene is smaller than the body: {}", size_text(bounds));
+  } else {
+    start.pose.position -= std::max(0.0, needed - whole) * direction(overview_yaw, overview_pitch);
+    if (!why.empty()) start.note = fmt::format("Outside of the scene, flying: {}", why);
+  }
+  start.pose.position -= eye_offset(settings);
+  return start;
+}
+
 /// `find` returns a start for a body of a mode, or throws Error.
 StartPlace start_place(const WalkerSettings& settings, Mode mode, const Box& bounds,
                        const std::function<WanderStart(Mode)>& find,
                        const std::function<View(const Vec3&)>& look_around) {
   StartPlace start;
   start.mode = mode;
-  constexpr double fov = 60.0;
   std::string why;
   for (const Mode way : {Mode::walk, Mode::fly}) {
     if (way == Mode::walk && mode != Mode::walk) continue;
     try {
       const WanderStart found = find(way);
       if (found.on_top && !is_land(bounds, found.room)) {
-        if (mode == Mode::walk) why = "the scene has no floor with room for this body";
+        if (mode == Mode::walk) why = no_floor_text(bounds);
         break;
       }
       const Vec3 centre = found.place;
@@ -80,28 +126,23 @@ StartPlace start_place(const WalkerSettings& settings, Mode mode, const Box& bou
         start.mode = Mode::fly;
         start.note = "There is no floor that this body can stand on: it flies. Is the up axis right (--up)?";
       }
-      const View view = look_around(centre + Vec3(0.0, 0.0, settings.eye - 0.5 * settings.height));
-      start.pose = {centre, view.yaw, 0.0};
+      const View view = look_around(centre + eye_offset(settings));
       // A flying body may as well begin with something in view.
-      if (start.mode == Mode::fly && !view.anything) start.pose = overview(bounds, fov, settings.height);
+      if (start.mode == Mode::fly && !view.anything) return outside(settings, mode, bounds, why);
+      start.pose = {centre, view.yaw, 0.0};
       return start;
     } catch (const Error& error) {
       why = error.what();
     }
   }
-  start.pose = overview(bounds, fov, settings.height);
-  if (mode != Mode::ghost) start.mode = Mode::fly;
-  start.note = why.empty() ? why : fmt::format("Outside of the scene, flying: {}", why);
-  return start;
+  return outside(settings, mode, bounds, why);
 }
 
 }  // namespace
 
-Pose overview(const Box& box, double fov, double least) {
-  const double radius = box.empty() ? 1.0 : std::max(0.5 * glm::length(box.size()), 1e-3);
+Pose overview(const Box& box, double fov) {
   const Vec3 centre = box.empty() ? Vec3(0.0) : box.center();
-  const double distance = std::max(radius / std::sin(0.5 * fov * degree), radius + least);
-  return {centre - distance * direction(overview_yaw, overview_pitch), overview_yaw, overview_pitch};
+  return {centre - distance_for(box, fov) * direction(overview_yaw, overview_pitch), overview_yaw, overview_pitch};
 }
 
 StartPlace find_start(const Space& space, const WalkerSettings& settings, Mode mode, std::span<const Mesh> meshes,
