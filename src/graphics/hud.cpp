@@ -111,7 +111,8 @@ class Hud::Panels : public osg::NodeCallback {
     status_changed = status_changed && detail == Detail::off;
     // The status is the first, then what makes room for it.
     const Rectangle before = std::exchange(status_place_, detail == Detail::off ? Rectangle{} : status_panel_.place());
-    if (hint_changed || before != status_place_) show_hint();
+    const Rectangle plan_before = std::exchange(hint_plan_, plan);
+    if (hint_changed || before != status_place_ || plan_before != plan) show_hint();
     message_changed = message_changed || before != status_place_;
     if (detail != Detail::off) lay_out();
     traverse(node, visitor);
@@ -138,7 +139,8 @@ class Hud::Panels : public osg::NodeCallback {
 
   void show_hint() {
     const Rectangle before = hint_place;
-    const Placed made = hint.empty() ? Placed{} : make_hint(page_, hint, hint_opacity, status_place_, plates_.get());
+    const Placed made =
+        hint.empty() ? Placed{} : make_hint(page_, hint, hint_opacity, {status_place_, plan}, plates_.get());
     show_only(*hint_, {made.node});
     hint_place = made.where;
     hint_changed = false;
@@ -197,6 +199,7 @@ class Hud::Panels : public osg::NodeCallback {
   osg::ref_ptr<osg::Group> hint_ = new osg::Group, recording_ = new osg::Group, labels_ = new osg::Group;
   osg::ref_ptr<osg::Group> button_ = new osg::Group, list_ = new osg::Group;
   Rectangle status_place_;               ///< for which hint and message are laid out
+  Rectangle hint_plan_;                  ///< for which the hint is laid out
   std::vector<Rectangle> above_labels_;  ///< for which the labels are laid out
 };
 

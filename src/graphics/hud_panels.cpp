@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 
 namespace roam::graphics {
 namespace {
@@ -31,6 +32,17 @@ constexpr std::size_t most_value_lines = 3;
 float top_of_button(const Page& page) { return page.margin + page.line + std::round(0.6f * page.margin); }
 
 float up_to(float value, float step) { return std::ceil(value / step) * step; }
+
+/// Lines of like lengths: no last line of one word.
+std::vector<std::string> break_evenly(const std::string& text, const Look& look, float width) {
+  std::vector<std::string> lines = break_lines(text, look, width);
+  for (float share = 0.95f; lines.size() > 1 && share > 0.4f; share -= 0.05f) {
+    std::vector<std::string> narrower = break_lines(text, look, share * width);
+    if (narrower.size() > lines.size()) break;
+    lines = std::move(narrower);
+  }
+  return lines;
+}
 
 }  // namespace
 
@@ -185,22 +197,17 @@ Placed make_message(const Page& page, const std::string& text, Tone tone, std::o
   const float pad = page.margin;
   const float bar = std::max(3.0f, std::round(0.3f * page.margin));
 
-  std::vector<std::string> lines = break_lines(text, look, 0.78f * page.right);
-  // Lines of like lengths: no last line of one word.
-  for (float width = 0.74f * page.right; lines.size() > 1 && width > 0.3f * page.right; width -= 0.04f * page.right) {
-    std::vector<std::string> narrower = break_lines(text, look, width);
-    if (narrower.size() > lines.size()) break;
-    lines = std::move(narrower);
-  }
+  std::vector<std::string> lines = break_evenly(text, look, 0.78f * page.right);
   const float bar_height = progress ? bar + (lines.empty() ? 0.0f : 0.5f * pad) : 0.0f;
   // Above the button, and never over the middle of the picture.
   const float bottom = std::round(std::max(0.07f * page.height, top_of_button(page) + 0.5f * page.margin));
   const float room = std::min(0.3f * page.height, limit - bottom - bar_height - pad);
-  const auto most = static_cast<std::size_t>(std::max(1.0f, room / line_height));
+  if (room < line_height) return {};
+  const auto most = static_cast<std::size_t>(room / line_height);
   if (lines.size() > most) lines.resize(most);
   float widest = progress ? 16.0f * page.margin : 0.0f;
   for (std::string& line : lines) {
-    line = shorten(line, look, 0.9f * page.right);
+    line = (line.find(' ') == std::string::npos ? shorten_name : shorten)(line, look, 0.9f * page.right);
     widest = std::max(widest, width_of(line, look));
   }
   const float text_height = line_height * static_cast<float>(lines.size());
@@ -230,7 +237,37 @@ Placed make_message(const Page& page, const std::string& text, Tone tone, std::o
   return {group, panel};
 }
 
-Placed make_hint(const Page& page, const std::string& text, double opacity, const Rectangle& status,
+namespace {
+
+/// A hint's lines. It is broken where its parts meet, which several blanks divide, and within a part if need be. As
+/// many lines as `most`; a name without blanks that is too long loses its middle, so that the end that one types stays.
+std::vector<std::string> break_hint(const std::string& text, const Look& look, float width, std::size_t most) {
+  constexpr std::string_view between = "     ";
+  std::vector<std::string> lines;
+  for (std::size_t begin = 0; begin < text.size();) {
+    const std::size_t end = std::min(text.find(between, begin), text.size());
+    const std::string part = text.substr(begin, end - begin);
+    begin = end + between.size();
+    const std::string longer = lines.empty() ? part : lines.back() + std::string(between) + part;
+    if (width_of(longer, look) <= width) {
+      (lines.empty() ? lines.emplace_back() : lines.back()) = longer;
+    } else {
+      for (std::string& line : break_evenly(part, look, width)) lines.push_back(std::move(line));
+    }
+  }
+  if (lines.size() > most) {
+    for (std::size_t i = most; i < lines.size(); ++i) lines[most - 1].append(1, ' ').append(lines[i]);
+    lines.resize(most);
+  }
+  for (std::string& line : lines) {
+    line = (line.find(' ') == std::string::npos ? shorten_name : shorten)(line, look, width);
+  }
+  return lines;
+}
+
+}  // namespace
+
+Placed make_hint(const Page& page, const std::string& text, double opacity, std::initializer_list<Rectangle> others,
                  osg::StateSet* plates) {
   osg::ref_ptr<osg::Group> group = new osg::Group;
   const auto faded = [&](osg::Vec4 color) {
@@ -238,24 +275,36 @@ Placed make_hint(const Page& page, const std::string& text, double opacity, cons
     return color;
   };
   const Look look{static_cast<int>(std::lround(1.15f * static_cast<float>(page.letter))), false, faded(text_color)};
+  const float line = std::round(1.45f * static_cast<float>(look.size));
   // Below a plan a long hint has the whole width, but it stays in the middle of the picture.
   const bool goes_below = page.below > 0.5f * page.height && width_of(text, look) > page.right - 4 * page.margin;
   const float right = goes_below ? page.width : page.right;
-  const std::string words = shorten(text, look, right - 4 * page.margin);
-  const float width = width_of(words, look), line = std::round(1.45f * static_cast<float>(look.size));
+  const auto most = static_cast<std::size_t>(std::max(1.0f, 0.2f * page.height / line));
+  const std::vector<std::string> lines = break_hint(text, look, right - 4 * page.margin, most);
+  float width = 0;
+  for (const std::string& words : lines) width = std::max(width, width_of(words, look));
   Rectangle panel;
   panel.width = std::round(width + 2 * page.margin);
-  panel.height = std::round(line + page.margin);
+  panel.height = std::round(line * static_cast<float>(lines.size()) + page.margin);
   panel.x = std::round(0.5f * (right - panel.width));
   panel.y = std::round(0.56f * page.height);
   if (goes_below) panel.y = std::min(panel.y, page.below - panel.height);
   const float gap = std::round(0.4f * page.margin);
-  if (overlap({panel.x, panel.y - gap, panel.width, panel.height + gap}, status)) {
-    panel.y = std::round(std::min(0.44f * page.height, status.y - gap) - panel.height);
+  float top = 0.44f * page.height;
+  for (std::size_t pass = 0; pass < others.size(); ++pass) {
+    for (const Rectangle& other : others) {
+      if (!overlap({panel.x, panel.y - gap, panel.width, panel.height + gap}, other)) continue;
+      top = std::min(top, other.y - gap);
+      panel.y = std::round(top - panel.height);
+    }
   }
   group->addChild(plate(plates, panel, 0.5f * page.margin, faded(panel_color)));
-  const float y = panel.y + panel.height - 0.5f * page.margin - std::round(1.08f * static_cast<float>(look.size));
-  group->addChild(make_text(words, look, std::round(panel.x + page.margin), std::round(y)));
+  float y = panel.y + panel.height - 0.5f * page.margin - std::round(1.08f * static_cast<float>(look.size));
+  for (const std::string& words : lines) {
+    const float x = panel.x + std::max(page.margin, 0.5f * (panel.width - width_of(words, look)));
+    group->addChild(make_text(words, look, std::round(x), std::round(y)));
+    y -= line;
+  }
   return {group, panel};
 }
 

@@ -78,13 +78,15 @@ struct Placed {
   Rectangle where;
 };
 
-/// The message in the lower middle, with the progress bar. It ends below `limit` pixels from below, if one line does.
+/// The message in the lower middle, with the progress bar. It ends below `limit` pixels from below;
+/// nothing without room for a line.
 [[nodiscard]] Placed make_message(const Page& page, const std::string& text, Tone tone, std::optional<double> progress,
                                   float limit, osg::StateSet* plates);
 
-/// A sentence above the middle, over the crosshair; under it where `status` is in the way.
-[[nodiscard]] Placed make_hint(const Page& page, const std::string& text, double opacity, const Rectangle& status,
-                               osg::StateSet* plates);
+/// A sentence above the middle, over the crosshair; under it where one of `others` is in the way. Broken where it is
+/// too long.
+[[nodiscard]] Placed make_hint(const Page& page, const std::string& text, double opacity,
+                               std::initializer_list<Rectangle> others, osg::StateSet* plates);
 
 /// A red dot and a text at the upper right.
 [[nodiscard]] Placed make_recording(const Page& page, const std::string& text, osg::StateSet* plates);

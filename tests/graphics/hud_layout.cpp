@@ -82,7 +82,9 @@ TEST_P(GraphicsHudLayout, KeepsItsPartsApart) {
                                             << ", plan " << int(size) << ", list " << listed);
             if (listed && size != PlanSize::none) continue;  // the list takes the plan's place
             hud.set_status(*lines);
-            hud.set_hint(hinted ? "Name of the bookmark: somewhere_     Enter: keep     Escape: cancel" : "");
+            hud.set_hint(hinted ? "Name of the bookmark: somewhere in the gallery behind the second door, on the "
+                                  "left_     Enter: keep     Escape: cancel"
+                                : "");
             hud.set_message(told ? message : "", Tone::warning);
             hud.set_progress(told ? 0.4 : -1.0);
             plan.set_view({.size = size, .centre = {0, 0}, .half = 10.0, .yaw = 0.0});
@@ -112,6 +114,20 @@ TEST_P(GraphicsHudLayout, KeepsTheHelpApart) {
   hud.set_list(long_list(10));
   hud.show_help(true);
   expect_apart(stage, hud, nullptr, width, height);
+}
+
+TEST(GraphicsHudHint, IsBrokenBesideAList) {
+  Stage stage(640, 360);
+  Hud hud(stage.frame);
+  hud.set_hint("Name of the bookmark: at the second door_     Enter: keep     Escape: cancel");
+  (void)stage.picture(true);
+  ASSERT_EQ(hud.panels().size(), 1u);
+  const Rectangle whole = hud.panels()[0];
+  hud.set_list(long_list(5));
+  (void)stage.picture(true);
+  const Rectangle broken = hud.panels()[0];
+  EXPECT_LT(broken.width, whole.width);
+  EXPECT_GT(broken.height, 1.4f * whole.height) << "no word of it is cut";
 }
 
 TEST_P(GraphicsHudLayout, HidesLabelsThatLieBehindAPart) {

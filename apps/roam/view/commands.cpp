@@ -42,7 +42,7 @@ constexpr Line lines[] = {
     {"record", "R", "begins or ends recording the way, roam-1.path"},
     {"store", "O", "builds the scene's collision store, or stops that"},
     {"turn", "U", "turns the scene by 90 degrees"},
-    {"unit", "Ctrl+U", "applies the unit that the file states, or the next of m, cm, mm, ft, in"},
+    {"unit", "Ctrl+U", "applies the file's unit, or the next of m, cm, mm, ft, in"},
     {"leave_out", "Delete", "leaves out the object ahead, for the body too"},
     {"show_all", "Ctrl+Delete", "shows all objects again"},
     {"adapt", "Y", "accepts the offered size of the body"},
