@@ -266,6 +266,34 @@ TEST(Probing, FindsAWayBetweenMeasuredPoints) {
   EXPECT_EQ(json_report(report)["probes"][1]["passable"], true);
 }
 
+TEST(Probing, SaysThatItsSearchHasEnded) {
+  Tooled d;
+  d.session.reset();
+  const std::string program = d.folder.write("roam", "#!/bin/sh\nexec sleep 1000\n");
+  std::filesystem::permissions(program, std::filesystem::perms::owner_all);
+  d.options.program = program;
+  d.begin();
+  d.tap('t');
+  d.click(-0.5, -0.9);
+  d.tap('i');
+  EXPECT_TRUE(contains(d.hud(), "probe: searching")) << d.hud();
+  d.tap('x');
+  EXPECT_TRUE(contains(d.hud(), "probe: searching")) << "beside a section it goes on: " << d.hud();
+  d.tap('x');
+  d.tap('t');
+  EXPECT_FALSE(contains(d.hud(), "searching")) << d.hud();
+  EXPECT_TRUE(contains(d.hud(), "The search for a way has ended")) << d.hud();
+  d.click(-0.2, -0.9);
+  d.tap('i');
+  d.tap('t');
+  EXPECT_TRUE(contains(d.hud(), "Measuring has ended, and the search for a way")) << d.hud();
+  d.tap('t');
+  d.click(0.1, -0.9);
+  d.tap('i');
+  d.click(0.4, -0.9);
+  EXPECT_TRUE(contains(d.hud(), "The search for a way has ended: this is another point")) << d.hud();
+}
+
 TEST(Probing, StandsInFrontOfAClickedWall) {
   Tooled d;
   d.tap('t');

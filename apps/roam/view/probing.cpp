@@ -105,7 +105,12 @@ void Probing::ask(const Vec3& from, const Vec3& to, const std::vector<std::strin
       std::make_unique<Search>(program_, arguments_of(what_, roamer_.settings(), roamer_.mode(), from, to, ignored));
 }
 
-void Probing::clear() { search_.reset(); }
+bool Probing::clear() {
+  receive();
+  const bool searched = search_ && !search_->received && !is_over(search_->loading.state());
+  search_.reset();
+  return searched;
+}
 
 void Probing::receive() {
   if (!search_ || search_->received || search_->loading.state().phase != LoadState::Phase::done) return;

@@ -36,8 +36,8 @@ class Probing {
 
   /// Begins to search a way. Ends an earlier search.
   void ask(const Vec3& from, const Vec3& to, const std::vector<std::string>& ignored = {});
-  /// Shows nothing any more, and ends the search. The report keeps the answers.
-  void clear();
+  /// Shows nothing any more, and ends the search. The report keeps the answers. Returns whether it ended a search.
+  bool clear();
 
   void fill(Status& status);
   /// Adds the way. The graph is the scene minus `origin`.

@@ -53,10 +53,14 @@ void Tools::toggle_measuring() {
   constexpr double seconds = 4.0;
   tool_ = tool_ == Tool::measure ? Tool::none : Tool::measure;
   measuring_.clear();
-  probing_.clear();
-  const std::string key = key_of(roamer_.controls(), "measure");
-  stage_.hint(tool_ == Tool::measure ? fmt::format("Measuring: click two points; {} ends", key) : "Measuring has ended",
-              seconds);
+  const bool searched = probing_.clear();
+  if (tool_ == Tool::measure) {
+    stage_.hint(fmt::format("{}Measuring: click two points; {} ends",
+                            searched ? "The search for a way has ended. " : "", key_of(roamer_.controls(), "measure")),
+                seconds);
+  } else {
+    stage_.hint(searched ? "Measuring has ended, and the search for a way" : "Measuring has ended", seconds);
+  }
 }
 
 /// From A to B; with A alone, from the body to A.
@@ -256,7 +260,8 @@ void Tools::click(const Point& at) {
     constexpr double seconds = 2.0;
     stage_.hint("There is no surface here", seconds);
   } else if (tool_ == Tool::measure) {
-    probing_.clear();
+    constexpr double seconds = 4.0;
+    if (probing_.clear()) stage_.hint("The search for a way has ended: this is another point", seconds);
     measuring_.take(*found);
   } else if (tool_ == Tool::section) {
     section_.cut(*found);
@@ -267,8 +272,7 @@ void Tools::click(const Point& at) {
 }
 
 void Tools::fill(Status& status) {
-  if (tool_ != Tool::measure) return;
-  measuring_.fill(status);
+  if (tool_ == Tool::measure) measuring_.fill(status);
   probing_.fill(status);
 }
 
@@ -280,8 +284,7 @@ void Tools::fill(ViewReport& report) {
 
 void Tools::add_to(graphics::Marks& marks) {
   if (tool_ == Tool::box && section_.box()) marks.box = mark_of(*section_.box(), camera(), grip_);
-  if (tool_ != Tool::measure) return;
-  measuring_.add_to(marks, scene_.origin());
+  if (tool_ == Tool::measure) measuring_.add_to(marks, scene_.origin());
   probing_.add_to(marks, scene_.origin());
 }
 
