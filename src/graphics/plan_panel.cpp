@@ -60,6 +60,7 @@ PlanPanel::PlanPanel(Frame& frame)
       group_(new osg::Group),
       sheet_(new osg::Group),
       legend_(new osg::Group),
+      coming_(new osg::Group),
       map_(new osg::MatrixTransform),
       body_(new osg::MatrixTransform),
       lines_(new osg::Group),
@@ -75,7 +76,7 @@ PlanPanel::PlanPanel(Frame& frame)
   map_->getOrCreateStateSet()->setMode(GL_LINE_SMOOTH, osg::StateAttribute::ON);
   for (osg::Node* node : {static_cast<osg::Node*>(sheet_.get()), static_cast<osg::Node*>(map_.get()),
                           static_cast<osg::Node*>(names_.get()), static_cast<osg::Node*>(legend_.get()),
-                          static_cast<osg::Node*>(body_.get())}) {
+                          static_cast<osg::Node*>(coming_.get()), static_cast<osg::Node*>(body_.get())}) {
     group_->addChild(node);
   }
   group_->setNodeMask(0u);
@@ -165,6 +166,9 @@ void PlanPanel::lay_out() {
                        make_text(words, look, bar.x, std::round(bar.y + 2.5f * thick)), plate(north, legend_paper),
                        make_text("N", look, std::round(north.x + 0.5f * (north.width - width_of("N", look))),
                                  std::round(north.y + 0.4f * letter))});
+  const std::string coming = "is being drawn";
+  show_only(*coming_, {make_text(coming, look, std::round(r.x + 0.5f * (r.width - width_of(coming, look))),
+                                 std::round(r.y + 0.3f * r.height))});
   osg::StateSet& map_state = *map_->getOrCreateStateSet();
   map_state.setAttributeAndModes(new osg::Scissor(static_cast<int>(r.x), static_cast<int>(r.y),
                                                   static_cast<int>(r.width), static_cast<int>(r.height)));
@@ -186,6 +190,7 @@ void PlanPanel::set_view(const PlanView& view) {
   if (width_ != frame_.width() || height_ != frame_.height() || laid_half_ != view.half || laid_size_ != view.size) {
     lay_out();
   }
+  coming_->setNodeMask(view.is_coming ? ~0u : 0u);
   const Rectangle r = place();
   const double scale = 0.5 * static_cast<double>(r.width) / view.half;  // pixels in a metre
   const glm::dvec2 middle(r.x + 0.5f * r.width, r.y + 0.5f * r.height), from = base_ - view.centre;

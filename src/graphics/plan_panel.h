@@ -46,6 +46,7 @@ struct PlanView {
   glm::dvec2 centre{0.0};  ///< of the panel, where the body is; metres
   double half = 12.0;      ///< metres from the centre to the panel's edge, > 0
   double yaw = 0.0;        ///< radians, see osgRoam::Manipulator
+  bool is_coming = false;  ///< the lines are still to come, which the panel says
 };
 
 class PlanPanel {
@@ -76,7 +77,7 @@ class PlanPanel {
   int width_ = 0, height_ = 0;  ///< pixels that it is laid out for
   double laid_half_ = 0.0;
   PlanSize laid_size_ = PlanSize::none;
-  osg::ref_ptr<osg::Group> parent_, group_, sheet_, legend_;
+  osg::ref_ptr<osg::Group> parent_, group_, sheet_, legend_, coming_;
   osg::ref_ptr<osg::MatrixTransform> map_, body_;
   osg::ref_ptr<osg::Group> lines_, trail_, names_;
   std::vector<PlanPlace> places_;

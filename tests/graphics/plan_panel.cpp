@@ -34,6 +34,15 @@ glm::dvec2 middle_of(const osg::Image& picture, int left, const Test& test) {
 bool is_blue(const Pixel& p) { return p.b > p.r + 80; }
 bool is_dark(const Pixel& p) { return p.r < 90 && p.g < 90 && p.b < 90; }
 
+TEST(GraphicsPlanPanel, SaysThatItIsBeingDrawn) {
+  Stage stage(640, 360);
+  PlanPanel plan(stage.frame);
+  plan.set_view({.size = PlanSize::small, .is_coming = true});
+  const auto coming = stage.picture(true);
+  plan.set_view({.size = PlanSize::small});
+  EXPECT_GT(differing(*coming, *stage.picture(true)), 50);
+}
+
 TEST(GraphicsPlanPanel, ShowsWallsWhereTheyAre) {
   Stage stage(640, 360);
   PlanPanel plan(stage.frame);

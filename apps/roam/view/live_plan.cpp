@@ -156,6 +156,7 @@ void LivePlan::update(bool visible, HiddenSpace::Met met, const std::vector<grap
   view.centre = seen_from_above(centre);
   view.half = half();
   view.yaw = roamer_.yaw();
+  view.is_coming = !shown_;
   panel_.set_view(view);
 }
 
