@@ -12,6 +12,8 @@
 /// flying clearance is the distance of the centre from everything. A body of radius r passes a way if the clearance is
 /// at least r all along it.
 ///
+/// A way leads in both directions: no step down is higher than `step`. probe() searches ways with higher ones, too.
+///
 /// The way is certified: sweeps along it with `radius` - 0.5 mm meet nothing. Passage::bound and `proven` tell how wide
 /// another way could be. probe.h tests one size of a body, and names its obstacle.
 ///

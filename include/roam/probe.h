@@ -64,6 +64,13 @@ struct ProbeWalk {
   double step = 0.0;  ///< m: if it is blocked by a step that is a little too high, the step's height; else 0
 };
 
+/// A step down that the body cannot climb back. A walker goes down by at most its Walker::fall_limit().
+struct ProbeDrop {
+  Vec3 rim{0.0};            ///< the end of the upper floor
+  Vec3 from{0.0}, to{0.0};  ///< the feet before and after it
+  [[nodiscard]] double height() const { return from.z - to.z; }
+};
+
 /// The limit: the narrowest position of the way, or the obstacle.
 struct ProbeLimit {
   enum class Kind : std::uint8_t {
@@ -96,8 +103,12 @@ struct ProbeAnswer {
   ProbedSize size;
   bool passable = false;     ///< a way is wide enough, and the walker has gone it
   bool wide_enough = false;  ///< a way is wide enough
-  Passage passage;           ///< the widest way for bodies of this height and step
-  double narrowest = 0.0;    ///< smallest radius searched for
+  /// The widest way for bodies of this height and step. With `drops`: a way for this body.
+  Passage passage;
+  /// The way leads from `from` to `to` only: in its order, the steps down that the body cannot climb back. A way
+  /// without drops comes first.
+  std::vector<ProbeDrop> drops;
+  double narrowest = 0.0;  ///< smallest radius searched for
   /// If wide_enough: Passage::proven. Otherwise: it is certified that no way for this radius exists, or that an end is
   /// too low.
   bool proven = false;

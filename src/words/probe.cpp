@@ -233,6 +233,9 @@ Lines report(const ProbeQuestion& question, const ProbeAnswer& answer, const Pro
   }
   if (answer.passage.found) lines.add(answer.wide_enough ? "way" : "widest way", way_line(answer.passage, details));
   if (answer.wide_enough) lines.add("narrowest", narrowest_line(answer, details));
+  for (const ProbeDrop& drop : answer.drops) {
+    lines.add("one way", fmt::format("down {} at {}: the body cannot climb back", metres(drop.height()), at(drop.rim)));
+  }
   if (details.narrower > 0.0 && answer.passage.found) {
     lines.add("narrower", fmt::format("{} than {:g} m on this way",
                                       details.narrow.empty()

@@ -22,7 +22,7 @@ const std::vector<std::string> of_a_size{
     "scene",  "triangles",      "mode",     "from",        "to",          "step",     "slope",  "spacing",
     "radius", "height",         "passable", "wide_enough", "clearance_m", "limited",  "start",  "target",
     "way",    "length_m",       "opening",  "proven",      "bound_m",     "complete", "places", "walked",
-    "answer", "support_radius", "steepest", "narrower",    "text",        "frame"};
+    "answer", "support_radius", "steepest", "narrower",    "text",        "frame",    "drops"};
 
 TEST(ProbeReport, HasEveryMemberWhateverTheAnswer) {
   const TestFolder folder;
@@ -42,6 +42,31 @@ TEST(ProbeReport, HasEveryMemberWhateverTheAnswer) {
   const Json sizes = Json::parse(ask(open, "2,0.3,1", {"--matrix", "0.3,0.5", "--json"}).out, nullptr, false)["sizes"];
   ASSERT_EQ(sizes.size(), 2u);
   EXPECT_FALSE(sizes[0].contains("way") || sizes[0].contains("length_m"));
+}
+
+TEST(ProbeReport, NamesAStepDownThatLeadsOneWay) {
+  const TestFolder folder;
+  // A platform 0.45 m high from x = 0 to 10, and the floor beyond.
+  const std::string scene =
+      folder.write("platform.obj",
+                   "v 0 -2 0.45\nv 10 -2 0.45\nv 10 2 0.45\nv 0 2 0.45\nv 10 -2 0\nv 20 -2 0\nv 20 2 0\nv 10 2 0\n"
+                   "f 1 2 3 4\nf 5 6 7 8\nf 2 5 8 3\n");
+  const std::string drawing = folder.file("drop.svg"), path = folder.file("drop.path");
+  const ProgramResult down = ask(scene, "2,0,1", {"--step", "0.35", "--json", "--picture", drawing, "--path", path});
+  EXPECT_EQ(down.status, 0) << down.err;
+  const Json report = Json::parse(down.out, nullptr, false);
+  ASSERT_EQ(report["drops"].size(), 1U) << report["answer"];
+  EXPECT_NEAR(report["drops"][0]["down_m"].get<double>(), 0.45, 1e-3);
+  EXPECT_NEAR(report["drops"][0]["point"][0].get<double>(), 10.0, 0.02);
+  EXPECT_FALSE(folder.read("drop.svg").empty());
+  const ProgramResult walk = run_program(ROAM_PROGRAM, {"walk", scene, "--path", path, "--verify"});
+  EXPECT_EQ(walk.status, 0) << walk.out << walk.err;
+  const ProgramResult up =
+      run_program(ROAM_PROGRAM, {"probe", scene, "--from", "18,0,1", "--to", "2,0,1", "--step", "0.35", "--json"});
+  EXPECT_EQ(up.status, 3) << up.err;
+  const Json back = Json::parse(up.out, nullptr, false);
+  EXPECT_EQ(back["drops"], Json::array());
+  EXPECT_EQ(back["opening"]["kind"], "step");
 }
 
 TEST(ProbeReport, BoundsAndProvesWhatFlies) {

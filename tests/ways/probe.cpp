@@ -5,6 +5,7 @@
 #include <fmt/ranges.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <numeric>
@@ -106,19 +107,19 @@ TEST(Probe, TellsWhichEndIsInTheWayAndWhereThereIsRoom) {
   EXPECT_LT(glm::distance(*answer.room, answer.target), 0.2);
 }
 
-TEST(Probe, MeasuresAStepDownAsOneUp) {
+TEST(Probe, MeasuresAFallAsAStepUp) {
   for (const bool down : {false, true}) {
     Mesh m;
     add_floor(m, 0.0, -2.0, 10.0, 2.0, 0.0);
-    add_floor(m, 10.0, -2.0, 20.0, 2.0, 0.5);
-    add_wall(m, 10.0, -2.0, 10.0, 2.0, 0.0, 0.5);
-    ProbeQuestion question{.from = {2.0, 0.0, 0.2}, .to = {18.0, 0.0, 0.7}};
+    add_floor(m, 10.0, -2.0, 20.0, 2.0, 0.7);
+    add_wall(m, 10.0, -2.0, 10.0, 2.0, 0.0, 0.7);
+    ProbeQuestion question{.from = {2.0, 0.0, 0.2}, .to = {18.0, 0.0, 0.9}};
     if (down) std::swap(question.from, question.to);
     const ProbeAnswer answer = probe(survey_of(m), question, {.radius = 0.3, .height = 1.8});
     ASSERT_TRUE(answer.limit) << down;
     EXPECT_EQ(answer.limit->kind, Kind::step) << down;
-    EXPECT_NEAR(answer.limit->size, 0.5, 1e-3) << down;
-    EXPECT_NEAR(answer.missing, 0.2, 1e-3) << down;
+    EXPECT_NEAR(answer.limit->size, 0.7, 1e-3) << down;
+    EXPECT_NEAR(answer.missing, 0.4, 1e-3) << down;
   }
 }
 
@@ -152,6 +153,13 @@ TEST(Probe, NamesTheHighestStepAmongStepsOfSeveralHeights) {
         if (down) std::swap(question.from, question.to);
         const ProbeAnswer answer = probe(survey, question, {.radius = 0.3, .height = 1.8});
         const std::string which = fmt::format("tread {}, {}, {}", tread, fmt::join(risers, " "), down ? "down" : "up");
+        if (down) {
+          EXPECT_TRUE(answer.passable) << which;
+          EXPECT_TRUE(std::any_of(answer.drops.begin(), answer.drops.end(), [&](const ProbeDrop& drop) {
+            return drop.height() > risers[highest] - 1e-3;
+          })) << which;
+          continue;
+        }
         ASSERT_TRUE(answer.limit) << which;
         EXPECT_EQ(answer.limit->kind, Kind::step) << which;
         EXPECT_NEAR(answer.limit->size, risers[highest], 1e-3) << which;

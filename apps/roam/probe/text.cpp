@@ -66,6 +66,9 @@ Json json_report(const ProbeAnswer& answer, bool with_way) {
     json["way"] = std::move(way);
     json["length_m"] = p.length;
   }
+  json["drops"] = Json::array();
+  for (const ProbeDrop& drop : answer.drops)
+    json["drops"].push_back({{"point", to_json(drop.rim)}, {"down_m", drop.height()}});
   json["opening"] = nullptr;
   if (answer.limit) {
     const ProbeLimit& limit = *answer.limit;

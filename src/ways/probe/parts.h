@@ -56,6 +56,16 @@ struct ProbeEnds {
 [[nodiscard]] std::optional<ProbeLimit> limit_of(const ProbeSearch& search, const Passage& passage,
                                                  const ProbeEnds& ends, double radius);
 
+/// A way with steps down that the body cannot climb back.
+struct WayDown {
+  Passage passage;
+  std::vector<ProbeDrop> drops;
+};
+/// A way for a body of `radius` (m) that steps down by at most `deepest` (m) at a time. None if none was found, or if
+/// an end has too little room. Throws roam::Cancelled.
+[[nodiscard]] std::optional<WayDown> way_down(const ProbeSearch& search, const ProbeEnds& ends, double radius,
+                                              double deepest);
+
 /// The largest height, to a millimetre, with which a body of that radius gets through, if it is too tall now. None if
 /// no height helps.
 [[nodiscard]] std::optional<ProbeLimit> headroom(const ProbeSearch& search, double radius);

@@ -10,6 +10,7 @@
 
 #include "math/boxes.h"
 #include "math/floating_point.h"
+#include "math/level_distance.h"
 #include "math/parallel_floating_point.h"
 #include "roam/standing.h"
 #include "text/names.h"
@@ -87,14 +88,35 @@ ProbeWalk walk_way(const ProbeSearch& search, const ProbeAnswer& answer) {
   return walk;
 }
 
+/// Takes a way with steps down that the body cannot climb, if a walker goes it.
+void step_down(const ProbeSearch& search, ProbeAnswer& answer) {
+  const WalkerSettings body = probed_body(search.question, answer.size);
+  auto down = way_down(search, {answer.start, answer.target}, body.radius, body.radius + body.step);
+  if (!down) return;
+  ProbeAnswer other = answer;
+  other.passage = std::move(down->passage);
+  other.drops = std::move(down->drops);
+  other.walk = walk_way(search, other);
+  other.wide_enough = true;
+  if (other.walk->outcome == Outcome::reached) answer = std::move(other);
+}
+
 bool falls_short(const ProbeLimit& limit) {
   return limit.kind == ProbeLimit::Kind::step ? limit.size > limit.needed : limit.size < limit.needed;
+}
+
+/// Whether the limit is the step beside which the body came down: a larger one comes down farther away.
+bool is_beside_drop(const ProbeLimit& limit, const std::vector<ProbeDrop>& drops) {
+  return limit.kind == ProbeLimit::Kind::edge && std::any_of(drops.begin(), drops.end(), [&](const ProbeDrop& drop) {
+           return level_distance(limit.feet, drop.rim) < 2.0 * limit.size;
+         });
 }
 
 /// Finds the limit for one size of a search. `known`: the step of another size.
 void find_limit(const ProbeSearch& search, ProbeAnswer& answer, std::optional<StepUp>& known) {
   const double radius = answer.size.radius;
   answer.limit = limit_of(search, answer.passage, {answer.start, answer.target}, radius);
+  if (answer.limit && is_beside_drop(*answer.limit, answer.drops)) answer.limit.reset();
   const bool at_end = answer.limit && is_end(answer.limit->kind);
   if (!answer.wide_enough && !at_end) {
     auto other = headroom(search, radius);
@@ -217,6 +239,7 @@ std::vector<ProbeAnswer> answers_to(const Survey& survey, const ProbeQuestion& q
     answer.target = group.target;
     const Passage& p = answer.passage;
     answer.wide_enough = p.found && p.radius >= size.radius;
+    if (!answer.wide_enough && !group.low && p.complete) step_down(*group.search, answer);
     answer.proven = answer.wide_enough ? p.proven : p.bound < size.radius;
     if (group.low) {
       answer.limit = group.low;
@@ -226,7 +249,7 @@ std::vector<ProbeAnswer> answers_to(const Survey& survey, const ProbeQuestion& q
     } else {
       find_limit(*group.search, answer, group.step);
     }
-    if (answer.wide_enough) answer.walk = walk_way(*group.search, answer);
+    if (answer.wide_enough && !answer.walk) answer.walk = walk_way(*group.search, answer);
     answer.passable = answer.walk && answer.walk->outcome == Outcome::reached;
     answers.push_back(std::move(answer));
   }
