@@ -32,6 +32,9 @@ constexpr double narrow_part = 0.5;
 /// Radii beyond the scene's box. At one there is no contact; beyond two a route counts as having left the scene.
 constexpr double beside_scene = 1.9;
 
+/// Metres: widths that differ by less are equal.
+constexpr double same_width = 1e-3;
+
 bool is_sphere(const ProbedSize& size) { return size.height <= 2.0 * size.radius; }
 
 /// The nearest place of a box.
@@ -118,7 +121,9 @@ void find_limit(const ProbeSearch& search, ProbeAnswer& answer, std::optional<St
   answer.limit = limit_of(search, answer.passage, {answer.start, answer.target}, radius);
   if (answer.limit && is_beside_drop(*answer.limit, answer.drops)) answer.limit.reset();
   const bool at_end = answer.limit && is_end(answer.limit->kind);
-  if (!answer.wide_enough && !at_end) {
+  // A lower body's way is measured anew, and may come out a little wider.
+  const bool is_close = answer.passage.found && answer.limit && radius - answer.passage.radius < same_width;
+  if (!answer.wide_enough && !at_end && !is_close) {
     auto other = headroom(search, radius);
     if (!other && !answer.passage.found && answer.passage.complete) {
       if (!known || radius < known->least || radius > known->widest) known = step_up(search, radius);

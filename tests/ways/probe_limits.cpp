@@ -1,0 +1,46 @@
+// The obstacle that a probe names, and the sizes that it says would pass.
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "messages.h"
+#include "roam/probe.h"
+#include "walker_scenes.h"
+#include "words/probe.h"
+
+namespace {
+
+using namespace scenes;
+using namespace roam;
+using Kind = ProbeLimit::Kind;
+
+const ProbeQuestion across{.from = {2.0, 0.3, 1.0}, .to = {18.0, -0.4, 1.0}};
+
+Survey survey_of(const Mesh& mesh, bool lossless = true) {
+  return Survey::build({mesh}, {.threads = 1, .lossless = lossless, .progress = {}});
+}
+
+/// From x = 0 to 20, 4 m wide and 3 m high, with a wall across it at x = 10 that has a door of `width`.
+Mesh room(double width) {
+  Mesh m;
+  add_box(m, {0.0, -2.0, 0.0}, {20.0, 2.0, 3.0});
+  add_wall(m, 10.0, -2.0, 10.0, -0.5 * width, 0.0, 3.0);
+  add_wall(m, 10.0, 0.5 * width, 10.0, 2.0, 0.0, 3.0);
+  add_wall(m, 10.0, -0.5 * width, 10.0, 0.5 * width, 2.1, 3.0);
+  return m;
+}
+
+TEST(ProbeLimits, AreADoorThatIsExactlyAsWideAsTheBody) {
+  for (const double width : {0.6, 0.8}) {
+    const Survey survey = survey_of(room(width), false);
+    const ProbeAnswer answer = probe(survey, across, {.radius = 0.5 * width, .height = 1.8});
+    EXPECT_FALSE(answer.wide_enough) << width;
+    ASSERT_TRUE(answer.limit);
+    EXPECT_EQ(answer.limit->kind, Kind::door) << width;
+    EXPECT_LT(answer.missing, 1e-3);
+    const std::string text = words::report(across, answer).sentences();
+    EXPECT_TRUE(contains(text, "less than 1 mm too narrow") && !contains(text, "headroom")) << text;
+  }
+}
+
+}  // namespace
