@@ -109,6 +109,9 @@ struct ProbeAnswer {
   /// without drops comes first.
   std::vector<ProbeDrop> drops;
   double narrowest = 0.0;  ///< smallest radius searched for
+  /// If a way was found that is not wide enough: a radius, to half a millimetre, with which a walker has gone it. 0: no
+  /// walker has.
+  double passing = 0.0;
   /// If wide_enough: Passage::proven. Otherwise: it is certified that no way for this radius exists, or that an end is
   /// too low.
   bool proven = false;

@@ -171,14 +171,12 @@ std::string stop_line(const ProbeQuestion& question, const ProbeAnswer& answer, 
 
 /// The sizes that would pass.
 std::string would_pass(const ProbeAnswer& answer) {
-  const Passage& p = answer.passage;
   if (answer.wide_enough || is_unknown(answer)) return {};
   std::string text;
   if (answer.limit && answer.limit->kind == Kind::height)
     text = fmt::format("a body of that width up to {:.3f} m high", down_to_mm(answer.limit->size));
-  if (p.found)
-    text +=
-        fmt::format("{}up to {:.3f} m wide", text.empty() ? "" : ", or of that height ", down_to_mm(2.0 * p.radius));
+  if (answer.passing > 0.0)
+    text += fmt::format("{}up to {:.3f} m wide", text.empty() ? "" : ", or of that height ", 2.0 * answer.passing);
   return text;
 }
 

@@ -22,7 +22,7 @@ const std::vector<std::string> of_a_size{
     "scene",  "triangles",      "mode",     "from",        "to",          "step",     "slope",  "spacing",
     "radius", "height",         "passable", "wide_enough", "clearance_m", "limited",  "start",  "target",
     "way",    "length_m",       "opening",  "proven",      "bound_m",     "complete", "places", "walked",
-    "answer", "support_radius", "steepest", "narrower",    "text",        "frame",    "drops"};
+    "answer", "support_radius", "steepest", "narrower",    "text",        "frame",    "drops",  "passing_m"};
 
 TEST(ProbeReport, HasEveryMemberWhateverTheAnswer) {
   const TestFolder folder;

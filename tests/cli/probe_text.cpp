@@ -174,6 +174,7 @@ TEST(ProbeText, RoundsSoThatWhatItPrintsIsTrue) {
   };
   // A body of exactly the printed size passes.
   answer.passage.radius = 0.49998;
+  answer.passing = 0.4995;
   answer.limit->size = 1.7999;
   answer.missing = 2e-5;
   expect_printed("a body of that width up to 1.799 m high, or of that height up to 0.999 m wide");
@@ -181,7 +182,7 @@ TEST(ProbeText, RoundsSoThatWhatItPrintsIsTrue) {
   EXPECT_TRUE(contains(row, "0.999 m") && contains(row, "< 1 mm")) << row;
   EXPECT_FALSE(contains(row, "0.0 mm")) << row;
   for (int mm = 1; mm < 2000; ++mm) {
-    answer.passage.radius = mm / 2000.0;
+    answer.passing = mm / 2000.0;
     expect_printed(fmt::format("up to {:.3f} m wide", mm / 1000.0));
   }
   // Nothing wider passes.

@@ -1,6 +1,8 @@
 // The obstacle that a probe names, and the sizes that it says would pass.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <string>
 
 #include "messages.h"
@@ -40,6 +42,23 @@ TEST(ProbeLimits, AreADoorThatIsExactlyAsWideAsTheBody) {
     EXPECT_LT(answer.missing, 1e-3);
     const std::string text = words::report(across, answer).sentences();
     EXPECT_TRUE(contains(text, "less than 1 mm too narrow") && !contains(text, "headroom")) << text;
+  }
+}
+
+TEST(ProbeLimits, NameAWidthWithWhichAWalkerPasses) {
+  for (const bool lossless : {false, true}) {
+    for (const double width : {0.6, 0.6000000014, 0.60001, 0.6004, 0.5999}) {
+      const Survey survey = survey_of(room(width), lossless);
+      const ProbeAnswer answer = probe(survey, across, {.radius = 0.32, .height = 1.8});
+      EXPECT_FALSE(answer.passable);
+      EXPECT_GT(answer.passing, 0.5 * width - 2e-3) << width;
+      EXPECT_LE(answer.passing, answer.passage.radius) << width;
+      EXPECT_TRUE(probe(survey, across, {.radius = answer.passing, .height = 1.8}).passable) << width;
+      const std::string printed = fmt::format("Would pass: up to {:.3f} m wide", 2.0 * answer.passing);
+      const std::string text = words::report(across, answer).sentences();
+      EXPECT_TRUE(contains(text, printed)) << text;
+      EXPECT_NEAR(2000.0 * answer.passing, std::round(2000.0 * answer.passing), 1e-6) << "whole millimetres of width";
+    }
   }
 }
 

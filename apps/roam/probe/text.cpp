@@ -57,9 +57,10 @@ std::vector<ProbedSize> parse_sizes(const std::string& text, const std::string& 
 
 Json json_report(const ProbeAnswer& answer, bool with_way) {
   const Passage& p = answer.passage;
-  Json json = {{"radius", answer.size.radius},      {"height", answer.size.height},    {"passable", answer.passable},
-               {"wide_enough", answer.wide_enough}, {"clearance_m", p.radius},         {"limited", p.limited},
-               {"start", to_json(answer.start)},    {"target", to_json(answer.target)}};
+  Json json = {
+      {"radius", answer.size.radius},      {"height", answer.size.height},   {"passable", answer.passable},
+      {"wide_enough", answer.wide_enough}, {"clearance_m", p.radius},        {"limited", p.limited},
+      {"passing_m", answer.passing},       {"start", to_json(answer.start)}, {"target", to_json(answer.target)}};
   if (with_way) {
     Json way = Json::array();
     for (const Vec3& place : p.way) way.push_back(to_json(place));

@@ -104,6 +104,20 @@ void step_down(const ProbeSearch& search, ProbeAnswer& answer) {
   if (other.walk->outcome == Outcome::reached) answer = std::move(other);
 }
 
+/// The largest radius, to half a millimetre, with which a walker goes the way: it keeps a gap to both sides.
+double passing_radius(const ProbeSearch& search, const ProbeAnswer& answer) {
+  constexpr double unit = 5e-4;  // m
+  constexpr int most_tries = 4;
+  ProbeAnswer narrower = answer;
+  const double widest = std::floor(answer.passage.radius / unit);
+  for (int i = 0; i < most_tries && widest - i > 0.0; ++i) {
+    narrower.size.radius = unit * (widest - i);
+    if (is_sphere(answer.size)) narrower.size.height = 2.0 * narrower.size.radius;
+    if (walk_way(search, narrower).outcome == Outcome::reached) return narrower.size.radius;
+  }
+  return 0.0;
+}
+
 bool falls_short(const ProbeLimit& limit) {
   return limit.kind == ProbeLimit::Kind::step ? limit.size > limit.needed : limit.size < limit.needed;
 }
@@ -254,6 +268,7 @@ std::vector<ProbeAnswer> answers_to(const Survey& survey, const ProbeQuestion& q
     } else {
       find_limit(*group.search, answer, group.step);
     }
+    if (p.found && !answer.wide_enough) answer.passing = passing_radius(*group.search, answer);
     if (answer.wide_enough && !answer.walk) answer.walk = walk_way(*group.search, answer);
     answer.passable = answer.walk && answer.walk->outcome == Outcome::reached;
     answers.push_back(std::move(answer));
