@@ -96,6 +96,11 @@ std::string options_of(const SceneFrame& frame) {
   return text;
 }
 
+std::string options_for(const SceneFrame& wanted, const SceneFrame& now) {
+  const bool to_metres = wanted.unit == LengthUnit::m && now.unit != LengthUnit::m;
+  return options_of(wanted) + (to_metres ? " --unit=m" : "");
+}
+
 Json to_json(const std::optional<SceneFrame>& frame) {
   if (!frame) return nullptr;
   Json json = {{"up", to_string(frame->up)}, {"unit", to_string(frame->unit)}, {"matrix", Json::array()}};

@@ -125,9 +125,9 @@ void demand_frame(const RecordedPath& path, const std::optional<SceneFrame>& fra
                   ? fmt::format("its places are of the scene with {}, and this store was built with {}: follow it in "
                                 "the scene itself with {}, or in a store that is built so",
                                 there, here, there)
-                  : fmt::format("its places are of the scene with {}, which is read with {} here: add {}, or record "
+                  : fmt::format("its places are of the scene with {}, which is read with {} here: use {}, or record "
                                 "the path again",
-                                there, here, there));
+                                there, here, options_for(*path.frame, *frame)));
 }
 
 std::string mode_line(Mode mode) { return fmt::format("{}{}", mode_mark, to_string(mode)); }

@@ -77,9 +77,11 @@ TEST_F(Frame, OfAPathIsKeptAndDemanded) {
     const ProgramResult other = run({verb, scene, "--path", way});
     EXPECT_EQ(other.status, 1) << verb;
     EXPECT_TRUE(contains(other.err, way + ": its places are of the scene with --up=-y, which is read with --up=z here: "
-                                          "add --up=-y, or record the path again"))
+                                          "use --up=-y, or record the path again"))
         << other.err;
   }
+  const ProgramResult unit = run({"walk", scene, "--up=-y", "--unit=ft", "--path", way});
+  EXPECT_TRUE(contains(unit.err, "use --up=-y --unit=m, or record the path again")) << unit.err;
   ASSERT_EQ(run({"build", scene, "-o", store}).status, 0);
   const ProgramResult stored = run({"walk", store, "--path", way});
   EXPECT_EQ(stored.status, 1);

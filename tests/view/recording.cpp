@@ -133,7 +133,7 @@ TEST(RecordedPath, OfAnotherFrameIsRefusedWithTheOptionsThatOpenIt) {
   const auto error = [&](const std::optional<SceneFrame>& frame) {
     return error_of([&] { demand_frame(path, frame, {}); });
   };
-  EXPECT_TRUE(contains(error(SceneFrame{}), "--up=-y --unit=cm, which is read with --up=z here: add --up=-y --unit=cm"))
+  EXPECT_TRUE(contains(error(SceneFrame{}), "--up=-y --unit=cm, which is read with --up=z here: use --up=-y --unit=cm"))
       << error(SceneFrame{});
   EXPECT_EQ(error(SceneFrame{UpAxis::minus_y, LengthUnit::cm}), "");
   EXPECT_EQ(error(std::nullopt), "");

@@ -38,7 +38,8 @@ Pose Records::named(const std::string& name) {
   if (const Bookmark* found = bookmarks_->find(name)) return found->pose;
   if (const std::optional<SceneFrame> other = bookmarks_->frame_elsewhere(name)) {
     throw UsageError(fmt::format("--bookmark {}", name),
-                     fmt::format("it is of the scene with {}: add {}", options_of(*other), options_of(*other)));
+                     fmt::format("it is of the scene with {}: use {}", options_of(*other),
+                                 options_for(*other, frame_.value_or(SceneFrame{}))));
   }
   throw UsageError(fmt::format("--bookmark {}", name),
                    fmt::format("this scene has {}", bookmarks_->all().empty() ? "no bookmarks" + remedy(roamer_)
