@@ -146,7 +146,8 @@ ProbeQuestion question_of(const ProbeOptions& o) {
 void write_path(const ProbeOptions& o, const Survey& survey, const ProbeAnswer& answer) {
   std::vector<Vec3> path = probed_path(survey, o.question, answer);
   if (path.size() == 1) path.push_back(path.front());  // the path needs a start and a goal, even if they are equal
-  const WalkerSettings body = probed_body(o.question, answer.size, o.slope_degrees());
+  WalkerSettings body = probed_body(o.question, answer.size, o.slope_degrees());
+  body.eye = default_eye(body.radius, body.height);
   std::string text = body_line(body, o.question.mode) + "\n";
   if (const auto frame = frame_of(o.scene)) text += frame_line(*frame) + "\n";
   for (const Vec3& p : path) text += fmt::format("{} {} {}\n", p.x, p.y, p.z);

@@ -10,6 +10,10 @@ double default_height(double radius, bool sphere) {
   return sphere ? least : std::max(WalkerSettings{}.height, least);
 }
 
+double default_eye(double radius, double height) {
+  return std::max(std::min(WalkerSettings{}.eye, height - radius), 0.0);
+}
+
 BodySizes sizes_of(const RecordedBody& recorded) {
   const WalkerSettings& s = recorded.settings;
   return {s.radius, s.height, s.eye, s.step, s.slope_degrees, s.support_radius};
@@ -45,9 +49,7 @@ WalkerSettings body_of(const BodyOptions& options, const BodySizes& known) {
   s.radius = options.radius.value_or(body.radius.value_or(s.radius));
   s.height = options.height.value_or(body.height.value_or(default_height(s.radius, options.sphere)));
   const auto fitted = [&](double value, double most) { return options.height ? std::min(value, most) : value; };
-  // On the axis, the camera is a radius away from every surface.
-  const double on_axis = std::max(std::min(s.eye, s.height - s.radius), 0.0);
-  s.eye = options.eye.value_or(body.eye ? fitted(*body.eye, s.height) : on_axis);
+  s.eye = options.eye.value_or(body.eye ? fitted(*body.eye, s.height) : default_eye(s.radius, s.height));
   const double highest = 0.5 * s.height;
   s.step = options.step.value_or(body.step ? fitted(*body.step, highest) : std::min(s.step, highest));
   s.slope_degrees = options.slope.value_or(body.slope.value_or(s.slope_degrees));

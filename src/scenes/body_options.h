@@ -17,6 +17,10 @@ namespace roam::app {
 /// Height of a body without a given one, in m: a person's 1.8, but at least 2 * radius; of a sphere 2 * radius.
 [[nodiscard]] double default_height(double radius, bool sphere);
 
+/// Height of the camera of a body without a given one, in m: a person's 1.6, but on the axis, a radius away from every
+/// surface.
+[[nodiscard]] double default_eye(double radius, double height);
+
 /// The reason why `--mode fly` of a search demands --sphere.
 inline constexpr const char* flight_is_for_spheres = "ways through the air are found for spheres; add --sphere";
 

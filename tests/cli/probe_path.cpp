@@ -62,6 +62,17 @@ TEST(ProbePath, FromAPlaceToItselfIsOneThatWalkTakes) {
   EXPECT_EQ(Json::parse(walked.out, nullptr, false)["outcome"], "reached") << walked.out;
 }
 
+TEST(ProbePath, HasTheEyeOfTheBodyInTheWindow) {
+  const TestFolder folder;
+  const std::string scene = folder.write("yard.obj", yard_obj()), path = folder.file("way.path");
+  for (const auto& [height, eye] : {std::pair("1.8", "eye 1.5 "), std::pair("2.5", "eye 1.6 ")}) {
+    const ProgramResult found = run_program(
+        ROAM_PROGRAM, {"probe", scene, "--from", "2,0,1", "--to", "8,0,1", "--height", height, "--path", path});
+    EXPECT_EQ(found.status, 0) << found.out << found.err;
+    EXPECT_TRUE(contains(folder.read("way.path"), eye)) << folder.read("way.path");
+  }
+}
+
 TEST(ProbePath, SaysThatAPathWithoutAWayIsNotWritten) {
   const TestFolder folder;
   const std::string scene = folder.write("room.obj", door_obj(0.5));
