@@ -62,6 +62,16 @@ std::string text_of(const ProbeLimit& limit) {
   return "";
 }
 
+std::vector<ProbeMark> marks_of(const ProbeAnswer& answer) {
+  std::vector<ProbeMark> marks;
+  if (answer.limit) marks.push_back({answer.limit->point, text_of(*answer.limit), answer.wide_enough});
+  for (const ProbeDrop& drop : answer.drops)
+    marks.push_back({drop.rim, "one way: down " + metres(drop.height()), true});
+  if (answer.walk && !answer.passable)
+    marks.push_back({answer.walk->at, std::string("walker ") + to_string(answer.walk->outcome), false});
+  return marks;
+}
+
 namespace {
 
 /// Metres. An end that was moved farther than this is mentioned, with both positions.
@@ -135,6 +145,12 @@ std::string obstacle(const ProbeLimit& limit, const ProbeDetails& details) {
   return fmt::format("{}{} at {}", text, objects.empty() ? "" : " " + objects, at(limit.point));
 }
 
+/// ": 0.150 m too narrow".
+std::string short_by(const ProbeLimit& limit) {
+  const double missing = std::abs(limit.needed - limit.size);
+  return fmt::format(": {} {}", missing < 1e-3 ? "less than 1 mm" : metres(missing), shortfall(limit));
+}
+
 std::string stop_line(const ProbeQuestion& question, const ProbeAnswer& answer, const ProbeDetails& details) {
   if (answer.walk && falls(*answer.walk, question.mode)) {
     return fmt::format(
@@ -163,8 +179,7 @@ std::string stop_line(const ProbeQuestion& question, const ProbeAnswer& answer, 
   if (answer.limit->kind == Kind::step) {
     text += fmt::format("; the body steps {}", metres(answer.limit->needed));
   } else {
-    text += answer.missing < 1e-3 ? ": less than 1 mm " : fmt::format(": {} ", metres(answer.missing));
-    text += shortfall(*answer.limit);
+    text += short_by(*answer.limit);
   }
   return answer.room ? text + fmt::format("; the nearest place with room is {}", at(*answer.room)) : text;
 }
@@ -173,7 +188,7 @@ std::string stop_line(const ProbeQuestion& question, const ProbeAnswer& answer, 
 std::string would_pass(const ProbeAnswer& answer) {
   if (answer.wide_enough || is_unknown(answer)) return {};
   std::string text;
-  if (answer.limit && answer.limit->kind == Kind::height)
+  if (answer.limit && answer.limit->kind == Kind::height && !answer.other)
     text = fmt::format("a body of that width up to {:.3f} m high", down_to_mm(answer.limit->size));
   if (answer.passing > 0.0)
     text += fmt::format("{}up to {:.3f} m wide", text.empty() ? "" : ", or of that height ", 2.0 * answer.passing);
@@ -227,6 +242,7 @@ Lines report(const ProbeQuestion& question, const ProbeAnswer& answer, const Pro
     const bool is_named = answer.limit && answer.limit->kind != Kind::apart && !is_end(answer.limit->kind) &&
                           !answer.walk && !is_unknown(answer);
     lines.add(is_named ? "stopped by" : "why", stop_line(question, answer, details));
+    if (answer.other) lines.add("and by", obstacle(*answer.other, {}) + short_by(*answer.other));
     lines.add("would pass", would_pass(answer));
   }
   if (answer.passage.found) lines.add(answer.wide_enough ? "way" : "widest way", way_line(answer.passage, details));

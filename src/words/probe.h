@@ -26,6 +26,14 @@ struct ProbeDetails {
   std::vector<Narrow> narrow;
 };
 
+/// A marked place of a probe, in pictures and in the window.
+struct ProbeMark {
+  Vec3 place{0.0};
+  std::string text;   ///< "door 0.520 m wide", "one way: down 0.450 m", "walker blocked"
+  bool good = false;  ///< the body passes there
+};
+[[nodiscard]] std::vector<ProbeMark> marks_of(const ProbeAnswer& answer);
+
 /// The report: yes or no; then along which way, or what stops the body, where, and how certain that is.
 [[nodiscard]] Lines report(const ProbeQuestion& question, const ProbeAnswer& answer, const ProbeDetails& details = {});
 

@@ -22,7 +22,8 @@ const std::vector<std::string> of_a_size{
     "scene",  "triangles",      "mode",     "from",        "to",          "step",     "slope",  "spacing",
     "radius", "height",         "passable", "wide_enough", "clearance_m", "limited",  "start",  "target",
     "way",    "length_m",       "opening",  "proven",      "bound_m",     "complete", "places", "walked",
-    "answer", "support_radius", "steepest", "narrower",    "text",        "frame",    "drops",  "passing_m"};
+    "answer", "support_radius", "steepest", "narrower",    "text",        "frame",    "drops",  "passing_m",
+    "marks",  "other"};
 
 TEST(ProbeReport, HasEveryMemberWhateverTheAnswer) {
   const TestFolder folder;
@@ -59,6 +60,7 @@ TEST(ProbeReport, NamesAStepDownThatLeadsOneWay) {
   EXPECT_NEAR(report["drops"][0]["down_m"].get<double>(), 0.45, 1e-3);
   EXPECT_NEAR(report["drops"][0]["point"][0].get<double>(), 10.0, 0.02);
   EXPECT_FALSE(folder.read("drop.svg").empty());
+  EXPECT_TRUE(contains(report["marks"].dump(), "one way: down 0.450 m")) << report["marks"];
   const ProgramResult walk = run_program(ROAM_PROGRAM, {"walk", scene, "--path", path, "--verify"});
   EXPECT_EQ(walk.status, 0) << walk.out << walk.err;
   const ProgramResult up =

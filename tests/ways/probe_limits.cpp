@@ -62,4 +62,49 @@ TEST(ProbeLimits, NameAWidthWithWhichAWalkerPasses) {
   }
 }
 
+/// room(0.6), with a step up of 0.5 m or a lintel 1.5 m above the floor at x = 14.
+Mesh room_with(bool step) {
+  Mesh m = room(0.6);
+  if (step) {
+    add_floor(m, 14.0, -2.0, 20.0, 2.0, 0.5);
+    add_wall(m, 14.0, -2.0, 14.0, 2.0, 0.0, 0.5);
+  } else {
+    add_wall(m, 14.0, -2.0, 14.0, 2.0, 1.5, 3.0);
+  }
+  return m;
+}
+
+TEST(ProbeLimits, AreTwoInARow) {
+  for (const bool step : {true, false}) {
+    const Survey survey = survey_of(room_with(step));
+    const ProbeAnswer answer = probe(survey, across, {.radius = 0.35, .height = 1.8});
+    EXPECT_FALSE(answer.passable);
+    ASSERT_TRUE(answer.limit && answer.other) << words::report(across, answer).text();
+    EXPECT_EQ(answer.limit->kind, step ? Kind::step : Kind::height);
+    EXPECT_NEAR(answer.limit->size, step ? 0.5 : 1.5, 2e-3);
+    EXPECT_EQ(answer.other->kind, Kind::door);
+    EXPECT_NEAR(answer.other->size, 0.6, 1e-3);
+    const std::string text = words::report(across, answer).sentences();
+    EXPECT_TRUE(contains(text, step ? "Stopped by: step of 0.500 m" : "Stopped by: headroom 1.500 m")) << text;
+    EXPECT_TRUE(contains(text, "And by: door 0.600 m wide") && contains(text, "0.100 m too narrow")) << text;
+    EXPECT_FALSE(contains(text, "Would pass")) << text;
+    const ProbeAnswer narrow = probe(survey, across, {.radius = 0.25, .height = 1.8});
+    ASSERT_TRUE(narrow.limit);
+    EXPECT_EQ(narrow.limit->kind, step ? Kind::step : Kind::height);
+    EXPECT_FALSE(narrow.other);
+  }
+}
+
+TEST(ProbeLimits, DoNotComeFromAnEndThatWasMovedToAPlaceWithoutRoom) {
+  Mesh m = room(0.84);
+  add_wall(m, 2.0, 0.0, 3.0, 0.0, 0.0, 1.2);
+  ProbeQuestion question = across;
+  question.from = {2.65, 0.01, 0.5};
+  const ProbeAnswer answer = probe(survey_of(m), question, {.radius = 0.3, .height = 1.8});
+  EXPECT_TRUE(answer.passable);
+  EXPECT_GT(std::abs(answer.start.y), 0.3);
+  const std::string text = words::report(question, answer).sentences();
+  EXPECT_TRUE(contains(text, "moved: there is no room at (2.65, 0.01, 0.50)")) << text;
+}
+
 }  // namespace

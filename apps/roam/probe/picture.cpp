@@ -143,11 +143,8 @@ Overview overview_of(const Survey& survey, const ProbeQuestion& question, const 
   overview.target = answer.target;
   overview.spacing = question.spacing;
   overview.way = answer.passage.way;
-  if (answer.limit) overview.marks.push_back({answer.limit->point, words::text_of(*answer.limit), answer.wide_enough});
-  for (const ProbeDrop& drop : answer.drops)
-    overview.marks.push_back({drop.rim, "one way: down " + words::metres(drop.height()), true});
-  if (answer.walk && !answer.passable)
-    overview.marks.push_back({answer.walk->at, std::string("walker ") + to_string(answer.walk->outcome), false});
+  for (const words::ProbeMark& mark : words::marks_of(answer))
+    overview.marks.push_back({mark.place, mark.text, mark.good});
   if (overview.way.empty()) {
     ProbeQuestion asked = question;
     asked.progress = [](std::uint64_t) { return !interrupted(); };

@@ -26,6 +26,23 @@ bool is_number(const std::string& text, double& value) {
   return error == std::errc() && after == end;
 }
 
+Json json_limit(const std::optional<ProbeLimit>& of) {
+  if (!of) return nullptr;
+  const ProbeLimit& limit = *of;
+  Json json = {{"kind", to_string(limit.kind)},
+               {"point", to_json(limit.point)},
+               {"direction", to_json(limit.direction)},
+               {"along_m", limit.along}};
+  if (is_end(limit.kind)) json["end"] = end_name(limit.kind);
+  const char* const size = limit.kind == Kind::height || limit.too_low      ? "height_m"
+                           : is_end(limit.kind) || limit.kind == Kind::edge ? "distance_m"
+                           : limit.kind == Kind::step                       ? "step_m"
+                                                                            : "width_m";
+  if (limit.kind != Kind::apart) json[size] = limit.size;
+  if (limit.kind == Kind::height && limit.width > 0.0) json["width_m"] = limit.width;
+  return json;
+}
+
 }  // namespace
 
 std::vector<ProbedSize> parse_sizes(const std::string& text, const std::string& where, bool spheres) {
@@ -65,28 +82,20 @@ Json json_report(const ProbeAnswer& answer, bool with_way) {
     Json way = Json::array();
     for (const Vec3& place : p.way) way.push_back(to_json(place));
     json["way"] = std::move(way);
+    json["marks"] = Json::array();
+    for (const ProbeMark& mark : marks_of(answer))
+      json["marks"].push_back({{"point", to_json(mark.place)}, {"text", mark.text}});
     json["length_m"] = p.length;
   }
   json["drops"] = Json::array();
   for (const ProbeDrop& drop : answer.drops)
     json["drops"].push_back({{"point", to_json(drop.rim)}, {"down_m", drop.height()}});
-  json["opening"] = nullptr;
+  json["opening"] = json_limit(answer.limit);
   if (answer.limit) {
-    const ProbeLimit& limit = *answer.limit;
-    Json& opening = json["opening"];
-    opening = {{"kind", to_string(limit.kind)}, {"point", to_json(limit.point)}};
-    if (is_end(limit.kind)) opening["end"] = end_name(limit.kind);
-    const char* const size = limit.kind == Kind::height || limit.too_low      ? "height_m"
-                             : is_end(limit.kind) || limit.kind == Kind::edge ? "distance_m"
-                             : limit.kind == Kind::step                       ? "step_m"
-                                                                              : "width_m";
-    if (limit.kind != Kind::apart) opening[size] = limit.size;
-    if (limit.kind == Kind::height && limit.width > 0.0) opening["width_m"] = limit.width;
-    opening["missing_m"] = limit.kind == Kind::apart ? Json(nullptr) : Json(answer.missing);
-    opening["direction"] = to_json(limit.direction);
-    opening["along_m"] = limit.along;
-    if (is_end(limit.kind)) opening["room"] = answer.room ? to_json(*answer.room) : Json(nullptr);
+    json["opening"]["missing_m"] = answer.limit->kind == Kind::apart ? Json(nullptr) : Json(answer.missing);
+    if (is_end(answer.limit->kind)) json["opening"]["room"] = answer.room ? to_json(*answer.room) : Json(nullptr);
   }
+  json["other"] = json_limit(answer.other);
   json["proven"] = answer.proven;
   json["bound_m"] = std::isfinite(p.bound) && p.bound > 0.0 ? Json(p.bound) : Json(nullptr);
   json["complete"] = p.complete;

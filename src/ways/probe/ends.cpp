@@ -10,6 +10,7 @@
 #include <numbers>
 
 #include "math/largest.h"
+#include "math/level_distance.h"
 #include "roam/sweep.h"
 #include "ways/lattice/walk_place.h"
 #include "ways/probe/parts.h"
@@ -129,8 +130,17 @@ std::optional<Vec3> nearest_from_afar(const ProbeSearch& search, const Vec3& giv
 
 }  // namespace
 
-std::optional<Vec3> stand_for(const ProbeSearch& search, const Vec3& given) {
-  return free_end(search.survey, search.measure(), given);
+bool is_moved(const Vec3& place, const Vec3& given, Mode mode) {
+  return mode == Mode::walk ? level_distance(place, given) > 0.0 : place != given;
+}
+
+std::optional<Vec3> stand_for(const ProbeSearch& search, const Vec3& given, double radius) {
+  Measure measure = search.measure();
+  const auto place = free_end(search.survey, measure, given);
+  if (!place || !is_moved(*place, given, measure.mode)) return place;
+  measure.narrowest = radius;
+  const auto roomy = free_end(search.survey, measure, given);
+  return roomy ? roomy : place;
 }
 
 std::optional<Vec3> nearest_room(const ProbeSearch& search, const Vec3& place, double radius) {

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 #include "math/boxes.h"
@@ -219,9 +220,10 @@ std::optional<StepUp> step_up(const ProbeSearch& search, double radius) {
   std::optional<StepUp> best;
   const auto passes = [&](double step) {
     higher.options.step = step;
-    const Passage passage = higher.widest();
+    Passage passage = higher.widest();
     if (!passage.found || passage.radius < radius) return false;
-    best = {highest_step(higher, passage.way, box_around(passage.way).grown(precision)), radius, passage.radius};
+    const ProbeLimit highest = highest_step(higher, passage.way, box_around(passage.way).grown(precision));
+    best = {highest, radius, std::move(passage)};
     high = std::min(step, best->limit.size);
     return true;
   };

@@ -31,8 +31,12 @@ struct ProbeSearch {
   return kind == ProbeLimit::Kind::start || kind == ProbeLimit::Kind::target;
 }
 
-/// The standing place for `given`; none if no body of options.narrowest fits there.
-[[nodiscard]] std::optional<Vec3> stand_for(const ProbeSearch& search, const Vec3& given);
+/// Whether a body stands aside of the point that was given for it.
+[[nodiscard]] bool is_moved(const Vec3& place, const Vec3& given, Mode mode);
+
+/// The standing place for `given`; none if no body of options.narrowest fits there or near. A place aside has room for
+/// `radius` if there is one.
+[[nodiscard]] std::optional<Vec3> stand_for(const ProbeSearch& search, const Vec3& given, double radius);
 
 /// The nearest place found where a body of `radius` has room: in sight and at most 3 m away, else on the nearest
 /// floors.
@@ -77,7 +81,8 @@ struct WayDown {
 /// The highest step of a way that climbs least, to 2 cm.
 struct StepUp {
   ProbeLimit limit;
-  double least = 0.0, widest = 0.0;  ///< the radii of bodies for which it holds
+  double least = 0.0;  ///< the radius of the body
+  Passage passage;     ///< the way, at least that wide
 };
 /// For a body of that radius, if no way was found. None if no step helps.
 [[nodiscard]] std::optional<StepUp> step_up(const ProbeSearch& search, double radius);

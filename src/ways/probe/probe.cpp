@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
@@ -129,10 +130,31 @@ bool is_beside_drop(const ProbeLimit& limit, const std::vector<ProbeDrop>& drops
          });
 }
 
-/// Finds the limit for one size of a search. `known`: the step of another size.
+/// The limits of a body that two obstacles stop: a height or step that stops narrow bodies, too, and the limit of wider
+/// ones behind it.
+std::optional<std::array<ProbeLimit, 2>> two_limits(const ProbeSearch& search, const ProbeEnds& ends, double radius) {
+  constexpr double lower = 2e-3;  // m: a headroom is known to a millimetre
+  ProbeSearch changed = search;
+  std::optional<ProbeLimit> first = headroom(search, search.options.narrowest);
+  Passage rest;
+  if (first) {
+    changed.options.height = first->size - lower;
+    rest = changed.widest();
+  } else if (auto step = step_up(search, search.options.narrowest)) {
+    first = step->limit;
+    rest = std::move(step->passage);
+  }
+  if (!first || rest.radius >= radius) return std::nullopt;
+  const auto second = limit_of(changed, rest, ends, radius);
+  if (!second) return std::nullopt;
+  return std::array{*first, *second};
+}
+
+/// Finds the limits for one size of a search. `known`: the step of another size.
 void find_limit(const ProbeSearch& search, ProbeAnswer& answer, std::optional<StepUp>& known) {
   const double radius = answer.size.radius;
-  answer.limit = limit_of(search, answer.passage, {answer.start, answer.target}, radius);
+  const ProbeEnds ends{answer.start, answer.target};
+  answer.limit = limit_of(search, answer.passage, ends, radius);
   if (answer.limit && is_beside_drop(*answer.limit, answer.drops)) answer.limit.reset();
   const bool at_end = answer.limit && is_end(answer.limit->kind);
   // A lower body's way is measured anew, and may come out a little wider.
@@ -140,8 +162,13 @@ void find_limit(const ProbeSearch& search, ProbeAnswer& answer, std::optional<St
   if (!answer.wide_enough && !at_end && !is_close) {
     auto other = headroom(search, radius);
     if (!other && !answer.passage.found && answer.passage.complete) {
-      if (!known || radius < known->least || radius > known->widest) known = step_up(search, radius);
-      if (known) other = known->limit;
+      if (!known || radius < known->least || radius > known->passage.radius) known = step_up(search, radius);
+      if (known) {
+        other = known->limit;
+      } else if (auto two = two_limits(search, ends, radius)) {
+        other = two->front();
+        answer.other = two->back();
+      }
     }
     if (other) answer.limit = other;
   }
@@ -214,6 +241,7 @@ std::vector<ProbeAnswer> answers_to(const Survey& survey, const ProbeQuestion& q
   struct Group {
     double least = std::numeric_limits<double>::infinity();
     ProbedSize largest{0.0, 0.0};
+    ProbeQuestion question;  ///< with ends that have room
     std::optional<ProbeSearch> search;
     Vec3 start{0.0}, target{0.0};
     std::optional<ProbeLimit> low;  ///< an end where no body of the group can stand upright
@@ -233,18 +261,22 @@ std::vector<ProbeAnswer> answers_to(const Survey& survey, const ProbeQuestion& q
   }
   for (auto& [kind, group] : groups) {
     const PassageOptions options = options_for(question, group.largest, group.least);
-    group.search.emplace(ProbeSearch{survey, question, options});
-    const auto stand = [&](const Vec3& given, ProbeLimit::Kind end, const char* name) {
+    group.question = question;
+    group.search.emplace(ProbeSearch{survey, group.question, options});
+    const auto stand = [&](Vec3& given, ProbeLimit::Kind end, const char* name) {
       refuse_far_end(*group.search, given, name);
-      const auto place = stand_for(*group.search, given);
-      if (place) return *place;
+      const auto place = stand_for(*group.search, given, group.largest.radius);
+      if (place) {
+        if (is_moved(*place, given, question.mode)) given = *place;
+        return *place;
+      }
       const auto low = low_end(*group.search, given, end);
       if (!low) refuse_end(*group.search, given, name, group.least);
       if (!group.low) group.low = low;
       return low->feet;
     };
-    group.start = stand(question.from, ProbeLimit::Kind::start, "from");
-    group.target = stand(question.to, ProbeLimit::Kind::target, "to");
+    group.start = stand(group.question.from, ProbeLimit::Kind::start, "from");
+    group.target = stand(group.question.to, ProbeLimit::Kind::target, "to");
     if (!group.low) group.passage = group.search->widest();
   }
   std::vector<ProbeAnswer> answers;
