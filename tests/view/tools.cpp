@@ -306,6 +306,23 @@ TEST(Probing, StandsInFrontOfAClickedWall) {
   EXPECT_NEAR(report.probes[0].to.x, 20.0 - 0.35, 1e-2);
 }
 
+TEST(Probing, ShowsTheWordsOfTheAnswerWhereABodyIsStopped) {
+  // A wall across the room at x = 15, with a door 0.5 m wide.
+  const std::string wall =
+      "v 15 -2 0\nv 15 -0.25 0\nv 15 -0.25 3\nv 15 -2 3\nv 15 0.25 0\nv 15 2 0\nv 15 2 3\nv 15 0.25 3\n"
+      "o wall\nf 9 10 11 12\nf 13 14 15 16\n";
+  Tooled d(app::ViewOptions{}, false, room_obj() + wall);
+  d.tap('t');
+  d.click(0, -0.3);
+  d.tap('i');
+  ASSERT_TRUE(d.until([&] { return contains(d.hud(), "probe: NO: a body 0.60 m wide"); })) << d.hud();
+  EXPECT_TRUE(contains(d.hud(), "stopped by: door 0.500 m wide")) << d.hud();
+  EXPECT_TRUE(contains(d.hud(), "would pass: up to 0.499 m wide")) << d.hud();
+  EXPECT_FALSE(contains(d.hud(), "certainty")) << d.hud();
+  d.run(0.1);
+  EXPECT_TRUE(contains(d.hud() + "\n", "\ndoor 0.500 m wide\n")) << "at its place: " << d.hud();
+}
+
 TEST(Probing, SaysWhyThereIsNoWay) {
   Tooled d;
   d.tap('t');

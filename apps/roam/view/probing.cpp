@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <iterator>
 #include <nlohmann/json.hpp>
+#include <string_view>
 #include <utility>
 
 #include "view/roam_child.h"
@@ -44,9 +46,7 @@ ProbeReply reply_of(const Json& json) {
   reply.to = point_of(json.at("to"));
   reply.passable = json.at("passable");
   for (const Json& point : json.at("way")) reply.way.push_back(point_of(point));
-  if (const Json& opening = json.at("opening"); opening.is_object() && opening.contains("point")) {
-    reply.narrowest = point_of(opening.at("point"));
-  }
+  for (const Json& mark : json.at("marks")) reply.marks.emplace_back(point_of(mark.at("point")), mark.at("text"));
   reply.text = json.at("text").get<std::vector<std::string>>();
   return reply;
 }
@@ -67,6 +67,13 @@ std::vector<StatusText> rows_of(const std::vector<std::string>& lines) {
     rows.push_back({begin == 0 ? "probe" : line.substr(begin, end - begin), line.substr(std::min(value, line.size()))});
   }
   return rows;
+}
+
+/// Whether the window shows a row: the answer, the places that decide, and an end that was moved.
+bool decides(const StatusText& row) {
+  constexpr std::array<std::string_view, 4> others{"way", "widest way", "narrower", "certainty"};
+  if (row.label == "A" || row.label == "B") return row.value.find(", moved: ") != std::string::npos;
+  return std::find(others.begin(), others.end(), row.label) == others.end();
 }
 
 }  // namespace
@@ -132,8 +139,9 @@ void Probing::fill(Status& status) {
   } else if (!search_->received) {
     status.tool.push_back({"probe", "searching"});
   } else {
-    constexpr std::size_t most_rows = 3;  // the answer, and what decides
+    constexpr std::size_t most_rows = 6;
     std::vector<StatusText> rows = rows_of(replies_.back().text);
+    std::erase_if(rows, [](const StatusText& row) { return !decides(row); });
     rows.resize(std::min(rows.size(), most_rows));
     if (!rows.empty()) rows.front().warning = !replies_.back().passable;
     std::move(rows.begin(), rows.end(), std::back_inserter(status.tool));
@@ -148,9 +156,10 @@ void Probing::add_to(graphics::Marks& marks, const Vec3& origin) {
   for (std::size_t i = 0; i + 1 < reply.way.size(); ++i) {
     marks.lines.push_back({reply.way[i] - origin + above_floor, reply.way[i + 1] - origin + above_floor});
   }
-  if (!reply.narrowest) return;
-  marks.points.push_back(*reply.narrowest - origin);
-  marks.labels.push_back({*reply.narrowest - origin, reply.passable ? "narrowest" : "too narrow"});
+  for (const auto& [place, text] : reply.marks) {
+    marks.points.push_back(place - origin);
+    marks.labels.push_back({place - origin, text});
+  }
 }
 
 Json to_json(const ProbeReply& reply) {

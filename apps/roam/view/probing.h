@@ -4,8 +4,8 @@
 
 #include <filesystem>
 #include <memory>
-#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "cli/report.h"
@@ -21,8 +21,9 @@ namespace roam::app {
 struct ProbeReply {
   Vec3 from{0.0}, to{0.0};
   bool passable = false;
-  std::vector<Vec3> way;          ///< metres; the feet, in flight the centre; empty: no way
-  std::optional<Vec3> narrowest;  ///< the place that decides
+  std::vector<Vec3> way;  ///< metres; the feet, in flight the centre; empty: no way
+  /// Marked places, with the words of the pictures of `roam probe`: the place that decides, steps down.
+  std::vector<std::pair<Vec3, std::string>> marks;
   std::vector<std::string> text;  ///< lines for people
 };
 
