@@ -29,9 +29,6 @@
 namespace roam::app {
 namespace {
 
-/// The first bytes of each file that save_profile() writes.
-constexpr std::string_view profile_start = "{\n  \"roam_profile\":";
-
 struct TrainVerbOptions {
   SceneOptions scene;
   TrainOptions train;

@@ -16,6 +16,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "roam/math.h"
@@ -84,6 +85,8 @@ void check(const Profile& profile);
 /// Writes atomically: a temporary file, synced and renamed. Throws roam::Error if it cannot be written, or as check()
 /// does.
 void save_profile(const Profile& profile, const std::filesystem::path& file);
+/// The first bytes of each file that save_profile() or save_frame() writes.
+inline constexpr std::string_view profile_start = "{\n  \"roam_profile\":";
 /// Loads the file profile_path(scene), if it exists and has a body. Throws as load_profile does, and roam::Error if the
 /// profile is of another scene than `identity`, if that is given.
 [[nodiscard]] std::optional<Profile> find_profile(const std::filesystem::path& scene,

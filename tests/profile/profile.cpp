@@ -66,6 +66,7 @@ TEST(Profile, IsReadAsItWasWrittenToTheLastBit) {
   roam::save_profile(profile, file);
   expect_same(roam::load_profile(file), profile);
   EXPECT_EQ(files_in(std::filesystem::path(file).parent_path()).size(), 1u);
+  EXPECT_TRUE(folder.read("dam.ply.roam.json").starts_with(roam::profile_start));
 }
 
 TEST(Profile, HasTheMembersThatAreDocumented) {
@@ -292,6 +293,7 @@ TEST(Profile, MayHoldAFrameAlone) {
   const roam::SceneFrame turned{roam::UpAxis::y, roam::LengthUnit::in};
   EXPECT_EQ(roam::find_frame(scenes), std::nullopt) << "there is no file";
   EXPECT_FALSE(roam::save_frame(turned, file));
+  EXPECT_TRUE(folder.read("mine.obj.roam.json").starts_with(roam::profile_start));
   EXPECT_EQ(roam::find_frame(scenes), turned);
   EXPECT_FALSE(roam::find_profile(scene));
   EXPECT_TRUE(contains(complaint([&] { (void)roam::load_profile(file); }), "it has a frame, but no body"));
