@@ -38,7 +38,8 @@ void take_kept_frame(SceneOptions& scene);
 /// The options that read a scene in this frame: "--up=y --unit=cm", without a unit of metres.
 [[nodiscard]] std::string options_of(const SceneFrame& frame);
 
-/// The options that read a scene in the frame `wanted` instead of `now`: as above, or with --unit=m if `now` has another.
+/// The options that read a scene in the frame `wanted` instead of `now`: as above, or with --unit=m if `now` has
+/// another.
 [[nodiscard]] std::string options_for(const SceneFrame& wanted, const SceneFrame& now);
 
 /// {"up": "y", "unit": "cm", "matrix": four rows, see SceneFrame::to_file}; null if there is none.
