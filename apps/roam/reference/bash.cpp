@@ -5,7 +5,7 @@
 namespace roam::app {
 namespace {
 
-constexpr const char* head = R"sh(# Completion of `roam` in bash, written from its help.
+constexpr const char* bash_head = R"sh(# Completion of `roam` in bash, written from its help.
 
 # Offers those of the words that begin with what was typed.
 _roam_words() { mapfile -t COMPREPLY < <(compgen -W "$1" -- "$cur"); }
@@ -46,11 +46,11 @@ _roam() {
 std::string completer(const Completable& values, std::span<const std::string> scenes) {
   switch (values.kind) {
     case Completable::Kind::words:
-      return fmt::format("_roam_words {}", quoted(fmt::to_string(fmt::join(values.words, " "))));
+      return fmt::format("_roam_words {}", shell_quoted(fmt::to_string(fmt::join(values.words, " "))));
     case Completable::Kind::files:
-      return fmt::format("_roam_files {}", quoted(fmt::to_string(fmt::join(values.words, "|"))));
+      return fmt::format("_roam_files {}", shell_quoted(fmt::to_string(fmt::join(values.words, "|"))));
     case Completable::Kind::scenes:
-      return fmt::format("_roam_files {}", quoted(fmt::to_string(fmt::join(scenes, "|"))));
+      return fmt::format("_roam_files {}", shell_quoted(fmt::to_string(fmt::join(scenes, "|"))));
     case Completable::Kind::folders:
       return "_roam_folders";
     case Completable::Kind::nothing:
@@ -69,9 +69,10 @@ std::string names_below(const HelpPage& page) {
 
 std::string bash_completion(const HelpPage& program, std::span<const std::string> scenes) {
   const std::vector<const HelpPage*> pages = all_pages(program);
-  std::string script = head;
+  std::string script = bash_head;
   for (const HelpPage* page : pages) {
-    if (page != &program) script += fmt::format("      {}) page={} ;;\n", quoted(page->name), quoted(page->name));
+    if (page != &program)
+      script += fmt::format("      {}) page={} ;;\n", shell_quoted(page->name), shell_quoted(page->name));
   }
   script += "    esac\n  done\n  # The value of an option.\n  case \"$page $option\" in\n";
   for (const HelpPage* page : pages) {
@@ -80,7 +81,7 @@ std::string bash_completion(const HelpPage& program, std::span<const std::string
       std::string names;
       for (const std::string& name : entry->names) {
         if (!names.empty()) names += " | ";
-        names += quoted(page->name + " " + name);
+        names += shell_quoted(page->name + " " + name);
       }
       script += fmt::format("    {}) {}; return ;;\n", names, completer(completable(*entry), scenes));
     }
@@ -90,14 +91,15 @@ std::string bash_completion(const HelpPage& program, std::span<const std::string
     std::string options;
     for (const HelpEntry* entry : options_of(*page)) options += fmt::format("{} ", fmt::join(entry->names, " "));
     if (!options.empty()) options.pop_back();
-    script += fmt::format("    {})\n", quoted(page->name));
+    script += fmt::format("    {})\n", shell_quoted(page->name));
     if (!page->below.empty()) {
-      script += fmt::format("      if [[ $cur != -* ]]; then _roam_words {}; return; fi\n", quoted(names_below(*page)));
+      script +=
+          fmt::format("      if [[ $cur != -* ]]; then _roam_words {}; return; fi\n", shell_quoted(names_below(*page)));
     } else if (const HelpEntry* argument = argument_of(*page); argument != nullptr) {
       script += fmt::format("      if [[ $cur != -* && ! $helping ]]; then {}; return; fi\n",
                             completer(completable(*argument), scenes));
     }
-    script += fmt::format("      [[ $helping ]] || _roam_words {}\n      ;;\n", quoted(options));
+    script += fmt::format("      [[ $helping ]] || _roam_words {}\n      ;;\n", shell_quoted(options));
   }
   return script + "  esac\n} && complete -F _roam roam\n";
 }

@@ -60,7 +60,7 @@ std::string clause(const std::string& description) {
   return description.substr(0, std::min(description.find("; "), description.find(". ")));
 }
 
-std::string quoted(std::string_view text) {
+std::string shell_quoted(std::string_view text) {
   std::string out = "'";
   for (const char c : text) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
   return out + "'";

@@ -44,6 +44,6 @@ struct Completable {
 [[nodiscard]] std::string clause(const std::string& description);
 
 /// `text` in single quotes, for a POSIX shell or zsh.
-[[nodiscard]] std::string quoted(std::string_view text);
+[[nodiscard]] std::string shell_quoted(std::string_view text);
 
 }  // namespace roam::app

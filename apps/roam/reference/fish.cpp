@@ -5,7 +5,7 @@
 namespace roam::app {
 namespace {
 
-constexpr const char* head = R"sh(# Completion of `roam` in fish, written from its help.
+constexpr const char* fish_head = R"sh(# Completion of `roam` in fish, written from its help.
 
 # Folders, and files with one of the endings; all files without.
 function __roam_files
@@ -58,7 +58,7 @@ std::string candidates(const Completable& values, std::span<const std::string> s
 
 std::string fish_completion(const HelpPage& program, std::span<const std::string> scenes) {
   const std::vector<const HelpPage*> pages = all_pages(program);
-  std::string script = head;
+  std::string script = fish_head;
   for (const HelpPage* page : pages) script += page == &program ? "" : fish_quoted(page->name) + " ";
   script += "\n            set page \"$page $word\"\n        end\n    end\n    test \"$page\" = \"$argv\"\nend\n\n";
   script += "complete -c roam -f\n";

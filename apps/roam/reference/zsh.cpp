@@ -43,7 +43,7 @@ std::string function_of(const HelpPage& page) {
 
 std::string specifications(const HelpPage& page, std::span<const std::string> scenes) {
   std::string text;
-  const auto add = [&](const std::string& specification) { text += " \\\n    " + quoted(specification); };
+  const auto add = [&](const std::string& specification) { text += " \\\n    " + shell_quoted(specification); };
   for (const HelpEntry* entry : options_of(page)) {
     for (const std::string& name : entry->names) {
       const std::string values =
@@ -70,7 +70,7 @@ std::string function(const HelpPage& page, std::span<const std::string> scenes) 
   }
   text += "  local curcontext=$curcontext state line\n  local -a names=(\n";
   for (const HelpPage& below : page.below) {
-    text += fmt::format("    {}\n", quoted(name_below(page, below) + ":" + plain(below.description)));
+    text += fmt::format("    {}\n", shell_quoted(name_below(page, below) + ":" + plain(below.description)));
   }
   if (is_program) text += "    'help:Explain a verb'\n";
   text += fmt::format("  )\n  _arguments -C :{} '1: :->name' '*:: :->rest' && return\n", specifications(page, scenes));
