@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Whether the documents hold together: links and mentions resolve, lines are short, and there are not too many words.
 #   documents.sh SOURCE          fails for each fault in SOURCE
-#   documents.sh SOURCE WORK     plants faults into small documents in WORK and fails where they are not found
+#   documents.sh SOURCE FAULTS   plants faults into small documents and fails where they are not found
 #
 # Checked are README.md, SECURITY.md, CONTRIBUTING.md, CHANGELOG.md and docs/**/*.md:
 #   - a relative link leads to a file or folder, and its #anchor to a heading, by GitHub's rules for anchors;
@@ -137,8 +137,9 @@ if (($# == 1)); then
   exit
 fi
 
-work=$2
-rm -rf "$work"
+[[ $2 == FAULTS ]] || { echo "$2: the second argument is FAULTS or left out" >&2; exit 2; }
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
 mkdir -p "$work/tree/docs/deep" "$work/tree/src" "$work/tree/tests"
 cd "$work/tree"
 cat > README.md << 'END'

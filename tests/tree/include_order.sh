@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Whether every #include runs down the house that docs/architecture.md draws.
 #   include_order.sh SOURCE          fails for each include of src, include, apps, bench, baseline and python that runs up
-#   include_order.sh SOURCE WORK     plants such includes into a copy and fails where they are not found
+#   include_order.sh SOURCE FAULTS   plants such includes into a copy and fails where they are not found
 #
 # The order is that of the picture: a folder may include from folders on lower lines. The table says of each public
 # header to which folder it belongs. Above the line of the core only src/store may open the core's own folders; all may include
@@ -92,9 +92,10 @@ if (($# == 1)); then
   exit
 fi
 
-source=$1 work=$2
-rm -rf "$work"
-mkdir -p "$work"
+source=$1
+[[ $2 == FAULTS ]] || { echo "$2: the second argument is FAULTS or left out" >&2; exit 2; }
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
 (cd "$source" && cp -r --parents docs/architecture.md apps bench baseline include python src tests "$work")
 
 # planted FILE INCLUDE: the same with one line more must fail, and name it.

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Whether each public type of C++ is used by an example or a program.
 #   public_types.sh SOURCE          fails for each type that none uses
-#   public_types.sh SOURCE WORK     plants such types into a copy and fails where they are not found
+#   public_types.sh SOURCE FAULTS   plants such types into a copy and fails where they are not found
 #
 # Programs are apps, bench, python, and the rooms that only programs and the C interface have. A type is used if they
 # name it, call a function or use a member that results in it, pass it to a function without overloads, or use a type
@@ -121,9 +121,10 @@ if (($# == 1)); then
   exit
 fi
 
-source=$1 work=$2
-rm -rf "$work"
-mkdir -p "$work"
+source=$1
+[[ $2 == FAULTS ]] || { echo "$2: the second argument is FAULTS or left out" >&2; exit 2; }
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
 (cd "$source" && cp -r --parents include "${rooms[@]}" "$work")
 
 # planted HEADER TEXT TYPE: the same with more text must fail, and name the type.
