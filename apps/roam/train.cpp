@@ -18,6 +18,7 @@
 #include "cli/tell.h"
 #include "cli/values.h"
 #include "draw/picture_file.h"
+#include "files/whole_file.h"
 #include "roam/error.h"
 #include "scenes/body_options.h"
 #include "scenes/frame.h"
@@ -90,7 +91,7 @@ void write_profile(const TrainVerbOptions& o, const std::filesystem::path& file,
   } else {
     Profile learnt = profile_of(t, identity);
     learnt.frame = frame_to_keep(o.scene);
-    save_profile(learnt, file);
+    save_profile(learnt, o.profile ? files::behind_links(file) : file);
     report.profile = file;
     std::error_code none;
     report.is_beside = std::filesystem::equivalent(file, profile_path(o.scene.scenes), none);

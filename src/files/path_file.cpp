@@ -180,7 +180,7 @@ void save_path(const std::filesystem::path& file, std::span<const Vec3> path, co
     }
     text += fmt::format("{} {} {}\n", p.x, p.y, p.z);
   }
-  files::write_whole(file, text);
+  files::write_whole(file, text, files::Naming::beside);
 }
 
 std::vector<Vec3> positions(const std::vector<Waypoint>& path) {

@@ -1,13 +1,16 @@
 #include "files/whole_file.h"
 
+#include <dirent.h>
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <array>
 #include <atomic>
 #include <cerrno>
+#include <memory>
 #include <system_error>
 #include <utility>
 
@@ -21,6 +24,8 @@ namespace fs = std::filesystem;
 /// Leaves room for the process and the number in a name of 255 bytes, the most that file systems take.
 constexpr std::size_t longest_stem = 200;
 
+constexpr int list_flags = O_RDONLY | O_DIRECTORY | O_CLOEXEC;
+
 void demand_name(const fs::path& file) {
   if (file.empty()) throw Error("the path of the file is empty; name the file");
 }
@@ -32,7 +37,7 @@ fs::path folder_of(const fs::path& file) {
 
 Descriptor open_folder_of(const fs::path& file) {
   const fs::path path = folder_of(file);
-  Descriptor folder(again([&] { return ::open(path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC); }));
+  Descriptor folder(again([&] { return ::open(path.c_str(), list_flags); }));
 #ifdef O_PATH
   // One that may not be listed may be written to all the same.
   if (!folder.is_open() && errno == EACCES) {
@@ -89,14 +94,23 @@ std::string read_to_end(const Descriptor& opened, const fs::path& file, std::uin
   }
 }
 
-WholeFile::WholeFile(const fs::path& file, unsigned rights)
-    : WholeFile(open_folder_of(file), folder_of(file), file.filename().string(), rights) {
-  demand_replaceable();
+fs::path behind_links(fs::path file) {
+  constexpr int most_links = 40;  // as Linux follows
+  std::error_code none;
+  for (int i = 0; i < most_links && fs::is_symlink(fs::symlink_status(file, none)); ++i) {
+    if (fs::exists(file, none) && !fs::is_regular_file(file, none)) break;  // links in /proc lead to pipes by no path
+    file = file.parent_path() / fs::read_symlink(file, none);
+  }
+  return file;
 }
 
 WholeFile::WholeFile(const fs::path& file, Naming naming)
-    : WholeFile(open_folder_of(file), folder_of(file), file.filename().string(), usual_rights, naming) {
-  if (naming == Naming::exact) demand_replaceable();
+    : WholeFile(naming == Naming::exact ? behind_links(file) : file, naming, usual_rights) {}
+
+WholeFile::WholeFile(const fs::path& file, Naming naming, unsigned rights)
+    : WholeFile(open_folder_of(file), folder_of(file), file.filename().string(), rights, naming) {
+  if (naming != Naming::numbered) demand_replaceable();
+  remove_abandoned();
 }
 
 void WholeFile::demand_replaceable() const {
@@ -137,6 +151,13 @@ bool WholeFile::begin(std::uint64_t number) {
     fail_to_write(error);
   }
   file_ = Descriptor(file);
+  // Where files have no locks, remove_abandoned() gets none either.
+  const bool taken = ::flock(file, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+  struct stat status {};
+  if (taken || (::fstat(file, &status) == 0 && status.st_nlink == 0)) {  // one that removes abandoned files was faster
+    temporary_.clear();
+    return false;
+  }
   try {
     listed_.begin(folder_.number(), temporary_);
   } catch (...) {
@@ -145,6 +166,26 @@ bool WholeFile::begin(std::uint64_t number) {
     throw;
   }
   return true;
+}
+
+void WholeFile::remove_abandoned() const {
+  Descriptor list(::openat(folder_.number(), ".", list_flags));
+  const std::unique_ptr<DIR, int (*)(DIR*)> entries(::fdopendir(list.number()), &::closedir);
+  if (!entries) return;
+  static_cast<void>(list.release());
+  const std::string_view stem = std::string_view(name_).substr(0, longest_stem);
+  while (const dirent* const entry = ::readdir(entries.get())) {
+    const char* const name = entry->d_name;
+    if (!is_temporary(name, [&](std::string_view of) { return of == stem; })) continue;
+    const Descriptor left(::openat(folder_.number(), name, O_RDWR | O_NONBLOCK | O_NOFOLLOW | O_NOCTTY | O_CLOEXEC));
+    struct stat opened {
+    }, named{};
+    if (!left.is_open() || ::flock(left.number(), LOCK_EX | LOCK_NB) != 0) continue;
+    if (::fstat(left.number(), &opened) != 0 || !S_ISREG(opened.st_mode)) continue;
+    // Committed meanwhile, and another one has the name now.
+    if (::fstatat(folder_.number(), name, &named, AT_SYMLINK_NOFOLLOW) != 0 || named.st_ino != opened.st_ino) continue;
+    ::unlinkat(folder_.number(), name, 0);
+  }
 }
 
 WholeFile::~WholeFile() {
@@ -166,9 +207,9 @@ void WholeFile::write_at(std::uint64_t offset, std::span<const std::byte> bytes)
 
 void WholeFile::finish_writing() {
   if (again([&] { return ::fsync(file_.number()); }) != 0) fail_to_write(errno);
-  // Some network file systems tell of a full disk only now.
-  const int closed = ::close(file_.release());
-  if (closed != 0 && errno != EINTR) fail_to_write(errno);
+  // Some network file systems tell of a full disk only when a file is closed. This one stays open, for its lock.
+  const int copy = ::fcntl(file_.number(), F_DUPFD_CLOEXEC, 0);
+  if (copy < 0 || (::close(copy) != 0 && errno != EINTR)) fail_to_write(errno);
 }
 
 bool WholeFile::take(const std::string& name) {
@@ -186,7 +227,7 @@ bool WholeFile::take(const std::string& name) {
 // Nothing allocates once the file has its name. Only the fsync of its folder may fail then.
 fs::path WholeFile::commit() {
   fs::path file = folder_path_ / name_;
-  if (naming_ == Naming::exact) {
+  if (naming_ != Naming::numbered) {
     commit_as(name_);
     return file;
   }
@@ -209,6 +250,7 @@ void WholeFile::commit_as(const std::string& name) {
 void WholeFile::settle() {
   temporary_.clear();
   listed_.end();
+  file_.close();
   sync_folder(folder_.number(), folder_path_);
 }
 

@@ -16,20 +16,20 @@
 namespace roam::files {
 
 enum class Naming {
-  exact,     ///< what has the name is replaced
+  exact,     ///< a file that has the name is replaced; if a link has it, the file that the link leads to
+  beside,    ///< what has the name is replaced, be it a link: a stranger may have put it there
   numbered,  ///< "a.png" becomes the first of a-1.png, a-2.png, ... that nothing has; nothing is replaced
 };
 
 /// A file in the making, beside its final place. It has the rights of any new file, or less. Unless commit() succeeds
-/// it is removed with this object, and when the program is interrupted. All functions throw FileError, and go on with
-/// interrupted and short writes.
+/// it is removed with this object, and when the program is interrupted; after a crash or a power cut, when the file of
+/// this name is written again. All functions throw FileError, and go on with interrupted and short writes.
 class WholeFile {
  public:
   /// Throws also when the final place holds anything but a file, such as a folder or a device.
-  /// `rights`: as of open(2), from which those of umask are taken.
-  explicit WholeFile(const std::filesystem::path& file, unsigned rights = usual_rights);
-  WholeFile(const std::filesystem::path& file, Naming naming);
-  /// The file `name` in an open folder, whose path is for messages.
+  explicit WholeFile(const std::filesystem::path& file, Naming naming = Naming::exact);
+  /// The file `name` in an open folder, whose path is for messages. `rights`: as of open(2), from which those of umask
+  /// are taken.
   WholeFile(Descriptor folder, std::filesystem::path folder_path, std::string name, unsigned rights = usual_rights,
             Naming naming = Naming::exact);
   ~WholeFile();
@@ -49,8 +49,10 @@ class WholeFile {
   void commit_as(const std::string& name);
 
  private:
-  /// A name of its own: `name`, the process, a number.
+  WholeFile(const std::filesystem::path& file, Naming naming, unsigned rights);
+  /// A name of its own: `name`, the process, a number. Its lock says that it is being written.
   bool begin(std::uint64_t number);
+  void remove_abandoned() const;
   void demand_replaceable() const;
   void finish_writing();
   /// Gives the file this name unless something has it.
@@ -73,6 +75,9 @@ class WholeFile {
 inline constexpr std::string_view temporary_suffix = ".unfinished";
 /// Whether a WholeFile may have left a temporary file of this name for a file whose name `is_final` accepts.
 [[nodiscard]] bool is_temporary(std::string_view name, const std::function<bool(std::string_view)>& is_final);
+
+/// The path that a symbolic link leads to, though nothing is there. Other paths stay as they are.
+[[nodiscard]] std::filesystem::path behind_links(std::filesystem::path file);
 
 /// Writes a WholeFile. Returns its path.
 std::filesystem::path write_whole(const std::filesystem::path& file, std::string_view text,

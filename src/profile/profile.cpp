@@ -338,7 +338,8 @@ void save_profile(const Profile& profile, const std::filesystem::path& file) {
                                         : "correct the profile"));
   }
   // Names of objects come from files and may hold any bytes.
-  files::write_whole(file, json_of(profile).dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+  files::write_whole(file, json_of(profile).dump(2, ' ', false, Json::error_handler_t::replace) + "\n",
+                     files::Naming::beside);
 }
 
 std::optional<SceneFrame> find_frame(std::span<const std::filesystem::path> scenes) {
@@ -352,7 +353,7 @@ bool save_frame(const SceneFrame& frame, const std::filesystem::path& file) {
   const Contents before = is_new ? Contents{} : load(file);
   if (before.frame == frame) return false;
   const Json json = {{"roam_profile", Profile::version}, {"frame", json_of(frame)}};
-  files::write_whole(file, json.dump(2) + "\n");
+  files::write_whole(file, json.dump(2) + "\n", files::Naming::beside);
   return before.profile.has_value();
 }
 

@@ -1,6 +1,7 @@
 // Files that are whole or as they were, whatever the disk does.
 #include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/file.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
 #include <sys/syscall.h>
@@ -224,7 +225,52 @@ TEST(WholeFile, IsNumberedWhereAFileHasOneNameOnly) {
   EXPECT_EQ(files_in(folder), 3U);
 }
 
-TEST(WholeFile, LeavesAloneWhatAProcessOfTheSameNumberLeft) {
+TEST(WholeFile, IsWrittenThroughLinksThoughTheyLeadToNothingYet) {
+  const TestFolder folder;
+  fs::create_directory(folder.file("far"));
+  fs::create_symlink("far/b.txt", folder.file("a.txt"));
+  fs::create_symlink(folder.file("a.txt"), folder.file("first.txt"));
+  for (const char* text : {"new", "newer"}) {
+    EXPECT_EQ(write_whole(folder.file("first.txt"), text), folder.file("far/b.txt"));
+    EXPECT_EQ(folder.read("far/b.txt"), text);
+    EXPECT_TRUE(fs::is_symlink(folder.file("first.txt")) && fs::is_symlink(folder.file("a.txt")));
+  }
+  EXPECT_EQ(files_in(folder), 3U);
+  fs::create_symlink("ring.txt", folder.file("ring.txt"));
+  EXPECT_NE(complaint([&] { write_whole(folder.file("ring.txt"), "text"); }).find("cannot write"), std::string::npos);
+}
+
+TEST(WholeFile, ThatIsNamedByNobodyTakesThePlaceOfALink) {
+  const TestFolder folder;
+  folder.write("secret.txt", "precious");
+  fs::create_symlink("secret.txt", folder.file("a.txt"));
+  write_whole(folder.file("a.txt"), "text", Naming::beside);
+  EXPECT_EQ(folder.read("secret.txt"), "precious");
+  EXPECT_FALSE(fs::is_symlink(folder.file("a.txt")));
+  EXPECT_EQ(folder.read("a.txt"), "text");
+}
+
+TEST(WholeFile, RemovesWhatAKilledProcessLeftOfItsNameAlone) {
+  const TestFolder folder;
+  folder.write("a.txt.1.0.unfinished", "left");
+  folder.write("b.txt.1.0.unfinished", "left of another file");
+  folder.write("a.txt.unfinished", "a person's own");
+  WholeFile living(folder.file("a.txt"));
+  living.write(bytes_of("still being written"));
+  const int lock = ::open(folder.write("a.txt.1.1.unfinished", "of a process").c_str(), O_RDWR | O_CLOEXEC);
+  ASSERT_EQ(::flock(lock, LOCK_EX), 0);
+  write_whole(folder.file("a.txt"), "new");
+  EXPECT_FALSE(fs::exists(folder.file("a.txt.1.0.unfinished")));
+  EXPECT_TRUE(fs::exists(folder.file("a.txt.1.1.unfinished")));
+  EXPECT_EQ(files_in(folder), 5U);
+  living.commit();
+  EXPECT_EQ(folder.read("a.txt"), "still being written");
+  ::close(lock);
+  write_whole(folder.file("a.txt"), "newer");
+  EXPECT_EQ(files_in(folder), 3U);
+}
+
+TEST(WholeFile, TakesAnotherNameThanAProcessOfTheSameNumberLeft) {
   const TestFolder folder;
   std::string next;
   {
@@ -239,7 +285,7 @@ TEST(WholeFile, LeavesAloneWhatAProcessOfTheSameNumberLeft) {
   }
   write_whole(folder.file("a.txt"), "new");
   EXPECT_EQ(folder.read("a.txt"), "new");
-  EXPECT_EQ(files_in(folder), 4U);
+  EXPECT_EQ(files_in(folder), 1U);
 }
 
 TEST(WholeFile, IsRemovedWhenTheProgramMustEndAtOnce) {
