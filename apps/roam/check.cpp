@@ -22,6 +22,7 @@
 #include "roam/store.h"
 #include "scenes/frame.h"
 #include "scenes/scene_options.h"
+#include "text/byte_order_mark.h"
 #include "verbs.h"
 #include "words/lines.h"
 #include "words/measures.h"
@@ -99,7 +100,10 @@ const char* remedy(std::string_view text) {
 }
 
 checking::Certificate certificate_in(const std::filesystem::path& file) {
-  const std::string text = read_input(file, limit);
+  const std::string bytes = read_input(file, limit);
+  if (is_utf16(bytes)) throw Error(file.string(), "this is UTF-16 text; save it as UTF-8");
+  const std::string_view text = without_byte_order_mark(bytes);
+  if (text.empty()) throw Error(file.string(), "this file is empty; write it by `roam walk --certify`");
   if (!text.starts_with("roam certificate ")) {
     throw Error(file.string(), "this is no certificate of `roam walk --certify`; name it before SCENE");
   }
@@ -167,8 +171,10 @@ std::string text_report(const CheckOptions& options, const Result& result) {
   if (result.refused) return words::Lines("REFUSED: " + name + ": " + result.place() + result.refused->what()).text();
   const checking::Certificate& certificate = *result.certificate;
   const Claim claim(certificate);
-  words::Lines lines(fmt::format("ACCEPTED: {}: its {} segments keep away from all {} triangles", name,
-                                 words::grouped(certificate.segments.size()),
+  words::Lines lines(fmt::format("ACCEPTED: {}: its {} away from all {} triangles", name,
+                                 certificate.segments.size() == 1
+                                     ? std::string("1 segment keeps")
+                                     : words::grouped(certificate.segments.size()) + " segments keep",
                                  words::grouped(certificate.scene.triangles)));
   lines.add("way", fmt::format("{:.2f} m without a break, from {} to {}", claim.length,
                                words::exactly_at(certificate.segments.front().from),

@@ -269,6 +269,23 @@ TEST_F(CheckVerb, SaysHowATextWasChangedThatIsNotAsItWasWritten) {
   }
 }
 
+TEST_F(CheckVerb, ReadsACertificateBehindAByteOrderMarkAndSaysWhichTextItCannotRead) {
+  const std::string text = course();
+  folder_.write("certificate", "\xef\xbb\xbf" + text);
+  expect_accepted("a byte order mark before it");
+  std::string wide = "\xff\xfe";
+  for (const char c : text) wide += {c, '\0'};
+  folder_.write("certificate", wide);
+  const ProgramResult result = check();
+  EXPECT_EQ(result.status, 1);
+  EXPECT_TRUE(contains(result.err, "this is UTF-16 text; save it as UTF-8")) << result.err;
+}
+
+TEST_F(CheckVerb, CountsOneSegmentAsOne) {
+  certify(course_obj(), {"--path", folder_.write("p.path", "2 0 1.5\n2 0 1.5\n"), "--mode", "fly"});
+  EXPECT_TRUE(contains(check().out, "its 1 segment keeps away from all ")) << check().out;
+}
+
 TEST_F(CheckVerb, NeedsTheSceneOfAStore) {
   const std::string text = course();
   const std::string scene = folder_.file("scene.obj"), store = folder_.file("s.roam"), way = folder_.file("p.path");
@@ -281,6 +298,9 @@ TEST_F(CheckVerb, NeedsTheSceneOfAStore) {
   EXPECT_EQ(alone.status, 2);
   EXPECT_TRUE(contains(alone.err, "--against")) << alone.err;
   folder_.write("certificate", "");
+  const ProgramResult empty = check();
+  EXPECT_EQ(empty.status, 1);
+  EXPECT_TRUE(contains(empty.err, "this file is empty")) << empty.err;
   walk.insert(walk.end(), {"--against", scene});
   EXPECT_EQ(run_program(ROAM_PROGRAM, walk).status, 0);
   expect_accepted("a walk in a store");

@@ -60,9 +60,7 @@ Lines::Lines(FileBytes& bytes) : bytes_(bytes) {
   const auto end = start.find_first_of("\r\n");
   if (end != std::string_view::npos && start[end] == '\r' && !start.substr(end).starts_with("\r\n"))
     end_of_line_ = '\r';
-  if (start.starts_with("\xff\xfe") || start.starts_with("\xfe\xff")) {
-    throw Error(bytes_.path(), "this is UTF-16 text; save it as UTF-8.");
-  }
+  if (is_utf16(start)) throw Error(bytes_.path(), "this is UTF-16 text; save it as UTF-8.");
   if (start.starts_with(byte_order_mark)) bytes_.skip(byte_order_mark.size());
 }
 
