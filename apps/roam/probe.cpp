@@ -70,21 +70,22 @@ std::vector<ProbedSize> read_sizes(const std::filesystem::path& file, bool spher
   return sizes;
 }
 
-/// The value of --matrix: a file if one of that name exists, else sizes.
-std::vector<ProbedSize> matrix_sizes(const std::string& text, bool spheres) {
-  std::error_code none;
-  if (!is_standard(text) && std::filesystem::is_directory(text, none))
-    throw UsageError(fmt::format("--matrix {}", text), "that is a folder; name a file of sizes, or sizes");
-  std::vector<ProbedSize> sizes;
-  if (is_standard(text) || std::filesystem::exists(text, none)) {
-    sizes = read_sizes(text, spheres);
-  } else {
-    try {
-      sizes = parse_sizes(text, "--matrix", spheres);
-    } catch (const UsageError& error) {
-      throw UsageError(Error::at(error.where(), fmt::format("{}; and there is no file \"{}\"", error.what(), text)));
-    }
+/// The value of --matrix, as text or in a file. Sizes are sizes even if a file has their name.
+std::vector<ProbedSize> sizes_in(const std::string& text, bool spheres) {
+  if (is_standard(text)) return read_sizes(text, spheres);
+  try {
+    return parse_sizes(text, "--matrix", spheres);
+  } catch (const UsageError& error) {
+    std::error_code none;
+    if (std::filesystem::is_directory(text, none))
+      throw UsageError(fmt::format("--matrix {}", text), "that is a folder; name a file of sizes, or sizes");
+    if (std::filesystem::exists(text, none)) return read_sizes(text, spheres);
+    throw UsageError(Error::at(error.where(), fmt::format("{}; and there is no file \"{}\"", error.what(), text)));
   }
+}
+
+std::vector<ProbedSize> matrix_sizes(const std::string& text, bool spheres) {
+  const std::vector<ProbedSize> sizes = sizes_in(text, spheres);
   const std::string where = text.empty() ? "--matrix \"\"" : "--matrix " + text;
   std::set<std::pair<double, double>> seen;
   for (const ProbedSize& size : sizes) {

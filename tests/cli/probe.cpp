@@ -170,6 +170,16 @@ TEST(ProbeVerb, AnswersForManySizesInOneRun) {
   EXPECT_EQ(std::count(probe.result.out.begin(), probe.result.out.end(), '\n'), 4);  // a head and three sizes
 }
 
+TEST(ProbeVerb, TakesANumberAsASizeThoughAFileHasItsName) {
+  Probe probe(0.7);
+  probe.folder.write("0.3", "no size\n");
+  const ProgramResult result =
+      run_program("/bin/sh", {"-c", "cd '" + probe.folder.file("") + "' && exec '" ROAM_PROGRAM "' probe '" +
+                                        probe.scene + "' --from 2,0,1 --to 18,0,1 --matrix 0.3 --json"});
+  EXPECT_EQ(result.status, 0) << result.err;
+  EXPECT_EQ(Json::parse(result.out, nullptr, false)["sizes"][0]["radius"], 0.3) << result.out;
+}
+
 TEST(ProbeVerb, DrawsTheOpening) {
   Probe probe(0.7);
   const std::string svg = probe.folder.file("door.svg"), png = probe.folder.file("door.png");
@@ -209,6 +219,8 @@ TEST(ProbeVerb, RefusesWhatCannotBeMeant) {
   refused({"--matrix", "nan"}, "radius");
   refused({"--matrix", "1e-300x1.8"}, "at least 0.001");
   refused({"--matrix", "0.3x0.1"}, "--matrix, size 0.3x0.1");
+  refused({"--matrix", "0.3\t1.9"}, "a tab separates two numbers");
+  refused({"--matrix", probe.folder.write("t.csv", "0.3\t1.9\n")}, "t.csv:1: a tab separates two numbers");
   refused({"--matrix", "0.3", "--picture", "p.svg"}, "--picture");
   refused({"--radius", "nan"}, "--radius");
   refused({"--radius", "-1"}, "--radius");

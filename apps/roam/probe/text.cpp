@@ -55,6 +55,11 @@ std::vector<ProbedSize> parse_sizes(const std::string& text, const std::string& 
       throw UsageError(where, "a comma has no size before or behind it; leave it out, or add the size");
     }
     if (begin == text.size()) break;
+    if (between && text.find('\t', i) < begin) {
+      throw UsageError(where,
+                       "a tab separates two numbers; write a radius and a height as 0.3x1.9, and put a comma or "
+                       "a blank between two sizes");
+    }
     const std::size_t end = std::min(text.find_first_of(", \t\r", begin), text.size());
     const std::string item = text.substr(begin, end - begin);
     const std::size_t cross = item.find('x');

@@ -13,8 +13,8 @@
 namespace roam::app {
 
 /// "0.3, 0.4x1.9": radii, or radius x height, in metres, separated by commas or blanks. A radius alone has its
-/// default_height. `where` begins messages. Throws UsageError for other text, for a comma that is not between two
-/// sizes, and for a sphere with a height.
+/// default_height. `where` begins messages. Throws UsageError for other text, for a tab between two
+/// sizes or a comma elsewhere, and for a sphere with a height.
 [[nodiscard]] std::vector<ProbedSize> parse_sizes(const std::string& text, const std::string& where,
                                                   bool spheres = false);
 
