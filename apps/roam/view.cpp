@@ -79,6 +79,7 @@ std::optional<NextSession> run_session(const ViewOptions& options, const ViewPla
   } catch (const Cancelled&) {
     // Write, verify and report what there is so far.
     cancelled = true;
+    give_time_to_write();
   }
   report = session.finish();
   return cancelled ? std::nullopt : session.next();

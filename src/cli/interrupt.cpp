@@ -52,7 +52,7 @@ void wait_for_signal() {
   }
 }
 
-/// Waits until another signal arrives, at most `longest`. Returns whether one arrived.
+/// Waits until a signal arrives, at most `longest`. Returns whether one arrived.
 bool wait_for_signal(std::chrono::milliseconds longest) {
   timespec until{};
   clock_gettime(CLOCK_REALTIME, &until);
@@ -84,9 +84,20 @@ bool wait_for_signal(std::chrono::milliseconds longest) {
   _exit(128 + number);
 }
 
+/// Waits until a signal arrives that is not the first one sent again, at most `longest`. Returns whether one arrived.
+bool wait_for_another_signal(std::chrono::milliseconds longest) {
+  const auto until = std::chrono::steady_clock::now() + longest;
+  for (;;) {
+    const auto now = std::chrono::steady_clock::now();
+    if (now >= until) return false;
+    if (!wait_for_signal(std::chrono::ceil<std::chrono::milliseconds>(until - now))) return false;
+    if (std::chrono::steady_clock::now().time_since_epoch() - std::chrono::nanoseconds(came_at) > one_wish) return true;
+  }
+}
+
 void watch() {
   wait_for_signal();
-  if (!wait_for_signal(longest_good_order) && writing) wait_for_signal(longest_writing);
+  if (!wait_for_another_signal(longest_good_order) && writing) wait_for_another_signal(longest_writing);
   end_at_once(signal_came);
 }
 

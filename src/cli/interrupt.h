@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Ctrl-C: work that reports progress is cancelled in good order; a second Ctrl-C ends the program at once. A watchdog
+/// Ctrl-C: work that reports progress is cancelled in good order; a later Ctrl-C ends the program at once. A watchdog
 /// does the same if good order takes too long: other people's code, such as a graphics driver, reports no progress.
 
 #include <chrono>
@@ -9,6 +9,10 @@ namespace roam::app {
 
 /// The longest time from the signal to the program's end, except for the watchdog's own work.
 inline constexpr std::chrono::milliseconds longest_good_order{800};
+
+/// Signals within this time of the first one count as the same: `timeout` and shells send one to the program and one to
+/// its group.
+inline constexpr std::chrono::milliseconds one_wish{1000};
 
 /// Catches SIGINT, SIGTERM and SIGHUP from now on. Turns the signals for a closed standard output and for a file that
 /// is too large into errors. Ending at once means: end the children, remove the unfinished files (files/unfinished.h),
