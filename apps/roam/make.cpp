@@ -5,7 +5,10 @@
 #include <chrono>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <span>
+#include <utility>
 
+#include "cli/output_file.h"
 #include "cli/progress.h"
 #include "cli/report.h"
 #include "cli/tell.h"
@@ -32,33 +35,56 @@ struct MakeOptions {
   [[nodiscard]] Vec3 origin_point() const { return {origin[0], origin[1], origin[2]}; }
 };
 
-/// Writes the three paths of Table 1 beside the gallery: gallery-straight.path and so on for gallery.ply.
-std::vector<std::string> write_gallery_paths(const MakeOptions& options) {
-  std::vector<std::string> written;
-  for (std::size_t i = 0; i < generate::gallery_paths.size(); ++i) {
-    const generate::Path& path = generate::gallery_paths[i];
+/// A path of Table 1 beside the gallery: gallery-straight.path and so on for gallery.ply.
+struct GalleryPath {
+  fs::path file;
+  std::string first_line;
+  Vec3 from, to;
+};
+
+std::vector<GalleryPath> gallery_paths(const MakeOptions& options) {
+  std::vector<GalleryPath> all;
+  for (const generate::Path& path : generate::gallery_paths) {
     fs::path file = options.output;
     file.replace_filename(options.output.stem().string() + "-" + path.name + ".path");
-    const Vec3 from = path.from + options.origin_point();
-    const Vec3 to = path.to + options.origin_point();
-    files::write_whole(
-        file, fmt::format(
-                  "# Path {} of Table 1 in Xie and Niu (2020), doi:10.1371/journal.pone.0229038\n{} {} {}\n{} {} {}\n",
-                  i + 1, from.x, from.y, from.z, to.x, to.y, to.z));
-    written.push_back(file.string());
+    all.push_back(
+        {std::move(file),
+         fmt::format("# Path {} of Table 1 in Xie and Niu (2020), doi:10.1371/journal.pone.0229038\n", all.size() + 1),
+         path.from + options.origin_point(), path.to + options.origin_point()});
+  }
+  return all;
+}
+
+std::vector<std::string> write(std::span<const GalleryPath> paths) {
+  std::vector<std::string> written;
+  for (const GalleryPath& path : paths) {
+    files::write_whole(path.file, fmt::format("{}{} {} {}\n{} {} {}\n", path.first_line, path.from.x, path.from.y,
+                                              path.from.z, path.to.x, path.to.y, path.to.z));
+    written.push_back(path.file.string());
   }
   return written;
 }
 
+/// The paths are not named by a person, so only paths of the same table are replaced.
+void demand_no_overwriting(const MakeOptions& options, std::span<const GalleryPath> paths) {
+  std::vector<NamedFile> outputs{{"-o", options.output, marked("mesh")}};
+  for (const GalleryPath& path : paths) {
+    outputs.push_back({fmt::format("-o {}, its path", options.output.string()), path.file,
+                       beginning_with(path.first_line, "path of Table 1")});
+  }
+  app::demand_no_overwriting({}, outputs);
+}
+
 ExitStatus make(const MakeOptions& options, const generate::Scene& scene, bool gallery) {
+  const std::vector<GalleryPath> beside = gallery ? gallery_paths(options) : std::vector<GalleryPath>();
+  demand_no_overwriting(options, beside);
   const auto start = std::chrono::steady_clock::now();
   {
     Progress progress("making " + options.output.string(), "triangles");
     generate::write_scene(scene, options.output,
                           [&](std::uint64_t made) { return progress.goes_on(made, scene.triangles()); });
   }
-  std::vector<std::string> paths;
-  if (gallery) paths = write_gallery_paths(options);
+  const std::vector<std::string> paths = write(beside);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   const std::uint64_t bytes = fs::file_size(options.output);
   if (options.json) {

@@ -228,7 +228,7 @@ ExitStatus probe(ProbeOptions o) {
   if (o.picture) check_output("--picture", *o.picture);
   std::vector<NamedFile> inputs = named_scenes(o.scene.scenes);
   inputs.push_back({"the profile", profile_path(o.scene.scenes)});
-  const NamedFile outputs[] = {{"--path", o.path.value_or(""), is_path}, {"--picture", o.picture.value_or("")}};
+  const NamedFile outputs[] = {{"--path", o.path.value_or(""), paths()}, {"--picture", o.picture.value_or("")}};
   demand_no_overwriting(inputs, outputs);
   std::optional<tbb::global_control> limit;
   if (o.scene.threads > 0) {

@@ -135,7 +135,7 @@ ExitStatus train(TrainVerbOptions o) {
   const std::filesystem::path profile = profile_file(o);
   take_kept_frame(o.scene);
   if (o.picture) check_output("--picture", *o.picture);
-  const NamedFile outputs[] = {{"-o", o.profile.value_or(""), begins_with(profile_start)},
+  const NamedFile outputs[] = {{"-o", o.profile.value_or(""), beginning_with(std::string(profile_start), "profile")},
                                {"--picture", o.picture.value_or("")}};
   demand_no_overwriting(named_scenes(o.scene.scenes), outputs);
   // -o may name the scene's own profile, in any spelling.

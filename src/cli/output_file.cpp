@@ -7,9 +7,11 @@
 #include <cerrno>
 #include <cstring>
 #include <fstream>
+#include <utility>
 
 #include "cli/exit_status.h"
 #include "cli/standard_streams.h"
+#include "files/mark.h"
 #include "roam/path_file.h"
 #include "text/byte_order_mark.h"
 #include "text/web_address.h"
@@ -36,23 +38,27 @@ void demand_no_address(const std::string& option, const std::filesystem::path& o
       Error(option + " " + output.string(), "a web server cannot be written to; name a place on the disk"));
 }
 
-std::function<bool(const std::filesystem::path&)> begins_with(std::string_view start) {
-  return [start](const std::filesystem::path& file) {
-    std::string read(byte_order_mark.size() + start.size(), '\0');
-    std::ifstream in(file, std::ios::binary);
-    in.read(read.data(), static_cast<std::streamsize>(read.size()));
-    read.resize(static_cast<std::size_t>(in.gcount()));
-    return read.empty() || without_byte_order_mark(read).starts_with(start);
-  };
+Kind beginning_with(std::string start, std::string noun) {
+  return {std::move(noun), [start = std::move(start)](const std::filesystem::path& file) {
+            std::string read(byte_order_mark.size() + start.size(), '\0');
+            std::ifstream in(file, std::ios::binary);
+            in.read(read.data(), static_cast<std::streamsize>(read.size()));
+            read.resize(static_cast<std::size_t>(in.gcount()));
+            return read.empty() || without_byte_order_mark(read).starts_with(start);
+          }};
 }
 
-bool is_path(const std::filesystem::path& file) {
-  try {
-    return begins_with("# roam: ")(file) || !load_path(file).empty();
-  } catch (const Error&) {
-    return false;
-  }
+Kind paths() {
+  return {"path", [](const std::filesystem::path& file) {
+            try {
+              return beginning_with("# roam: ", "").has(file) || !load_path(file).empty();
+            } catch (const Error&) {
+              return false;
+            }
+          }};
 }
+
+Kind marked(const std::string& noun) { return {noun + " made by roam", files::is_marked}; }
 
 std::vector<NamedFile> named_scenes(std::span<const std::filesystem::path> scenes) {
   std::vector<NamedFile> named;
@@ -77,17 +83,18 @@ void demand_no_overwriting(std::span<const NamedFile> inputs, std::span<const Na
   for (std::size_t i = 0; i < outputs.size(); ++i) {
     const fs::path& output = outputs[i].file;
     if (!is_file(output)) continue;
-    const auto refuse = [&](const std::string& what) {
+    const auto refuse = [&](const std::string& what, const char* advice = "name another file") {
       throw UsageError(fmt::format("{} {}", outputs[i].name, output.string()),
-                       fmt::format("this would overwrite {}; name another file", what));
+                       fmt::format("this would overwrite {}; {}", what, advice));
     };
+    const std::optional<Kind>& kind = outputs[i].kind;
     for (const NamedFile& input : inputs) {
       if (!is_file(input.file)) continue;
       if (same(input.file, output)) refuse(input.name);
       if (has_part(input.file, output)) refuse("a file of " + input.name);
     }
-    if (outputs[i].is_like && fs::is_regular_file(output, none) && !outputs[i].is_like(output))
-      refuse("a file of another kind");
+    if (kind && fs::is_regular_file(output, none) && !kind->has(output))
+      refuse(fmt::format("a file that is no {}", kind->noun), "name another file, or move that one away");
     for (const NamedFile& other : outputs.first(i)) {
       if (is_file(other.file) && same(other.file, output)) refuse("the file of " + other.name);
     }

@@ -25,22 +25,30 @@ struct Obstacle {
 /// Throws UsageError, naming the option, for the address of a web server.
 void demand_no_address(const std::string& option, const std::filesystem::path& output);
 
+/// Files that an output of their kind may replace: a noun in the singular, and whether a file is one.
+struct Kind {
+  std::string noun;
+  std::function<bool(const std::filesystem::path&)> has;
+};
+/// Files that begin with a text, or are empty. A byte order mark before it does not count.
+[[nodiscard]] Kind beginning_with(std::string start, std::string noun);
+/// Paths, whoever made them, empty files, and recordings that ended before their first place.
+[[nodiscard]] Kind paths();
+/// Meshes, pictures and films with the mark of roam (files/mark.h), and empty files.
+[[nodiscard]] Kind marked(const std::string& noun);
+
 /// A file, and its name in a sentence ("the path") or the option that names it. Empty: not given.
 struct NamedFile {
   std::string name;
   std::filesystem::path file;
-  std::function<bool(const std::filesystem::path&)> is_like{};  ///< whether an output may replace this file; empty: any
+  std::optional<Kind> kind{};  ///< an output replaces only files of this kind; none: any
 };
-/// Whether a file begins with a text, or is empty. A byte order mark before it does not count.
-[[nodiscard]] std::function<bool(const std::filesystem::path&)> begins_with(std::string_view start);
-/// Whether a file is a path, or is empty, or a recording that ended before its first place.
-[[nodiscard]] bool is_path(const std::filesystem::path& file);
 
 /// The scenes, each named "the scene".
 [[nodiscard]] std::vector<NamedFile> named_scenes(std::span<const std::filesystem::path> scenes);
 
 /// Throws UsageError if an output is the same file as an input or another output, a file in a folder that is an input,
-/// or a file that it is not `is_like`: the scene may refer to that.
+/// or a file that is not of its kind: somebody else made that, and the scene may refer to it.
 void demand_no_overwriting(std::span<const NamedFile> inputs, std::span<const NamedFile> outputs);
 
 /// Throws UsageError, naming the option, for a file that cannot be written: an address, a folder, a pipe, or one in a

@@ -6,7 +6,6 @@
 #include <span>
 #include <string_view>
 
-#include "cli/output_file.h"
 #include "cli/standard_streams.h"
 #include "roam/error.h"
 
@@ -28,7 +27,7 @@ std::string joined_events(const StepReport& report) {
 
 }  // namespace
 
-bool is_trace(const std::filesystem::path& file) { return begins_with(first_columns)(file); }
+Kind traces() { return beginning_with(std::string(first_columns), "trace"); }
 
 TraceFile::TraceFile(const std::filesystem::path& file) {
   if (!is_standard(file)) out_.emplace(file);

@@ -8,13 +8,14 @@
 #include <optional>
 #include <string>
 
+#include "cli/output_file.h"
 #include "files/whole_file.h"
 #include "roam/walker.h"
 
 namespace roam::app {
 
-/// Whether a file is a trace, or is empty.
-[[nodiscard]] bool is_trace(const std::filesystem::path& file);
+/// Traces, and empty files.
+[[nodiscard]] Kind traces();
 
 /// Writes `--trace`: a row for the start and one or more for each step. A step has a row for each corner of its way.
 /// Contacts and events stand in its last row, several events joined by `+`. `clearance` is certified along the straight

@@ -102,7 +102,7 @@ class Writer {
   }
 
   [[nodiscard]] std::string finish() const {
-    std::string all = "0\nSECTION\n2\nHEADER\n9\n$ACADVER\n1\nAC1009\n9\n$INSUNITS\n70\n6\n";
+    std::string all = "999\nmade by roam\n0\nSECTION\n2\nHEADER\n9\n$ACADVER\n1\nAC1009\n9\n$INSUNITS\n70\n6\n";
     for (const auto& [name, p] : {std::pair{"$EXTMIN", box_.lower}, {"$EXTMAX", box_.upper}}) {
       all += fmt::format("9\n{}\n10\n{:.4f}\n20\n{:.4f}\n30\n0.0\n", name, p.x, p.y);
     }

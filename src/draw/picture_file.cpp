@@ -12,8 +12,10 @@
 #include <span>
 
 #include "cli/exit_status.h"
+#include "cli/output_file.h"
 #include "draw/dxf.h"
 #include "files/extension.h"
+#include "files/mark.h"
 #include "roam/error.h"
 
 namespace roam::draw {
@@ -107,7 +109,11 @@ void draw(cairo_surface_t* surface, const Sheet& sheet) {
 const std::filesystem::path& checked(const std::filesystem::path& file, PictureFile::Views views) {
   const std::string extension = files::lower_extension(file);
   const bool in_metres = views == PictureFile::Views::in_metres;
-  if (extension == ".svg" || extension == ".png" || (extension == ".dxf" && in_metres)) return file;
+  if (extension == ".svg" || extension == ".png" || (extension == ".dxf" && in_metres)) {
+    const app::NamedFile picture{"--picture", file, app::marked("picture")};
+    app::demand_no_overwriting({}, {&picture, 1});
+    return file;
+  }
   throw app::UsageError("--picture " + file.string(), in_metres
                                                           ? "a picture is an .svg, a .png or a .dxf, by its extension"
                                                           : "a picture is an .svg or a .png, by its extension");
@@ -161,6 +167,7 @@ void PictureFile::write(const Sheet& sheet) {
   if (status != CAIRO_STATUS_SUCCESS) {
     throw Error(fmt::format("cannot draw the picture {}: {}", path_.string(), cairo_status_to_string(status)));
   }
+  files::add_mark(bytes);
   file_.write(std::as_bytes(std::span(bytes)));
   file_.commit();
 }

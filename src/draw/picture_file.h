@@ -17,8 +17,8 @@ namespace roam::draw {
 class PictureFile {
  public:
   /// Begins the file of a --picture, to make sure that it can be written. Throws app::UsageError if its extension is
-  /// neither .svg nor .png, nor .dxf if `views` says that the sheet has views in metres, in either case, and
-  /// roam::Error.
+  /// neither .svg nor .png, nor .dxf if `views` says that the sheet has views in metres, in either case, or if a file
+  /// is there that roam did not make, and roam::Error.
   enum class Views { none, in_metres };
   explicit PictureFile(const std::filesystem::path& file, Views views = Views::none);
 

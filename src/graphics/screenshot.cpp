@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "files/extension.h"
+#include "files/mark.h"
 #include "graphics/capture.h"
 
 namespace roam::graphics {
@@ -35,11 +36,13 @@ fs::path write_image(const osg::Image& image, const fs::path& path, files::Namin
     throw Error::at(path.string(), "cannot write the picture " + path.string() +
                                        ": OpenSceneGraph has no plugin for this kind of file");
   }
-  std::ostringstream bytes;
-  if (!plugin->writeImage(image, bytes, nullptr).success()) {
+  std::ostringstream encoded;
+  if (!plugin->writeImage(image, encoded, nullptr).success()) {
     throw Error::at(path.string(), "cannot write the picture " + path.string() + ": OpenSceneGraph cannot encode it");
   }
-  return files::write_whole(path, bytes.str(), naming);
+  std::string bytes = encoded.str();
+  files::add_mark(bytes);
+  return files::write_whole(path, bytes, naming);
 }
 
 /// Shared by the caller, the drawing thread and the writing thread.

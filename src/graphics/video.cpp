@@ -15,6 +15,7 @@
 #include <utility>
 
 #include "files/extension.h"
+#include "files/mark.h"
 #include "files/whole_file.h"
 #include "graphics/capture.h"
 #include "process/child.h"
@@ -86,6 +87,8 @@ Words arguments(const Kind& kind, int width, int height, int rate) {
     all.insert(all.end(), colours.begin(), colours.end());
   }
   all.insert(all.end(), kind.encoder.begin(), kind.encoder.end());
+  // A part of .mp4 and .webm; ffmpeg leaves it out of the others.
+  all.insert(all.end(), {"-metadata", "comment=" + std::string(files::mark)});
   // The index of a film is written last, at its beginning, which a pipe cannot do.
   all.push_back("file:/dev/fd/" + std::to_string(film_descriptor));
   return all;
@@ -193,6 +196,7 @@ class Video::Encoder {
     line_.close_ours();
     if (!process_.wait(ending_patience) || !process_.ending().is_success() || broken_) fail();
     if (frames_ == 0) throw Error::at(path_.string(), "the film " + path_.string() + " has no picture");
+    files::add_mark(file_);
     file_.commit();
   }
 

@@ -1,4 +1,4 @@
-// No output overwrites what is read, nor a file of another kind: the scene may refer to it.
+// No output overwrites what is read, nor a file that somebody else made: the scene may refer to it.
 #include <gtest/gtest.h>
 
 #include "cli_scenes.h"
@@ -46,7 +46,7 @@ TEST(Outputs, AreWrittenOverNoFileOfAnotherKind) {
     const ProgramResult refused = run_program(ROAM_PROGRAM, arguments);
     const std::string& option = arguments[arguments.size() - 2];
     EXPECT_EQ(refused.status, 2) << option;
-    EXPECT_TRUE(contains(refused.err, option + " " + file + ": this would overwrite a file of another kind"))
+    EXPECT_TRUE(contains(refused.err, option + " " + file + ": this would overwrite a file that is no "))
         << refused.err;
     EXPECT_EQ(folder.read("scene.bin"), buffer) << option;
     folder.write("scene.bin", "");
@@ -54,6 +54,82 @@ TEST(Outputs, AreWrittenOverNoFileOfAnotherKind) {
       const ProgramResult written = run_program(ROAM_PROGRAM, arguments);
       EXPECT_TRUE(written.status == 0 || written.status == 3) << written.err;
       EXPECT_GT(folder.read("scene.bin").size(), 10U) << option;
+    }
+  }
+}
+
+TEST(Outputs, PicturesReplaceOnlyPicturesThatRoamMade) {
+  const TestFolder folder;
+  const std::string scene = folder.write("scene.obj", room_obj()), path = folder.write("p.path", "2 0 1\n3 0 1\n");
+  const std::string theirs = "a texture that the scene refers to";
+  for (const char* name : {"a.svg", "a.PNG", "a.dxf"}) {
+    const std::string file = folder.file(name);
+    for (const std::vector<std::string>& arguments :
+         std::vector<std::vector<std::string>>{{"walk", scene, "--path", path, "--picture", file},
+                                               {"probe", scene, "--from", "2,0,1", "--to", "3,0,1", "--picture", file},
+                                               {"train", scene, "--no-profile", "--picture", file}}) {
+      folder.write(name, theirs);
+      const ProgramResult refused = run_program(ROAM_PROGRAM, arguments);
+      EXPECT_EQ(refused.status, 2) << arguments[0];
+      EXPECT_TRUE(contains(refused.err, "--picture " + file +
+                                            ": this would overwrite a file that is no picture made by "
+                                            "roam; name another file, or move that one away"))
+          << refused.err;
+      EXPECT_EQ(folder.read(name), theirs) << arguments[0];
+      std::filesystem::remove(file);
+      for (int again = 0; again < 2; ++again) {
+        const ProgramResult written = run_program(ROAM_PROGRAM, arguments);
+        EXPECT_TRUE(written.status == 0 || written.status == 3) << written.err;
+        EXPECT_GT(folder.read(name).size(), theirs.size()) << arguments[0];
+      }
+    }
+  }
+}
+
+TEST(Outputs, MadeScenesReplaceOnlyMadeScenes) {
+  const TestFolder folder;
+  const std::string theirs = "v 0 0 0\n";
+  for (const char* name : {"a.obj", "a.ply", "a.stl"}) {
+    const std::vector<std::string> arguments{"make", "gallery", "-o", folder.file(name), "--triangles", "20k"};
+    folder.write(name, theirs);
+    const ProgramResult refused = run_program(ROAM_PROGRAM, arguments);
+    EXPECT_EQ(refused.status, 2) << name;
+    EXPECT_TRUE(contains(refused.err, "-o " + folder.file(name) + ": this would overwrite a file that is no mesh"))
+        << refused.err;
+    EXPECT_EQ(folder.read(name), theirs);
+    std::filesystem::remove(folder.file(name));
+    for (int again = 0; again < 2; ++again) {
+      const ProgramResult made = run_program(ROAM_PROGRAM, arguments);
+      EXPECT_EQ(made.status, 0) << made.err;
+    }
+  }
+}
+
+TEST(Outputs, MadeGalleriesReplaceNoPathOfAPersonBesideThem) {
+  const TestFolder folder;
+  const std::string tour = folder.write("dam-corner.path", "1 2 3\n4 5 6\n"), scene = folder.file("dam.ply");
+  const ProgramResult refused = run_program(ROAM_PROGRAM, {"make", "gallery", "-o", scene, "--triangles", "20k"});
+  EXPECT_EQ(refused.status, 2);
+  EXPECT_TRUE(contains(refused.err, tour + ": this would overwrite a file that is no path of Table 1")) << refused.err;
+  EXPECT_EQ(folder.read("dam-corner.path"), "1 2 3\n4 5 6\n");
+  EXPECT_FALSE(std::filesystem::exists(scene));
+  EXPECT_FALSE(std::filesystem::exists(folder.file("dam-straight.path")));
+}
+
+TEST(Outputs, AreWrittenThroughLinksThatAPersonNames) {
+  const TestFolder folder;
+  const std::string scene = folder.write("scene.obj", room_obj()), path = folder.write("p.path", "2 0 1\n3 0 1\n");
+  for (const char* name : {"way.svg", "trace.csv", "c.txt"}) {
+    std::filesystem::create_symlink(std::string("real-") + name, folder.file(name));
+  }
+  for (int again = 0; again < 2; ++again) {
+    const ProgramResult walked =
+        run_program(ROAM_PROGRAM, {"walk", scene, "--path", path, "--picture", folder.file("way.svg"), "--trace",
+                                   folder.file("trace.csv"), "--certify", folder.file("c.txt")});
+    EXPECT_EQ(walked.status, 0) << walked.err;
+    for (const char* name : {"way.svg", "trace.csv", "c.txt"}) {
+      EXPECT_TRUE(std::filesystem::is_symlink(folder.file(name))) << name;
+      EXPECT_GT(folder.read(std::string("real-") + name).size(), 10U) << name;
     }
   }
 }

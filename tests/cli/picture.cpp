@@ -151,11 +151,12 @@ TEST(WalkPicture, FailsEarlyWhereItCannotBeWritten) {
 
 TEST(WalkPicture, LeavesTheOldOneWhenTheWalkFails) {
   Picture picture;
-  picture.folder.write("tour.svg", "old");
+  const std::string old = "<!-- made by roam -->";
+  picture.folder.write("tour.svg", old);
   picture.scene = picture.folder.write("broken.obj", "this is no scene");
   picture.draw("tour.svg");
   EXPECT_EQ(picture.result.status, 1);
-  EXPECT_EQ(picture.folder.read("tour.svg"), "old");
+  EXPECT_EQ(picture.folder.read("tour.svg"), old);
   EXPECT_EQ(picture.files(), 4u);
 }
 

@@ -3,8 +3,10 @@
 #include "graphics/capture.h"
 
 #include <array>
+#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <osgDB/ReadFile>
@@ -13,6 +15,7 @@
 #include <string>
 #include <utility>
 
+#include "files/mark.h"
 #include "graphics/hud.h"
 #include "graphics_stage.h"
 #include "process/find_program.h"
@@ -89,6 +92,7 @@ TEST_F(GraphicsCapture, AScreenshotIsThePictureToThePixel) {
   ASSERT_EQ(read->t(), 217);
   EXPECT_EQ(differing(*read, *expected), 0);
   EXPECT_EQ(files(), 1u);
+  EXPECT_TRUE(files::is_marked(file));
 }
 
 TEST_F(GraphicsCapture, AScreenshotMayLeaveTheDisplayOut) {
@@ -115,6 +119,10 @@ TEST_F(GraphicsCapture, JpegIsWrittenToo) {
   std::ifstream file(folder / "shot.jpg", std::ios::binary);
   EXPECT_EQ(file.get(), 0xFF);
   EXPECT_EQ(file.get(), 0xD8);
+  EXPECT_TRUE(files::is_marked(folder / "shot.jpg"));
+  const osg::ref_ptr<osg::Image> read = osgDB::readRefImageFile((folder / "shot.jpg").string());
+  ASSERT_TRUE(read);
+  EXPECT_EQ(read->s(), 64);
 }
 
 TEST_F(GraphicsCapture, AScreenshotOfAThreadedViewerWaitsForItsFrame) {
@@ -252,7 +260,8 @@ TEST_F(GraphicsCapture, AFilmRunsAsTimeDid) {
 
 TEST_F(GraphicsCapture, AFilmIsAsItsExtensionSays) {
   if (!have_ffmpeg()) GTEST_SKIP() << "ffmpeg and ffprobe are not on the PATH";
-  for (const auto& [name, expected] : {std::pair{"film.webm", "vp9,64,48,yuv420p,20/1,6\n"},
+  for (const auto& [name, expected] : {std::pair{"film.mp4", "h264,64,48,yuv420p,20/1,6\n"},
+                                       {"film.webm", "vp9,64,48,yuv420p,20/1,6\n"},
                                        {"film.gif", "gif,64,48,bgra,20/1,6\n"},
                                        {"film.WEBP", ""}}) {
     Video video(folder / name, 64, 48, 20);
@@ -264,6 +273,7 @@ TEST_F(GraphicsCapture, AFilmIsAsItsExtensionSays) {
       video.add(image);
     }
     video.finish();
+    EXPECT_TRUE(files::is_marked(folder / name)) << name;
     if (*expected != '\0') {
       EXPECT_EQ(probe(folder / name), expected);
       continue;
@@ -274,6 +284,9 @@ TEST_F(GraphicsCapture, AFilmIsAsItsExtensionSays) {
     std::size_t pictures = 0;
     for (std::size_t k = bytes.find("ANMF"); k != std::string::npos; k = bytes.find("ANMF", k + 4)) ++pictures;
     EXPECT_EQ(bytes.substr(8, 4), "WEBP");
+    std::uint32_t stated = 0;
+    std::memcpy(&stated, bytes.data() + 4, sizeof stated);
+    EXPECT_EQ(stated + 8, bytes.size()) << "the size that RIFF states";
     EXPECT_EQ(pictures, 6u);
   }
 }

@@ -113,10 +113,10 @@ int film_rate(const ViewOptions& options) {
 
 /// Refuses outputs that would overwrite an input or another output, or that cannot be written.
 void check_files(const ViewOptions& options, const ViewSettings& settings) {
-  const NamedFile outputs[] = {{"--screenshot", options.screenshot},
-                               {"--record", options.record},
-                               {"--record-path", options.record_path, is_path},
-                               {"--trace", options.trace, is_trace}};
+  const NamedFile outputs[] = {{"--screenshot", options.screenshot, marked("picture")},
+                               {"--record", options.record, marked("film")},
+                               {"--record-path", options.record_path, paths()},
+                               {"--trace", options.trace, traces()}};
   if (is_standard(options.record_path))
     throw UsageError("--record-path -", "standard output does not take a path; name a file");
   demand_one_output("--trace", options.trace, options.json);

@@ -67,9 +67,9 @@ void check_outputs(const WalkOptions& options) {
   for (const NamedFile& scene : named_scenes(options.against.scenes)) inputs.push_back(scene);
   inputs.push_back({"the path", options.path});
   inputs.push_back({"the profile", profile_path(options.scene.scenes)});
-  const NamedFile outputs[] = {{"--trace", options.trace, is_trace},
+  const NamedFile outputs[] = {{"--trace", options.trace, traces()},
                                {"--picture", options.picture},
-                               {"--certify", options.certify, begins_with(checking::first_line)}};
+                               {"--certify", options.certify, beginning_with(checking::first_line, "certificate")}};
   demand_no_overwriting(inputs, outputs);
   if (options.certify.empty()) return;
   check_output("--certify", options.certify);

@@ -1,0 +1,26 @@
+#pragma once
+/// \file
+/// The mark of roam in meshes, pictures and films that it makes: it replaces no others.
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+#include "files/whole_file.h"
+
+namespace roam::files {
+
+/// These words stand where other programs skip them: in a comment, or in a part of the file that only roam knows. They
+/// are in the first 4 MiB or the last 64 bytes.
+inline constexpr std::string_view mark = "made by roam";
+
+/// Adds the mark to the bytes of a picture: PNG, JPEG or SVG. Others stay as they are. In a PNG it is a chunk that is
+/// unsafe to copy: an editor that changes the picture drops it.
+void add_mark(std::string& picture);
+/// Adds the mark to a complete film that is not committed yet: GIF or WebP. Others stay as they are. Throws FileError.
+void add_mark(WholeFile& film);
+
+/// Whether a file has the mark, or is empty. False for one that cannot be read.
+[[nodiscard]] bool is_marked(const std::filesystem::path& file);
+
+}  // namespace roam::files
