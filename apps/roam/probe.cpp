@@ -254,7 +254,8 @@ ExitStatus probe(ProbeOptions o) {
   const ProbeAnswer& first = answers.front();
   Unwritten unwritten;
   if (o.path && first.wide_enough) unwritten.attempt([&] { write_path(o, scene.survey, first); });
-  if (o.path && !first.wide_enough) tell(fmt::format("{}: there is no way, so it was not written", o.path->string()));
+  if (o.path && !first.wide_enough)
+    tell(fmt::format("{}: there is no way, so it was not written{}", o.path->string(), earlier_stays(*o.path)));
   if (drawing) {
     unwritten.attempt([&] { drawing->write(sheet_of(o.scene.file_names(), scene.survey, o.question, first)); });
   }

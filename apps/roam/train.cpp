@@ -85,7 +85,8 @@ void write_profile(const TrainVerbOptions& o, const std::filesystem::path& file,
   if (file.empty() || t.places == 0) return;
   const bool learned = t.complete || !t.paths.empty();
   if (!learned) {
-    tell(fmt::format("{} was not written: this training ended before it had learned anything", file.string()));
+    tell(fmt::format("{} was not written: this training ended before it had learned anything{}", file.string(),
+                     earlier_stays(file)));
   } else if (!t.complete && !o.profile && std::filesystem::exists(std::filesystem::symlink_status(file))) {
     tell(fmt::format("{} is left as it is: this training ended early", file.string()));
   } else {
@@ -161,7 +162,7 @@ ExitStatus train(TrainVerbOptions o) {
   print_report(o.json, json_report(report),
                text_report(report) + kept_frame_line(o.scene) + (o.stats ? stats_report(report) : ""));
   if (drawing && interrupted()) {
-    tell(fmt::format("{} was not drawn: this training ended early", o.picture->string()));
+    tell(fmt::format("{} was not drawn: this training ended early{}", o.picture->string(), earlier_stays(*o.picture)));
   } else if (drawing) {
     const std::vector<draw::OpeningView> views = views_of(report);
     // Without a deciding opening, draw the answer alone.

@@ -3,12 +3,14 @@
 #include <tbb/global_control.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <functional>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 
 #include "cli/interrupt.h"
+#include "cli/output_file.h"
 #include "cli/progress.h"
 #include "cli/report.h"
 #include "cli/standard_streams.h"
@@ -139,6 +141,11 @@ ExitStatus view(ViewOptions options) {
   }
   hold.reset();  // Xlib ends a program whose server goes away
   report.notes.insert(report.notes.begin(), notes.begin(), notes.end());
+  const std::string picture = options.screenshot.string();
+  if (!picture.empty() && std::find(report.written.begin(), report.written.end(), picture) == report.written.end()) {
+    report.notes.push_back(picture + " was not written: the session ended before all was loaded and at its end" +
+                           earlier_stays(picture));
+  }
   for (const std::string& note : report.notes) tell("note: " + note);
   if (options.verify && report.roamed) {
     Progress progress("verifying", "pieces");

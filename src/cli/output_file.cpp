@@ -109,4 +109,10 @@ void check_output(const std::string& option, const std::filesystem::path& file) 
   }
 }
 
+std::string earlier_stays(const std::filesystem::path& file) {
+  std::error_code none;
+  return !is_standard(file) && std::filesystem::exists(file, none) ? "; the earlier file of that name stays as it was"
+                                                                   : "";
+}
+
 }  // namespace roam::app

@@ -55,6 +55,9 @@ void demand_no_overwriting(std::span<const NamedFile> inputs, std::span<const Na
 /// folder that does not exist or is not writable.
 void check_output(const std::string& option, const std::filesystem::path& file);
 
+/// Half a sentence for a message that `file` is not written: that an earlier one stays. Empty if there is none.
+[[nodiscard]] std::string earlier_stays(const std::filesystem::path& file);
+
 /// Keeps the error of a failed write until the result has been printed.
 class Unwritten {
  public:

@@ -196,6 +196,13 @@ TEST_F(Interrupt, View) {
   interrupt({"view", scene(), "--headless", "--time", "1e6", "--screenshot", folder_.file("shot.png")});
 }
 
+TEST_F(Interrupt, ViewThatSaysThatItsPictureIsNotWritten) {
+  const std::string floor = folder_.write("floor.obj", "v -9 -9 0\nv 9 -9 0\nv 9 9 0\nv -9 9 0\nf 1 2 3 4\n");
+  interrupt({"view", floor, "--headless", "--time", "1e6", "--screenshot", folder_.file("shot.png")}, 4.0, SIGINT);
+  EXPECT_NE(folder_.read("log").find("shot.png was not written: the session ended before"), std::string::npos)
+      << folder_.read("log");
+}
+
 TEST_F(Interrupt, ViewThatFilms) {
   interrupt({"view", scene(), "--headless", "--time", "1e6", "--record", folder_.file("film.mp4")});
 }

@@ -134,4 +134,26 @@ TEST(Outputs, AreWrittenThroughLinksThatAPersonNames) {
   }
 }
 
+TEST(Outputs, ThatAreNotWrittenLeaveAnEarlierFileAndSaySo) {
+  const TestFolder folder;
+  const std::string scene = folder.write("scene.obj", room_obj()),
+                    stays = "the earlier file of that name stays as it was";
+  const std::string path = folder.write("way.path", "1 2 3\n4 5 6\n"), fresh = folder.file("fresh.path");
+  const auto probe = [&](const std::string& file) {
+    return run_program(ROAM_PROGRAM,
+                       {"probe", scene, "--from", "2,0,1", "--to", "3,0,1", "--radius", "50", "--path", file});
+  };
+  const ProgramResult kept = probe(path), none = probe(fresh);
+  EXPECT_TRUE(contains(kept.err, "so it was not written; " + stays)) << kept.err;
+  EXPECT_TRUE(contains(none.err, "so it was not written\n")) << none.err;
+  EXPECT_EQ(folder.read("way.path"), "1 2 3\n4 5 6\n");
+
+  const std::string off = folder.write("off.path", "-0.1 0 0.9\n5 0 0.9\n"), certificate = folder.file("certificate");
+  folder.write("certificate", "roam certificate 1\n");
+  const ProgramResult fell = run_program(ROAM_PROGRAM, {"walk", scene, "--path", off, "--certify", certificate});
+  EXPECT_EQ(fell.status, 1);
+  EXPECT_TRUE(contains(fell.err, "put elsewhere on its way has none); " + stays)) << fell.err;
+  EXPECT_EQ(folder.read("certificate"), "roam certificate 1\n");
+}
+
 }  // namespace

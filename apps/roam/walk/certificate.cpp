@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "cli/output_file.h"
 #include "cli/tell.h"
 #include "files/whole_file.h"
 #include "roam/error.h"
@@ -69,7 +70,7 @@ bool certify(const std::filesystem::path& file, const OpenScene& scene, const ve
              const checking::SceneSum* source) {
   if (file.empty()) return false;
   if (scene.store() && !source) {
-    tell("note: no certificate: Ctrl-C came before the scene was read");
+    tell("note: no certificate: Ctrl-C came before the scene was read" + earlier_stays(file));
     return false;
   }
   checking::SceneSum sum;
@@ -80,14 +81,15 @@ bool certify(const std::filesystem::path& file, const OpenScene& scene, const ve
     for (const Piece& piece : some) segments.add(piece);
   });
   if (segments.count() == 0) {
-    throw Error("--certify " + file.string(), "the body was never free: nothing can be certified");
+    throw Error("--certify " + file.string(),
+                "the body was never free: nothing can be certified" + earlier_stays(file));
   }
   if (segments.count() > checking::most_segments) {
     throw Error(
         "--certify " + file.string(),
         fmt::format(
-            "the walk has {} segments, and a certificate at most {}; walk its path in parts, each with --certify",
-            segments.count(), checking::most_segments));
+            "the walk has {} segments, and a certificate at most {}; walk its path in parts, each with --certify{}",
+            segments.count(), checking::most_segments, earlier_stays(file)));
   }
   const std::string text = segments.certificate(sum);
   try {
@@ -95,8 +97,9 @@ bool certify(const std::filesystem::path& file, const OpenScene& scene, const ve
   } catch (const checking::Refused& refused) {
     throw Error::at(
         "--certify " + file.string(),
-        fmt::format("this walk has no certificate: segment {}: {} (a body that was put elsewhere on its way has none)",
-                    refused.segment, refused.what()));
+        fmt::format(
+            "this walk has no certificate: segment {}: {} (a body that was put elsewhere on its way has none){}",
+            refused.segment, refused.what(), earlier_stays(file)));
   }
   files::write_whole(file, text);
   return true;
