@@ -91,7 +91,8 @@ bool wait_for_another_signal(std::chrono::milliseconds longest) {
     const auto now = std::chrono::steady_clock::now();
     if (now >= until) return false;
     if (!wait_for_signal(std::chrono::ceil<std::chrono::milliseconds>(until - now))) return false;
-    if (std::chrono::steady_clock::now().time_since_epoch() - std::chrono::nanoseconds(came_at) > one_wish) return true;
+    const auto since_first = std::chrono::steady_clock::now().time_since_epoch() - std::chrono::nanoseconds(came_at);
+    if (since_first > longest_repeat) return true;
   }
 }
 

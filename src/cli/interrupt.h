@@ -12,7 +12,7 @@ inline constexpr std::chrono::milliseconds longest_good_order{800};
 
 /// Signals within this time of the first one count as the same: `timeout` and shells send one to the program and one to
 /// its group.
-inline constexpr std::chrono::milliseconds one_wish{1000};
+inline constexpr std::chrono::milliseconds longest_repeat{1000};
 
 /// Catches SIGINT, SIGTERM and SIGHUP from now on. Turns the signals for a closed standard output and for a file that
 /// is too large into errors. Ending at once means: end the children, remove the unfinished files (files/unfinished.h),

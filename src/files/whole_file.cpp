@@ -178,8 +178,8 @@ void WholeFile::remove_abandoned() const {
     const char* const name = entry->d_name;
     if (!is_temporary(name, [&](std::string_view of) { return of == stem; })) continue;
     const Descriptor left(::openat(folder_.number(), name, O_RDWR | O_NONBLOCK | O_NOFOLLOW | O_NOCTTY | O_CLOEXEC));
-    struct stat opened {
-    }, named{};
+    struct stat opened {};
+    struct stat named {};
     if (!left.is_open() || ::flock(left.number(), LOCK_EX | LOCK_NB) != 0) continue;
     if (::fstat(left.number(), &opened) != 0 || !S_ISREG(opened.st_mode)) continue;
     // Committed meanwhile, and another one has the name now.
