@@ -38,7 +38,7 @@ void demand_no_address(const std::string& option, const std::filesystem::path& o
       Error(option + " " + output.string(), "a web server cannot be written to; name a place on the disk"));
 }
 
-Kind beginning_with(std::string start, std::string noun) {
+FileKind beginning_with(std::string start, std::string noun) {
   return {std::move(noun), [start = std::move(start)](const std::filesystem::path& file) {
             std::string read(byte_order_mark.size() + start.size(), '\0');
             std::ifstream in(file, std::ios::binary);
@@ -48,7 +48,7 @@ Kind beginning_with(std::string start, std::string noun) {
           }};
 }
 
-Kind paths() {
+FileKind paths() {
   return {"path", [](const std::filesystem::path& file) {
             try {
               return beginning_with("# roam: ", "").has(file) || !load_path(file).empty();
@@ -58,7 +58,7 @@ Kind paths() {
           }};
 }
 
-Kind marked(const std::string& noun) { return {noun + " made by roam", files::is_marked}; }
+FileKind marked(const std::string& noun) { return {noun + " made by roam", files::is_marked}; }
 
 std::vector<NamedFile> named_scenes(std::span<const std::filesystem::path> scenes) {
   std::vector<NamedFile> named;
@@ -87,7 +87,7 @@ void demand_no_overwriting(std::span<const NamedFile> inputs, std::span<const Na
       throw UsageError(fmt::format("{} {}", outputs[i].name, output.string()),
                        fmt::format("this would overwrite {}; {}", what, advice));
     };
-    const std::optional<Kind>& kind = outputs[i].kind;
+    const std::optional<FileKind>& kind = outputs[i].kind;
     for (const NamedFile& input : inputs) {
       if (!is_file(input.file)) continue;
       if (same(input.file, output)) refuse(input.name);

@@ -26,22 +26,22 @@ struct Obstacle {
 void demand_no_address(const std::string& option, const std::filesystem::path& output);
 
 /// Files that an output of their kind may replace: a noun in the singular, and whether a file is one.
-struct Kind {
+struct FileKind {
   std::string noun;
   std::function<bool(const std::filesystem::path&)> has;
 };
 /// Files that begin with a text, or are empty. A byte order mark before it does not count.
-[[nodiscard]] Kind beginning_with(std::string start, std::string noun);
+[[nodiscard]] FileKind beginning_with(std::string start, std::string noun);
 /// Paths, whoever made them, empty files, and recordings that ended before their first place.
-[[nodiscard]] Kind paths();
+[[nodiscard]] FileKind paths();
 /// Meshes, pictures and films with the mark of roam (files/mark.h), and empty files.
-[[nodiscard]] Kind marked(const std::string& noun);
+[[nodiscard]] FileKind marked(const std::string& noun);
 
 /// A file, and its name in a sentence ("the path") or the option that names it. Empty: not given.
 struct NamedFile {
   std::string name;
   std::filesystem::path file;
-  std::optional<Kind> kind{};  ///< an output replaces only files of this kind; none: any
+  std::optional<FileKind> kind{};  ///< an output replaces only files of this kind; none: any
 };
 
 /// The scenes, each named "the scene".

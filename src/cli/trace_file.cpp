@@ -27,7 +27,7 @@ std::string joined_events(const StepReport& report) {
 
 }  // namespace
 
-Kind traces() { return beginning_with(std::string(first_columns), "trace"); }
+FileKind traces() { return beginning_with(std::string(first_columns), "trace"); }
 
 TraceFile::TraceFile(const std::filesystem::path& file) {
   if (!is_standard(file)) out_.emplace(file);

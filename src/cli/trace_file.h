@@ -15,7 +15,7 @@
 namespace roam::app {
 
 /// Traces, and empty files.
-[[nodiscard]] Kind traces();
+[[nodiscard]] FileKind traces();
 
 /// Writes `--trace`: a row for the start and one or more for each step. A step has a row for each corner of its way.
 /// Contacts and events stand in its last row, several events joined by `+`. `clearance` is certified along the straight
