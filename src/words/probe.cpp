@@ -91,9 +91,9 @@ std::string no_way(const ProbeAnswer& answer) {
                             rise > 0.0 ? "higher" : "lower");
 }
 
-/// The search reached its limit of places.
+/// The search reached a limit, of places or of drops.
 std::string ended(const Passage& p) {
-  return fmt::format("the search ended at its limit of {} places. A wider spacing (--spacing) needs fewer",
+  return fmt::format("the search ended at a limit after {} places. A wider spacing (--spacing) needs fewer",
                      grouped(p.places));
 }
 

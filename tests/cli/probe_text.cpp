@@ -72,7 +72,7 @@ TEST(ProbeText, SaysNotKnownOfASearchThatCameToItsMostPlaces) {
   answer.passage.places = 4'000'000;
   const std::string text = words::report(question, answer).sentences();
   EXPECT_TRUE(text.starts_with("NOT KNOWN: ")) << text;
-  EXPECT_TRUE(contains(text, "ended at its limit of 4,000,000 places")) << text;
+  EXPECT_TRUE(contains(text, "ended at a limit after 4,000,000 places")) << text;
   EXPECT_FALSE(contains(text, "there is no way")) << text;
   EXPECT_EQ(app::json_report(answer, false)["complete"], false);
   // A way that is too narrow was found, and a wider one may be there.
@@ -127,7 +127,7 @@ TEST(ProbeText, TellsWhatIsCertifiedOfASearchThatEnded) {
   const std::string text = words::report(question, answer).sentences();
   EXPECT_TRUE(text.starts_with("NO: ")) << text;
   EXPECT_TRUE(contains(text, "it is proven that nothing wider than 0.251 m passes; for narrower bodies")) << text;
-  EXPECT_TRUE(contains(text, "ended at its limit of 84,571 places")) << text;
+  EXPECT_TRUE(contains(text, "ended at a limit after 84,571 places")) << text;
   EXPECT_FALSE(contains(text, "there is no way") || contains(text, "do not meet")) << text;
   const std::string row = app::table(question, std::span(&answer, 1));
   EXPECT_TRUE(contains(row, " no ") && contains(row, "none that wide: certified")) << row;

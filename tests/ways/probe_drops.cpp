@@ -1,6 +1,8 @@
 // Ways that a body goes in one direction only: down a step that it cannot climb.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cstdint>
 #include <glm/geometric.hpp>
 #include <string>
 #include <utility>
@@ -131,6 +133,73 @@ TEST(Drops, LeadThroughNoWall) {
   add_wall(window, 5.0, 0.25, 5.0, 2.0, 0.0, 3.0);
   EXPECT_FALSE(probe(survey_of(window), down({0.45}), person).passable);
   EXPECT_TRUE(probe(survey_of(window), down({0.45}), {.radius = 0.2, .height = 1.8}).passable);
+}
+
+/// A hall 0.45 m over the floor beside it. A door 0.5 m wide leads to a balcony, from which a body steps down to that
+/// floor, anywhere along 14 m. Walls shut the hall itself.
+Mesh balcony() {
+  Mesh m;
+  add_floor(m, 0.0, 0.0, 14.0, 4.0, 0.45);
+  add_wall(m, 0.0, 4.0, 6.75, 4.0, 0.0, 3.0);
+  add_wall(m, 7.25, 4.0, 14.0, 4.0, 0.0, 3.0);
+  add_floor(m, 0.0, 4.0, 14.0, 6.0, 0.45);
+  add_wall(m, 0.0, 6.0, 14.0, 6.0, 0.0, 0.45);
+  add_floor(m, 0.0, 6.0, 14.0, 10.0, 0.0);
+  add_wall(m, 0.0, 0.0, 14.0, 0.0, 0.0, 3.0);
+  add_wall(m, 0.0, 0.0, 0.0, 10.0, 0.0, 3.0);
+  add_wall(m, 14.0, 0.0, 14.0, 10.0, 0.0, 3.0);
+  return m;
+}
+
+TEST(Drops, ThatNoWayLeadsToAreNoLimitOfTheSearch) {
+  const ProbeQuestion question{.from = {7.0, 2.0, 1.0}, .to = {7.0, 8.0, 1.0}};
+  const Survey survey = survey_of(balcony());
+  const ProbeAnswer answer = probe(survey, question, person);
+  EXPECT_FALSE(answer.passable);
+  EXPECT_TRUE(answer.passage.complete);
+  EXPECT_FALSE(words::is_unknown(answer));
+  EXPECT_TRUE(probe(survey, question, {.radius = 0.2, .height = 1.8}).passable);
+}
+
+TEST(Drops, AreNotKnownOnceTheSearchComesToItsLimit) {
+  const std::vector<double> drops{0.45, 0.45, 0.45, 0.45, 0.45, 0.45};
+  const Survey survey = survey_of(terraces(drops, 5.0));
+  ProbeQuestion question = down(drops);
+  EXPECT_TRUE(probe(survey, question, person).passable);
+  question.most_places = 1500;  // two terraces have 1,100
+  const ProbeAnswer answer = probe(survey, question, person);
+  EXPECT_FALSE(answer.passable || answer.passage.found);
+  EXPECT_FALSE(answer.passage.complete);
+  EXPECT_TRUE(words::is_unknown(answer));
+  EXPECT_TRUE(words::report(question, answer).sentences().starts_with("NOT KNOWN")) << answer.passage.places;
+}
+
+TEST(Drops, AreNotKnownBehindTooManyOthers) {
+  const std::vector<double> drops(70, 0.45);
+  ProbeQuestion question = down(drops);
+  question.to = {70.0 * 1.2 + 0.6, 0.0, -0.45 * 70.0 + 1.0};
+  question.from.x = 0.6;
+  const ProbeAnswer answer = probe(survey_of(terraces(drops, 1.2)), question, person);
+  EXPECT_FALSE(answer.passable);
+  EXPECT_TRUE(words::is_unknown(answer));
+}
+
+// The places of a complete part are looked through without a new place.
+TEST(Drops, AreNoLongerLookedForOnceCancelled) {
+  const Survey survey = survey_of(terraces({0.45}, 60.0));
+  std::uint64_t last = 0;
+  int same = 0, most_same = 0, most = 1'000'000;
+  ProbeQuestion question{.from = {1.0, 0.2, 1.0}, .to = {119.0, 0.0, 0.55}, .step = 0.35};
+  question.progress = [&](std::uint64_t places) {
+    same = places == last ? same + 1 : 0;
+    last = places;
+    most_same = std::max(most_same, same);
+    return same < most;
+  };
+  EXPECT_TRUE(probe(survey, question, person).passable);
+  EXPECT_GE(most_same, 20) << "6,000 places";
+  most = 20;
+  EXPECT_THROW(static_cast<void>(probe(survey, question, person)), Cancelled);
 }
 
 TEST(Drops, AreNamedInTheAnswer) {

@@ -22,12 +22,14 @@ namespace {
 constexpr double touch = 1e-3;                                     ///< m: levels that differ by less are equal
 constexpr double rim_precision = 1e-3;                             ///< m: of a rim's position
 constexpr std::size_t most_parts = 64;                             ///< of the lattice
-constexpr int most_failures = 4;                                   ///< of ways to a drop, for each part
+constexpr int most_failures = 16;                                  ///< of ways to a drop, for each part
 constexpr std::uint64_t first_growth = 20'000, growth_factor = 4;  ///< places of one part
+constexpr NodeId places_between_checks = 256;
 
 /// The feet before and after a drop.
 struct Drop {
   Vec3 from{0.0}, to{0.0};
+  NodeId near = no_node;  ///< the lattice place beside `from`
   /// The body moves level to this place, then down.
   [[nodiscard]] Vec3 over() const { return {to.x, to.y, from.z}; }
 };
@@ -35,17 +37,19 @@ struct Drop {
 /// The search over one lattice, whose places have room for `narrowest`.
 class Descent {
  public:
-  Descent(const ProbeSearch& search, double narrowest, double radius, double deepest)
+  Descent(const ProbeSearch& search, double narrowest, double radius, double deepest, std::uint64_t most_places)
       : search_(search),
         measure_(measure_of(search, narrowest)),
         spacing_(search.options.spacing),
         radius_(radius),
         deepest_(deepest),
+        most_places_(most_places),
         tree_(search.survey, measure_, spacing_) {}
 
-  std::optional<WayDown> run(const ProbeEnds& ends);
-  /// After a search in vain: whether drops lead from the start's part and to the target's part.
-  [[nodiscard]] bool has_drops() const { return has_drops_; }
+  /// Not found and not complete: a limit ended the search.
+  WayDown run(const ProbeEnds& ends);
+  /// After a search in vain: whether the lattice joins places between which the body has no room.
+  [[nodiscard]] bool has_narrow_places() const { return has_narrow_places_; }
 
  private:
   /// A part of the lattice that is reached from the start.
@@ -62,7 +66,8 @@ class Descent {
     measure.narrowest = narrowest;
     return measure;
   }
-  bool grow(NodeId root, std::uint64_t most);
+  void watch(std::uint64_t places) const;
+  bool grow(NodeId root, std::uint64_t most, NodeId until);
   bool may_be_joined(NodeId start, NodeId target);
   template <class F>
   bool any_missing(NodeId root, const F& f) const;
@@ -75,6 +80,7 @@ class Descent {
   [[nodiscard]] bool walked(const Drop& drop) const;
   [[nodiscard]] std::vector<Drop> drops_of(const Part& part, const Vec3& target) const;
   [[nodiscard]] Passage leg(const Vec3& from, const Vec3& to);
+  [[nodiscard]] bool is_joined(NodeId one, NodeId other) const;
   void follow(std::size_t at, NodeId target, const Vec3& place);
   [[nodiscard]] WayDown joined(std::size_t last, const Passage& end) const;
   [[nodiscard]] Vec3 rim_of(const Drop& drop) const;
@@ -82,26 +88,32 @@ class Descent {
   const ProbeSearch& search_;
   const Measure measure_;
   const double spacing_, radius_, deepest_;
+  const std::uint64_t most_places_;
   WidestTree tree_;
   std::vector<Part> parts_;
-  bool has_drops_ = true, ended_ = false;
+  bool has_narrow_places_ = false, ended_ = false;
 };
 
-/// Returns whether the growth is complete.
-bool Descent::grow(NodeId root, std::uint64_t most) {
+void Descent::watch(std::uint64_t places) const {
+  if (search_.question.progress && !search_.question.progress(places)) throw Cancelled();
+}
+
+/// Returns whether the growth is complete. It ends early at `until`.
+bool Descent::grow(NodeId root, std::uint64_t most, NodeId until) {
   most += tree_.size();
   return tree_.grow(root, no_node, [&](std::uint64_t places) {
-    if (search_.question.progress && !search_.question.progress(places)) throw Cancelled();
-    ended_ = ended_ || places >= search_.options.most_places;
-    return !ended_ && places < most;
+    watch(places);
+    ended_ = ended_ || places >= most_places_;
+    return !ended_ && places < most && (until == no_node || tree_.root(until) != root);
   });
 }
 
-/// Calls f(place, direction) for each unit vector from a place of the part to a lattice point that is no neighbour,
+/// Calls f(id, direction) for each place of the part and unit vector from it to a lattice point that is no neighbour,
 /// until f returns true.
 template <class F>
 bool Descent::any_missing(NodeId root, const F& f) const {
   for (NodeId id = 0; id < static_cast<NodeId>(tree_.size()); ++id) {
+    if (id % places_between_checks == 0) watch(tree_.size());
     if (tree_.root(id) != root) continue;
     const Vec3& place = tree_.node(id).place;
     const Neighbours neighbours = tree_.neighbours(id);
@@ -112,7 +124,7 @@ bool Descent::any_missing(NodeId root, const F& f) const {
         const Vec3 run = tree_.node(other).place - place;
         return run.x * direction.x + run.y * direction.y > 0.95 * std::hypot(run.x, run.y);
       });
-      if (!known && f(place, direction)) return true;
+      if (!known && f(id, direction)) return true;
     }
   }
   return false;
@@ -183,8 +195,8 @@ bool Descent::walked(const Drop& drop) const {
 /// The drops of a part, those on a short way to `target` first.
 std::vector<Drop> Descent::drops_of(const Part& part, const Vec3& target) const {
   std::vector<Drop> drops;
-  any_missing(part.root, [&](const Vec3& place, const Vec3& direction) {
-    if (const auto drop = drop_from(place, direction)) drops.push_back(*drop);
+  any_missing(part.root, [&](NodeId id, const Vec3& direction) {
+    if (const auto drop = drop_from(tree_.node(id).place, direction)) drops.push_back({drop->from, drop->to, id});
     return false;
   });
   const auto length = [&](const Drop& drop) {
@@ -198,45 +210,77 @@ Passage Descent::leg(const Vec3& from, const Vec3& to) {
   ProbeQuestion question = search_.question;
   question.from = from;
   question.to = to;
-  return ProbeSearch{search_.survey, question, search_.options}.widest();
+  Passage way = ProbeSearch{search_.survey, question, search_.options}.widest();
+  const bool is_wide = way.found && way.radius >= radius_;
+  if (is_wide) return way;
+  ended_ = ended_ || !way.complete;
+  has_narrow_places_ = true;
+  return {};
+}
+
+/// Whether the body goes from one place of a part to another, by the widths of the lattice.
+bool Descent::is_joined(NodeId one, NodeId other) const {
+  const std::vector<NodeId> way = tree_.way(one, other);
+  return !way.empty() &&
+         std::all_of(way.begin(), way.end(), [&](NodeId id) { return tree_.node(id).clearance >= radius_; });
 }
 
 /// Adds the parts to which drops lead.
 void Descent::follow(std::size_t at, NodeId target, const Vec3& place) {
-  int failures = 0;
+  struct Failure {
+    Drop drop;
+    NodeId root = no_node;  ///< of the part below
+    bool walked = false;    ///< then no way leads to the drop
+  };
+  std::vector<Failure> failures;
   for (const Drop& drop : drops_of(parts_[at], place)) {
-    if (parts_.size() >= most_parts || failures >= most_failures || ended_) return;
     const auto seed = tree_.seed(drop.to);
     if (!seed) continue;
     const NodeId root = tree_.root(*seed) == no_node ? *seed : tree_.root(*seed);
     if (std::any_of(parts_.begin(), parts_.end(), [&](const Part& part) { return part.root == root; })) continue;
-    Passage way = walked(drop) ? leg(parts_[at].entry, drop.from) : Passage{};
-    if (!way.found || way.radius < radius_) {
-      ++failures;
+    // Beside a drop that failed, and where the body would come from its rim, others fail too.
+    const bool fails = std::any_of(failures.begin(), failures.end(), [&](const Failure& failed) {
+      return (failed.root == root && glm::distance(failed.drop.from, drop.from) < 2.0 * radius_) ||
+             (failed.walked && is_joined(failed.drop.near, drop.near));
+    });
+    if (fails) continue;
+    ended_ = ended_ || parts_.size() >= most_parts || failures.size() >= most_failures;
+    if (ended_) return;
+    const bool goes = walked(drop);
+    Passage way = goes ? leg(parts_[at].entry, drop.from) : Passage{};
+    if (!way.found) {
+      failures.push_back({drop, root, goes});
       continue;
     }
-    grow(root, std::numeric_limits<std::uint32_t>::max());
+    grow(root, std::numeric_limits<std::uint32_t>::max(), no_node);
     parts_.push_back({root, drop.to, at, std::move(way), drop});
-    if (tree_.root(target) == root) return;
+    if (ended_ || tree_.root(target) == root) return;
   }
 }
 
 /// Grows both parts until one is complete, so that an end in a closet does not cost a search of the whole scene.
 /// Returns whether the ends belong to two parts, and drops may lead from the one and to the other.
 bool Descent::may_be_joined(NodeId start, NodeId target) {
-  const auto leads = [&](const Vec3& place, const Vec3& direction) {
+  const auto leads = [&](NodeId id, const Vec3& direction) {
+    const Vec3& place = tree_.node(id).place;
     return is_rim(place, place + spacing_ * direction);
   };
-  const auto is_led_to = [&](const Vec3& place, const Vec3& direction) { return has_floor_above(place, direction); };
+  const auto is_led_to = [&](NodeId id, const Vec3& direction) {
+    return has_floor_above(tree_.node(id).place, direction);
+  };
+  const auto are_two = [&] {
+    has_narrow_places_ = tree_.root(target) == tree_.root(start);
+    return !has_narrow_places_;
+  };
   for (std::uint64_t most = first_growth;; most *= growth_factor) {
-    const bool whole = grow(start, most);
-    if (ended_ || tree_.root(target) == start) return false;
-    if (whole) return has_drops_ = any_missing(start, leads);
-    const bool target_whole = grow(target, most);
-    if (ended_ || tree_.root(start) == target) return false;
+    const bool whole = grow(start, most, target);
+    if (ended_ || !are_two()) return false;
+    if (whole) return any_missing(start, leads);
+    const bool target_whole = grow(target, most, start);
+    if (ended_ || !are_two()) return false;
     if (!target_whole) continue;
-    if (!any_missing(target, is_led_to)) return has_drops_ = false;
-    return grow(start, std::numeric_limits<std::uint32_t>::max()) && tree_.root(target) != start;
+    return any_missing(target, is_led_to) && grow(start, std::numeric_limits<std::uint32_t>::max(), target) &&
+           are_two();
   }
 }
 
@@ -288,36 +332,48 @@ WayDown Descent::joined(std::size_t last, const Passage& end) const {
   return found;
 }
 
-std::optional<WayDown> Descent::run(const ProbeEnds& ends) {
+WayDown Descent::run(const ProbeEnds& ends) {
   const auto start = tree_.seed(ends.start), target = tree_.seed(ends.target);
-  has_drops_ = start && target;
-  if (!has_drops_ || !may_be_joined(*start, *target)) return std::nullopt;
-  parts_.push_back({*start, ends.start, 0, {}, {}});
+  if (start && target && may_be_joined(*start, *target)) parts_.push_back({*start, ends.start, 0, {}, {}});
   for (std::size_t at = 0; at < parts_.size() && !ended_; ++at) {
     if (tree_.root(*target) == parts_[at].root) {
       const Passage end = leg(parts_[at].entry, ends.target);
-      if (end.found && end.radius >= radius_) return joined(at, end);
+      if (end.found) return joined(at, end);
     } else {
       follow(at, *target, ends.target);
     }
   }
-  return std::nullopt;
+  WayDown none;
+  none.passage.complete = !ended_;
+  none.passage.places = tree_.size();
+  return none;
 }
 
 }  // namespace
 
-std::optional<WayDown> way_down(const ProbeSearch& search, const ProbeEnds& ends, double radius, double deepest) {
-  if (search.options.mode != Mode::walk || deepest <= search.options.step + touch) return std::nullopt;
+WayDown way_down(const ProbeSearch& search, const ProbeEnds& ends, double radius, double deepest) {
+  if (search.options.mode != Mode::walk || deepest <= search.options.step + touch) return {};
   for (const Vec3& end : {ends.start, ends.target}) {
-    if (clearance_at(search.survey, search.measure(), end) < radius) return std::nullopt;
+    if (clearance_at(search.survey, search.measure(), end) < radius) return {};
   }
-  // A lattice may underestimate widths: places with less room may belong to a way. If these join the ends by a way that
+  // A lattice may underestimate widths: places with less room may belong to a way. If these join places by a way that
   // is too narrow, only places with room for the body count.
   const double narrower = std::max(search.options.narrowest, radius - lattice_error * search.options.spacing);
-  Descent wide(search, narrower, radius, deepest);
-  auto way = wide.run(ends);
-  if (way || !wide.has_drops()) return way;
-  return Descent(search, radius, radius, deepest).run(ends);
+  const std::uint64_t most = search.options.most_places;
+  std::uint64_t places = 0;
+  bool complete = true;
+  for (const double narrowest : {narrower, radius}) {
+    Descent descent(search, narrowest, radius, deepest, most - std::min(most, places));
+    WayDown way = descent.run(ends);
+    if (way.passage.found) return way;
+    places += way.passage.places;
+    complete = complete && way.passage.complete;
+    if (!descent.has_narrow_places()) break;
+  }
+  WayDown none;
+  none.passage.complete = complete;
+  none.passage.places = places;
+  return none;
 }
 
 }  // namespace roam::ways

@@ -60,15 +60,15 @@ struct ProbeEnds {
 [[nodiscard]] std::optional<ProbeLimit> limit_of(const ProbeSearch& search, const Passage& passage,
                                                  const ProbeEnds& ends, double radius);
 
-/// A way with steps down that the body cannot climb back.
+/// A way with steps down that the body cannot climb back. Without one, passage.complete is false if a limit ended the
+/// search.
 struct WayDown {
   Passage passage;
   std::vector<ProbeDrop> drops;
 };
-/// A way for a body of `radius` (m) that steps down by at most `deepest` (m) at a time. None if none was found, or if
-/// an end has too little room. Throws roam::Cancelled.
-[[nodiscard]] std::optional<WayDown> way_down(const ProbeSearch& search, const ProbeEnds& ends, double radius,
-                                              double deepest);
+/// A way for a body of `radius` (m) that steps down by at most `deepest` (m) at a time. An end with too little room has
+/// none. Throws roam::Cancelled.
+[[nodiscard]] WayDown way_down(const ProbeSearch& search, const ProbeEnds& ends, double radius, double deepest);
 
 /// The largest height, to a millimetre, with which a body of that radius gets through, if it is too tall now. None if
 /// no height helps.

@@ -95,11 +95,15 @@ ProbeWalk walk_way(const ProbeSearch& search, const ProbeAnswer& answer) {
 /// Takes a way with steps down that the body cannot climb, if a walker goes it.
 void step_down(const ProbeSearch& search, ProbeAnswer& answer) {
   const WalkerSettings body = probed_body(search.question, answer.size);
-  auto down = way_down(search, {answer.start, answer.target}, body.radius, body.radius + body.step);
-  if (!down) return;
+  WayDown down = way_down(search, {answer.start, answer.target}, body.radius, body.radius + body.step);
+  if (!down.passage.found) {
+    answer.passage.complete = down.passage.complete;
+    if (!down.passage.complete) answer.passage.places += down.passage.places;
+    return;
+  }
   ProbeAnswer other = answer;
-  other.passage = std::move(down->passage);
-  other.drops = std::move(down->drops);
+  other.passage = std::move(down.passage);
+  other.drops = std::move(down.drops);
   other.walk = walk_way(search, other);
   other.wide_enough = true;
   if (other.walk->outcome == Outcome::reached) answer = std::move(other);
