@@ -133,8 +133,8 @@ class NoRoomAtEnd : public Error {
   std::optional<Vec3> nearest;  ///< nearest position with room for the smallest radius
 };
 
-/// Answers for all sizes, in their order. Sizes of the same height and step share one search. Throws Error for sizes
-/// that a Walker refuses, flying for one that is no sphere, and as widest_way() does; NoRoomAtEnd; Cancelled.
+/// Answers for all sizes, in their order. Sizes of the same height, step and ends share one search. Throws Error for
+/// sizes that a Walker refuses, flying for one that is no sphere, and as widest_way() does; NoRoomAtEnd; Cancelled.
 [[nodiscard]] std::vector<ProbeAnswer> probe(const Survey& survey, const ProbeQuestion& question,
                                              std::span<const ProbedSize> sizes);
 /// As above, for one size.

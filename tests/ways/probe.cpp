@@ -208,6 +208,22 @@ TEST(Probe, SharesOneSearchAmongSizesOfOneHeight) {
   EXPECT_EQ(answers[3].size.height, 1.7);
 }
 
+TEST(Probe, MovesTheEndOfEachSizeAsIfItWereAlone) {
+  Mesh mesh = room(0.7);
+  add_wall(mesh, 2.02, -0.2, 2.02, 0.8, 0.0, 2.0);  // beside the start
+  const Survey survey = survey_of(mesh);
+  const std::vector<ProbedSize> sizes{{0.2, 1.8}, {0.6, 1.8}, {0.3, 1.8}};
+  const std::vector<ProbeAnswer> answers = probe(survey, across, sizes);
+  EXPECT_NE(answers[0].start, answers[1].start);
+  for (std::size_t i = 0; i < sizes.size(); ++i) {
+    const ProbeAnswer alone = probe(survey, across, sizes[i]);
+    EXPECT_EQ(answers[i].start, alone.start) << i;
+    EXPECT_EQ(answers[i].passable, alone.passable) << i;
+    EXPECT_EQ(answers[i].passage.way, alone.passage.way) << i;
+    EXPECT_EQ(answers[i].passing, alone.passing) << i;
+  }
+}
+
 TEST(Probe, SaysWhyNobodyCanBeAtAnEndAndWhereOneCould) {
   ProbeQuestion question = across;
   question.to = {500.0, 0.0, 1.0};

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
+#include <list>
 #include <map>
 
 #include "math/boxes.h"
@@ -241,51 +242,67 @@ std::vector<ProbeAnswer> answers_to(const Survey& survey, const ProbeQuestion& q
                         end, place.x, place.y, place.z));
     }
   }
-  // Bodies that share one search, with their largest and smallest radius.
-  struct Group {
+  // Bodies of one kind have the same height, or 0 for spheres, and the same step.
+  struct Radii {
     double least = std::numeric_limits<double>::infinity();
     ProbedSize largest{0.0, 0.0};
-    ProbeQuestion question;  ///< with ends that have room
-    std::optional<ProbeSearch> search;
-    Vec3 start{0.0}, target{0.0};
-    std::optional<ProbeLimit> low;  ///< an end where no body of the group can stand upright
-    Passage passage;
-    std::optional<StepUp> step;
   };
-  using Kind = std::pair<double, double>;  // height, or 0 for spheres; step
+  using Kind = std::pair<double, double>;
   const auto kind_of = [&](const ProbedSize& size) {
     if (question.mode == Mode::fly) return Kind{0.0, 0.0};
     return Kind{is_sphere(size) ? 0.0 : size.height, climbed(question, size)};
   };
-  std::map<Kind, Group> groups;
+  std::map<Kind, Radii> radii;
   for (const ProbedSize& size : sizes) {
-    Group& group = groups[kind_of(size)];
-    group.least = std::min(group.least, size.radius);
-    if (size.radius > group.largest.radius) group.largest = size;
+    Radii& of_kind = radii[kind_of(size)];
+    of_kind.least = std::min(of_kind.least, size.radius);
+    if (size.radius > of_kind.largest.radius) of_kind.largest = size;
   }
-  for (auto& [kind, group] : groups) {
-    const PassageOptions options = options_for(question, group.largest, group.least);
+  // Bodies of one kind that stand at the same ends share one search.
+  struct Group {
+    Kind kind;
+    ProbeQuestion question;  ///< with ends that have room
+    std::optional<ProbeSearch> search;
+    Vec3 start{0.0}, target{0.0};
+    std::optional<ProbeLimit> low;  ///< an end where no body of the kind can stand upright
+    Passage passage;
+    std::optional<StepUp> step;
+  };
+  std::list<Group> groups;
+  const auto group_of = [&](const ProbedSize& size) -> Group& {
+    const Kind kind = kind_of(size);
+    const Radii& of_kind = radii.at(kind);
+    Group& group = groups.emplace_back();
+    group.kind = kind;
     group.question = question;
-    group.search.emplace(ProbeSearch{survey, group.question, options});
+    group.search.emplace(ProbeSearch{survey, group.question, options_for(question, of_kind.largest, of_kind.least)});
     const auto stand = [&](Vec3& given, ProbeLimit::Kind end, const char* name) {
       refuse_far_end(*group.search, given, name);
-      const auto place = stand_for(*group.search, given, group.largest.radius);
+      const auto place = stand_for(*group.search, given, size.radius);
       if (place) {
         if (is_moved(*place, given, question.mode)) given = *place;
         return *place;
       }
       const auto low = low_end(*group.search, given, end);
-      if (!low) refuse_end(*group.search, given, name, group.least);
+      if (!low) refuse_end(*group.search, given, name, of_kind.least);
       if (!group.low) group.low = low;
       return low->feet;
     };
     group.start = stand(group.question.from, ProbeLimit::Kind::start, "from");
     group.target = stand(group.question.to, ProbeLimit::Kind::target, "to");
+    const auto same = std::find_if(groups.begin(), groups.end(), [&](const Group& g) {
+      return g.kind == kind && g.start == group.start && g.target == group.target;
+    });
+    if (&*same != &group) {
+      groups.pop_back();
+      return *same;
+    }
     if (!group.low) group.passage = group.search->widest();
-  }
+    return group;
+  };
   std::vector<ProbeAnswer> answers;
   for (const ProbedSize& size : sizes) {
-    Group& group = groups[kind_of(size)];
+    Group& group = group_of(size);
     ProbeAnswer answer;
     answer.size = size;
     answer.narrowest = group.search->options.narrowest;
