@@ -18,6 +18,7 @@
 #include "text/names.h"
 #include "ways/probe/parts.h"
 #include "ways/trials/on_way.h"
+#include "ways/trials/trials.h"
 
 namespace roam {
 
@@ -74,13 +75,14 @@ ProbeWalk walk_way(const ProbeSearch& search, const ProbeAnswer& answer) {
   // A flying end may lie above or beside the scene.
   const double beyond = question.mode == Mode::fly ? glm::length(box_around(path).size()) : 0.0;
   const Box scene = survey.world().bounds().grown(beyond);
-  Walker walker(survey.world(), probed_body(question, answer.size, survey.slope_degrees()), question.mode,
-                path.front());
+  const WalkerSettings body = probed_body(question, answer.size, survey.slope_degrees());
+  Walker walker(survey.world(), body, question.mode, path.front());
   const RouteResult result = follow(walker, path, {.scene = scene});
   ProbeWalk walk{result.outcome, result.end, Vec3(0.0)};
+  if (question.mode == Mode::walk && has_sunk(path, result, result.end, body.step)) walk.outcome = Outcome::fell;
   // For a fall, report the place where the ground ended, not the depth reached.
   for (const RouteEvent& e : result.events) {
-    if (result.outcome != Outcome::fell || e.event.kind == EventKind::fell) break;
+    if (walk.outcome != Outcome::fell || e.event.kind == EventKind::fell) break;
     if (e.event.kind == EventKind::airborne) walk.at = e.event.point;
   }
   walk.on_way = nearest_on(answer.passage.way, walk.at, question.mode).place;

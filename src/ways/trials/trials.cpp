@@ -75,6 +75,11 @@ WalkerSettings settings_of(const BodyKind& kind, double radius, double support_r
   return settings;
 }
 
+bool has_sunk(std::span<const Vec3> way, const RouteResult& result, const Vec3& end, double step) {
+  const bool may_have_sunk = result.outcome == Outcome::blocked || result.outcome == Outcome::reached;
+  return may_have_sunk && level_at(way, result.waypoints, end) - end.z > step + uneven;
+}
+
 Trial try_way(const Survey& survey, const BodyKind& kind, double radius, double support_radius,
               std::span<const Vec3> way, const std::function<bool()>& goes_on, double patience) {
   Trial trial{.radius = radius, .support_radius = support_radius};
@@ -100,10 +105,9 @@ Trial try_way(const Survey& survey, const BodyKind& kind, double radius, double 
   }
   trial.outcome = !fits || ended ? Outcome::held : route.done() ? result.outcome : Outcome::blocked;
   trial.at = result.end;
-  if (kind.mode == Mode::walk && (trial.outcome == Outcome::blocked || trial.outcome == Outcome::reached)) {
-    const double sunk = level_at(way, result.waypoints, result.end) - (result.end.z - 0.5 * settings.height);
-    if (sunk > settings.step + uneven) trial.outcome = Outcome::fell;
-  }
+  const Vec3 feet = result.end - Vec3(0.0, 0.0, 0.5 * settings.height);
+  if (kind.mode == Mode::walk && fits && !ended && has_sunk(way, result, feet, settings.step))
+    trial.outcome = Outcome::fell;
   return trial;
 }
 

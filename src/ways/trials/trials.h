@@ -5,6 +5,7 @@
 #include <functional>
 #include <span>
 
+#include "roam/route.h"
 #include "roam/survey.h"
 #include "roam/trial.h"
 #include "roam/walker.h"
@@ -30,9 +31,13 @@ struct BodyKind {
 /// body that moves slower than a twentieth of its speed; this limit ends one that is slowed in every step.
 inline constexpr double trial_patience = 10.0;
 
+/// On foot: whether a body has fallen into an obstacle, however shallow. It then ends more than its step below the way
+/// (of the centres or feet; `end` likewise), and Route's outcome is `reached` or `blocked`.
+[[nodiscard]] bool has_sunk(std::span<const Vec3> way, const RouteResult& result, const Vec3& end, double step);
+
 /// Moves a body along `way` (of the feet on foot, else of the centre). Differs from Route's outcome in two cases:
 /// - a body that does not fit at the start, and was put elsewhere by Walker::place, is `held`;
-/// - a body that ends more than a step below the way has fallen into an obstacle, however shallow: `fell`.
+/// - a body that has_sunk() `fell`.
 ///
 /// A body still under way when `patience` ends is `blocked`. Calls `goes_on` now and then; false ends the trial with
 /// the outcome `held`.
