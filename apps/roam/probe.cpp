@@ -9,8 +9,10 @@
 #include <cmath>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <set>
 #include <sstream>
+#include <string>
 #include <tuple>
 #include <utility>
 
@@ -173,18 +175,25 @@ std::vector<words::ProbeDetails::Narrow> narrow_places(const ProbeOptions& o, co
   return places;
 }
 
-words::ProbeDetails details_of(const ProbeOptions& o, const Surveyed& scene, const ProbeAnswer& answer) {
+/// The names of the objects at both ends of the limit's measured distance.
+std::pair<std::string, std::string> names_at(const ProbeOptions& o, const Surveyed& scene, const ProbeAnswer& answer,
+                                             const std::optional<ProbeLimit>& limit) {
   using Kind = ProbeLimit::Kind;
-  words::ProbeDetails details;
-  if (const auto& limit = answer.limit; limit && limit->kind == Kind::height) {
+  if (limit && limit->kind == Kind::height) {
     const WalkerSettings settings = probed_body(o.question, answer.size, o.slope_degrees());
     const Body low = Body::capsule(settings.radius, std::max(2.0 * settings.radius, limit->size - measure::slimmer));
     const Vec3 centre = limit->feet + Vec3(0.0, 0.0, 0.5 * low.height());
-    details.right =
-        scene.name(measure::Room(scene.survey.world(), settings, o.question.mode).headroom(low, centre).triangle);
-  } else if (limit && limit->kind != Kind::step && limit->kind != Kind::apart) {
-    std::tie(details.left, details.right) = scene.names_at(limit->point, limit->direction, limit->size);
+    return {"",
+            scene.name(measure::Room(scene.survey.world(), settings, o.question.mode).headroom(low, centre).triangle)};
   }
+  if (!limit || limit->kind == Kind::step || limit->kind == Kind::apart) return {};
+  return scene.names_at(limit->point, limit->direction, limit->size);
+}
+
+words::ProbeDetails details_of(const ProbeOptions& o, const Surveyed& scene, const ProbeAnswer& answer) {
+  words::ProbeDetails details;
+  std::tie(details.left, details.right) = names_at(o, scene, answer, answer.limit);
+  std::tie(details.other_left, details.other_right) = names_at(o, scene, answer, answer.other);
   if (!answer.passage.found) return details;
   if (o.question.mode == Mode::walk) details.slope = measure::steepest(answer.passage.way);
   if (!o.narrower) return details;

@@ -118,10 +118,11 @@ struct ProbeAnswer {
   Vec3 start{0.0}, target{0.0};  ///< the body's places for `from` and `to`: at most 2 m aside, in sight
   /// None if nothing limits the way, or if no way was found and both ends are far apart.
   std::optional<ProbeLimit> limit;
-  std::optional<ProbeLimit> other;  ///< a second obstacle: of wider bodies, where a step or headroom is the limit
-  double missing = 0.0;             ///< max(0, needed - size) of the limit; 0 for `apart`
-  std::optional<Vec3> room;         ///< if an end is the limit: the nearest position with room
-  std::optional<ProbeWalk> walk;    ///< if wide_enough
+  /// A second obstacle. It stops this body, too, but not narrower ones. The limit is then a step or headroom.
+  std::optional<ProbeLimit> other;
+  double missing = 0.0;           ///< max(0, needed - size) of the limit; 0 for `apart`
+  std::optional<Vec3> room;       ///< if an end is the limit: the nearest position with room
+  std::optional<ProbeWalk> walk;  ///< if wide_enough
 };
 
 /// No body fits at an end or near it, or the end is farther from the scene than its diagonal + 100 m. where() is the

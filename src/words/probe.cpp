@@ -65,6 +65,7 @@ std::string text_of(const ProbeLimit& limit) {
 std::vector<ProbeMark> marks_of(const ProbeAnswer& answer) {
   std::vector<ProbeMark> marks;
   if (answer.limit) marks.push_back({answer.limit->point, text_of(*answer.limit), answer.wide_enough});
+  if (answer.other) marks.push_back({answer.other->point, text_of(*answer.other), false});
   for (const ProbeDrop& drop : answer.drops)
     marks.push_back({drop.rim, "one way: down " + metres(drop.height()), true});
   if (answer.walk && !answer.passable)
@@ -133,15 +134,15 @@ const char* shortfall(const ProbeLimit& limit) {
 }
 
 /// "door 0.750 m wide between "a" and "b" at (1.00, 2.00, 3.00)".
-std::string obstacle(const ProbeLimit& limit, const ProbeDetails& details) {
+std::string obstacle(const ProbeLimit& limit, const std::string& left, const std::string& right) {
   std::string text = text_of(limit);
   if (is_end(limit.kind)) {
-    const std::string& name = details.left.empty() ? details.right : details.left;
+    const std::string& name = left.empty() ? right : left;
     return fmt::format("{} is {} {} {}, at {}", limit.kind == Kind::start ? "A" : "B", metres(limit.size),
                        limit.too_low ? "below" : "from", name.empty() ? "the next surface" : quoted(name),
                        at(limit.feet));
   }
-  const std::string objects = between(details.left, details.right);
+  const std::string objects = between(left, right);
   return fmt::format("{}{} at {}", text, objects.empty() ? "" : " " + objects, at(limit.point));
 }
 
@@ -175,7 +176,7 @@ std::string stop_line(const ProbeQuestion& question, const ProbeAnswer& answer, 
   if (!answer.limit && answer.passage.found)
     return fmt::format("no way leaves more than {}", metres(2.0 * answer.passage.radius));
   if (!answer.limit || answer.limit->kind == Kind::apart) return no_way(answer);
-  std::string text = obstacle(*answer.limit, details);
+  std::string text = obstacle(*answer.limit, details.left, details.right);
   if (answer.limit->kind == Kind::step) {
     text += fmt::format("; the body steps {}", metres(answer.limit->needed));
   } else {
@@ -207,7 +208,7 @@ std::string way_line(const Passage& p, const ProbeDetails& details) {
 std::string narrowest_line(const ProbeAnswer& answer, const ProbeDetails& details) {
   if (!answer.limit) return fmt::format("nothing leaves less than {}", metres_down(2.0 * answer.passage.radius));
   const ProbeLimit& limit = *answer.limit;
-  std::string text = obstacle(limit, details);
+  std::string text = obstacle(limit, details.left, details.right);
   if (!is_end(limit.kind)) text += fmt::format(", {:.1f} m on the way", limit.along);
   if (limit.kind == Kind::door || limit.kind == Kind::gap)
     text += ": " + spare_words(0.5 * (limit.size - limit.needed));
@@ -242,7 +243,8 @@ Lines report(const ProbeQuestion& question, const ProbeAnswer& answer, const Pro
     const bool is_named = answer.limit && answer.limit->kind != Kind::apart && !is_end(answer.limit->kind) &&
                           !answer.walk && !is_unknown(answer);
     lines.add(is_named ? "stopped by" : "why", stop_line(question, answer, details));
-    if (answer.other) lines.add("and by", obstacle(*answer.other, {}) + short_by(*answer.other));
+    if (answer.other)
+      lines.add("and by", obstacle(*answer.other, details.other_left, details.other_right) + short_by(*answer.other));
     lines.add("would pass", would_pass(answer));
   }
   if (answer.passage.found) lines.add(answer.wide_enough ? "way" : "widest way", way_line(answer.passage, details));

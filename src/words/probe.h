@@ -21,6 +21,7 @@ struct ProbeDetails {
     std::string left, right;
   };
   std::string left, right;              ///< names of the objects at both ends of the measured distance
+  std::string other_left, other_right;  ///< likewise for ProbeAnswer::other
   std::optional<measure::Slope> slope;  ///< of the way, walking
   double narrower = 0.0;                ///< m: `narrow` lists the places narrower than this; 0: none are wanted
   std::vector<Narrow> narrow;

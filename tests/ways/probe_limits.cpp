@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <string>
+#include <vector>
 
 #include "messages.h"
 #include "roam/probe.h"
@@ -96,6 +97,12 @@ TEST(ProbeLimits, AreTwoInARow) {
     EXPECT_EQ(answer.limit->kind, step ? Kind::step : Kind::height);
     EXPECT_NEAR(answer.limit->size, step ? 0.5 : 1.5, 2e-3);
     EXPECT_EQ(answer.other->kind, Kind::door);
+    const std::vector<words::ProbeMark> marks = words::marks_of(answer);
+    ASSERT_EQ(marks.size(), 2U);
+    EXPECT_EQ(marks[1].place, answer.other->point);
+    words::ProbeDetails details;
+    details.other_right = "right jamb";
+    EXPECT_TRUE(contains(words::report(across, answer, details).sentences(), "right jamb"));
     EXPECT_NEAR(answer.other->size, 0.6, 1e-3);
     const std::string text = words::report(across, answer).sentences();
     EXPECT_TRUE(contains(text, step ? "Stopped by: step of 0.500 m" : "Stopped by: headroom 1.500 m")) << text;
