@@ -38,8 +38,7 @@ struct MakeOptions {
 /// A path of Table 1 beside the gallery: gallery-straight.path and so on for gallery.ply.
 struct GalleryPath {
   fs::path file;
-  std::string first_line;
-  Vec3 from, to;
+  std::string text;
 };
 
 std::vector<GalleryPath> gallery_paths(const MakeOptions& options) {
@@ -47,10 +46,11 @@ std::vector<GalleryPath> gallery_paths(const MakeOptions& options) {
   for (const generate::Path& path : generate::gallery_paths) {
     fs::path file = options.output;
     file.replace_filename(options.output.stem().string() + "-" + path.name + ".path");
+    const Vec3 from = path.from + options.origin_point(), to = path.to + options.origin_point();
     all.push_back(
-        {std::move(file),
-         fmt::format("# Path {} of Table 1 in Xie and Niu (2020), doi:10.1371/journal.pone.0229038\n", all.size() + 1),
-         path.from + options.origin_point(), path.to + options.origin_point()});
+        {std::move(file), fmt::format("# Path {} of Table 1 in Xie and Niu (2020), doi:10.1371/journal.pone.0229038\n"
+                                      "{} {} {}\n{} {} {}\n",
+                                      all.size() + 1, from.x, from.y, from.z, to.x, to.y, to.z)});
   }
   return all;
 }
@@ -58,19 +58,27 @@ std::vector<GalleryPath> gallery_paths(const MakeOptions& options) {
 std::vector<std::string> write(std::span<const GalleryPath> paths) {
   std::vector<std::string> written;
   for (const GalleryPath& path : paths) {
-    files::write_whole(path.file, fmt::format("{}{} {} {}\n{} {} {}\n", path.first_line, path.from.x, path.from.y,
-                                              path.from.z, path.to.x, path.to.y, path.to.z));
+    files::write_whole(path.file, path.text, files::Naming::beside);
     written.push_back(path.file.string());
   }
   return written;
 }
 
-/// The paths are not named by a person, so only paths of the same table are replaced.
+/// A person names no path, so each replaces only its equal or an empty file, and no link: a stranger may have made it.
 void demand_no_overwriting(const MakeOptions& options, std::span<const GalleryPath> paths) {
   std::vector<NamedFile> outputs{{"-o", options.output, marked("mesh")}};
   for (const GalleryPath& path : paths) {
-    outputs.push_back({fmt::format("-o {}, its path", options.output.string()), path.file,
-                       beginning_with(path.first_line, "path of Table 1")});
+    const std::string name = fmt::format("-o {}, its path", options.output.string());
+    std::error_code none;
+    if (fs::is_symlink(fs::symlink_status(path.file, none)))
+      throw UsageError(fmt::format("{} {}", name, path.file.string()),
+                       "that is a link; name another file, or move it away");
+    FileKind equal = beginning_with(path.text, "path of Table 1 from this --origin");
+    equal.has = [begins = equal.has, size = path.text.size()](const fs::path& file) {
+      std::error_code error;
+      return begins(file) && fs::file_size(file, error) <= size;
+    };
+    outputs.push_back({name, path.file, std::move(equal)});
   }
   app::demand_no_overwriting({}, outputs);
 }

@@ -12,6 +12,7 @@
 #include "cli/exit_status.h"
 #include "cli/standard_streams.h"
 #include "files/mark.h"
+#include "files/whole_file.h"
 #include "roam/path_file.h"
 #include "text/byte_order_mark.h"
 #include "text/web_address.h"
@@ -27,9 +28,11 @@ std::optional<Obstacle> obstacle(const std::filesystem::path& file) {
     return Obstacle{"there is no folder " + folder.string(), "make it first, or name a file elsewhere"};
   const bool there = fs::exists(file, none);
   if (there && !fs::is_regular_file(file, none)) return Obstacle{"that is a pipe or a device", "name a file"};
-  if (::access(there ? file.c_str() : folder.c_str(), W_OK) == 0) return std::nullopt;
-  return Obstacle{fmt::format("{} cannot be written: {}", there ? "it" : "its folder", std::strerror(errno)),
-                  "name a file elsewhere"};
+  for (const auto& [name, place] : {std::pair{"its folder", folder}, std::pair{"it", file}}) {
+    if (::access(place.c_str(), W_OK) == 0 || errno == ENOENT) continue;
+    return Obstacle{fmt::format("{} cannot be written: {}", name, std::strerror(errno)), "name a file elsewhere"};
+  }
+  return std::nullopt;
 }
 
 void demand_no_address(const std::string& option, const std::filesystem::path& output) {
@@ -44,7 +47,8 @@ FileKind beginning_with(std::string start, std::string noun) {
             std::ifstream in(file, std::ios::binary);
             in.read(read.data(), static_cast<std::streamsize>(read.size()));
             read.resize(static_cast<std::size_t>(in.gcount()));
-            return read.empty() || without_byte_order_mark(read).starts_with(start);
+            const bool was_read = in.is_open() && !in.bad();
+            return read.empty() ? was_read : without_byte_order_mark(read).starts_with(start);
           }};
 }
 
@@ -104,7 +108,7 @@ void demand_no_overwriting(std::span<const NamedFile> inputs, std::span<const Na
 void check_output(const std::string& option, const std::filesystem::path& file) {
   if (is_standard(file)) throw UsageError(option + " -", "standard output takes paths and traces only; name a file");
   demand_no_address(option, file);
-  if (const std::optional<Obstacle> found = obstacle(file)) {
+  if (const std::optional<Obstacle> found = obstacle(files::behind_links(file))) {
     throw UsageError(option + " " + file.string(), found->what + "; " + found->advice);
   }
 }

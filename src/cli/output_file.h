@@ -19,7 +19,7 @@ namespace roam::app {
 struct Obstacle {
   std::string what, advice;
 };
-/// None if nothing prevents writing `file`, which must have a name.
+/// None if nothing prevents writing `file`, which must have a name and is no link to follow.
 [[nodiscard]] std::optional<Obstacle> obstacle(const std::filesystem::path& file);
 
 /// Throws UsageError, naming the option, for the address of a web server.
@@ -30,7 +30,7 @@ struct FileKind {
   std::string noun;
   std::function<bool(const std::filesystem::path&)> has;
 };
-/// Files that begin with a text, or are empty. A byte order mark before it does not count.
+/// Files that begin with a text, or are empty. A byte order mark before it does not count. None that cannot be read.
 [[nodiscard]] FileKind beginning_with(std::string start, std::string noun);
 /// Paths, whoever made them, empty files, and recordings that ended before their first place.
 [[nodiscard]] FileKind paths();
@@ -52,7 +52,7 @@ struct NamedFile {
 void demand_no_overwriting(std::span<const NamedFile> inputs, std::span<const NamedFile> outputs);
 
 /// Throws UsageError, naming the option, for a file that cannot be written: an address, a folder, a pipe, or one in a
-/// folder that does not exist or is not writable.
+/// folder that does not exist or is not writable. A link stands for the file that it leads to.
 void check_output(const std::string& option, const std::filesystem::path& file);
 
 /// Half a sentence for a message that `file` is not written: that an earlier one stays. Empty if there is none.

@@ -17,7 +17,7 @@ namespace roam::files {
 
 enum class Naming {
   exact,     ///< a file that has the name is replaced; if a link has it, the file that the link leads to
-  beside,    ///< what has the name is replaced, be it a link: a stranger may have put it there
+  beside,    ///< the file or link of the name is replaced: a stranger may have put a link there
   numbered,  ///< "a.png" becomes the first of a-1.png, a-2.png, ... that nothing has; nothing is replaced
 };
 

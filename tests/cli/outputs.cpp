@@ -1,6 +1,7 @@
 // No output overwrites what is read, nor a file that somebody else made: the scene may refer to it.
 #include <gtest/gtest.h>
 
+#include "cli/output_file.h"
 #include "cli_scenes.h"
 #include "messages.h"
 #include "program.h"
@@ -55,6 +56,18 @@ TEST(Outputs, AreWrittenOverNoFileOfAnotherKind) {
       EXPECT_TRUE(written.status == 0 || written.status == 3) << written.err;
       EXPECT_GT(folder.read("scene.bin").size(), 10U) << option;
     }
+  }
+}
+
+TEST(Outputs, CountNoFileAsEmptyThatCannotBeRead) {
+  const TestFolder folder;
+  std::filesystem::create_symlink("circle", folder.file("circle"));
+  std::filesystem::create_directory(folder.file("folder"));
+  const roam::app::FileKind traces = roam::app::beginning_with("step", "trace");
+  EXPECT_TRUE(traces.has(folder.write("empty", "")));
+  for (const char* name : {"circle", "folder", "absent"}) {
+    EXPECT_FALSE(traces.has(folder.file(name))) << name;
+    EXPECT_FALSE(roam::app::paths().has(folder.file(name))) << name;
   }
 }
 
@@ -116,6 +129,27 @@ TEST(Outputs, MadeGalleriesReplaceNoPathOfAPersonBesideThem) {
   EXPECT_FALSE(std::filesystem::exists(folder.file("dam-straight.path")));
 }
 
+TEST(Outputs, MadeGalleriesReplaceNoPathOfTheirsThatAPersonEdited) {
+  const TestFolder folder;
+  const std::vector<std::string> make{"make", "gallery", "-o", folder.file("dam.ply"), "--triangles", "20k"};
+  ASSERT_EQ(run_program(ROAM_PROGRAM, make).status, 0);
+  const std::string edited = folder.read("dam-corner.path") + "1 2 3\n";
+  folder.write("dam-corner.path", edited);
+  EXPECT_EQ(run_program(ROAM_PROGRAM, make).status, 2);
+  EXPECT_EQ(folder.read("dam-corner.path"), edited);
+}
+
+TEST(Outputs, MadeGalleriesFollowNoLinkBesideThem) {
+  const TestFolder folder;
+  std::filesystem::create_symlink("elsewhere", folder.file("dam-corner.path"));
+  const ProgramResult refused =
+      run_program(ROAM_PROGRAM, {"make", "gallery", "-o", folder.file("dam.ply"), "--triangles", "20k"});
+  EXPECT_EQ(refused.status, 2);
+  EXPECT_TRUE(contains(refused.err, folder.file("dam-corner.path") + ": that is a link")) << refused.err;
+  EXPECT_FALSE(std::filesystem::exists(folder.file("elsewhere")));
+  EXPECT_FALSE(std::filesystem::exists(folder.file("dam.ply")));
+}
+
 TEST(Outputs, AreWrittenThroughLinksThatAPersonNames) {
   const TestFolder folder;
   const std::string scene = folder.write("scene.obj", room_obj()), path = folder.write("p.path", "2 0 1\n3 0 1\n");
@@ -132,6 +166,16 @@ TEST(Outputs, AreWrittenThroughLinksThatAPersonNames) {
       EXPECT_GT(folder.read(std::string("real-") + name).size(), 10U) << name;
     }
   }
+}
+
+TEST(Outputs, AreRefusedBeforeTheWorkIfThereIsNoFolderBehindALink) {
+  const TestFolder folder;
+  std::filesystem::create_symlink("absent/way.svg", folder.file("way.svg"));
+  const ProgramResult probed =
+      run_program(ROAM_PROGRAM, {"probe", folder.write("scene.obj", room_obj()), "--from", "2,0,1", "--to", "3,0,1",
+                                 "--picture", folder.file("way.svg")});
+  EXPECT_EQ(probed.status, 2);
+  EXPECT_TRUE(contains(probed.err, "there is no folder " + folder.file("absent"))) << probed.err;
 }
 
 TEST(Outputs, ThatAreNotWrittenLeaveAnEarlierFileAndSaySo) {
