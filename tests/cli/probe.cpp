@@ -152,7 +152,7 @@ TEST(ProbeVerb, FliesWhereAsked) {
 
 TEST(ProbeVerb, AnswersForManySizesInOneRun) {
   Probe probe(0.7);
-  probe.ask({"--matrix", "0.3,0.3x1.7,0.4x1.8 0.34x2.05", "--json"});
+  probe.ask({"--matrix", "0.3,0.3x1.7,\t0.4x1.8 0.34x2.05", "--json"});
   EXPECT_EQ(probe.result.status, 3) << probe.result.err;
   const Json sizes = probe.json()["sizes"];
   ASSERT_EQ(sizes.size(), 4u);

@@ -50,12 +50,13 @@ std::vector<ProbedSize> parse_sizes(const std::string& text, const std::string& 
   for (std::size_t i = 0; i < text.size();) {
     const std::size_t begin = std::min(text.find_first_not_of(", \t\r", i), text.size());
     const bool between = !sizes.empty() && begin < text.size();
-    if (std::count(text.begin() + static_cast<std::ptrdiff_t>(i), text.begin() + static_cast<std::ptrdiff_t>(begin),
-                   ',') > (between ? 1 : 0)) {
+    const std::string separator = text.substr(i, begin - i);
+    const auto commas = std::count(separator.begin(), separator.end(), ',');
+    if (commas > (between ? 1 : 0)) {
       throw UsageError(where, "a comma has no size before or behind it; leave it out, or add the size");
     }
     if (begin == text.size()) break;
-    if (between && text.find('\t', i) < begin) {
+    if (between && commas == 0 && separator.find('\t') != std::string::npos) {
       throw UsageError(where,
                        "a tab separates two numbers; write a radius and a height as 0.3x1.9, and put a comma or "
                        "a blank between two sizes");
