@@ -23,8 +23,10 @@ namespace {
 /// Time for children to end in order: Xvfb removes its lock and its socket.
 constexpr std::chrono::milliseconds grace_of_children{100};
 
-/// Nanoseconds after the first signal within which the watchdog ends the program in any case.
-constexpr std::int64_t patience_with_watchdog = 2'000'000'000;
+/// After the first signal, the watchdog ends the program within this time in any case: the last part is for its own
+/// work.
+constexpr std::chrono::nanoseconds patience_with_watchdog =
+    longest_good_order + longest_writing + std::chrono::milliseconds(2000);
 
 std::atomic<int> signal_came = 0;      ///< its number
 std::atomic<std::int64_t> came_at{0};  ///< of the steady clock, nanoseconds
@@ -38,7 +40,7 @@ extern "C" void take_signal(int number) {
   const std::int64_t moment = std::int64_t{now.tv_sec} * 1'000'000'000 + now.tv_nsec;
   if (signal_came == 0) {
     came_at = moment;
-  } else if (moment - came_at > patience_with_watchdog) {
+  } else if (moment - came_at > patience_with_watchdog.count()) {
     // The next signal gets its default action, in case the watchdog itself hangs.
     std::signal(number, SIG_DFL);
   }

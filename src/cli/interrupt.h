@@ -7,7 +7,7 @@
 
 namespace roam::app {
 
-/// The longest time from the signal to the program's end, except for the watchdog's own work.
+/// The longest time from the signal to the program's end, except for the watchdog's own work and for longest_writing.
 inline constexpr std::chrono::milliseconds longest_good_order{800};
 
 /// Signals within this time of the first one count as the same: `timeout` and shells send one to the program and one to
