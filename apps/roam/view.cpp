@@ -143,7 +143,7 @@ ExitStatus view(ViewOptions options) {
   report.notes.insert(report.notes.begin(), notes.begin(), notes.end());
   const std::string picture = options.screenshot.string();
   if (!picture.empty() && std::find(report.written.begin(), report.written.end(), picture) == report.written.end()) {
-    report.notes.push_back(picture + " was not written: the session ended before all was loaded and at its end" +
+    report.notes.push_back(picture + " was not written: the session ended before its picture was drawn" +
                            earlier_stays(picture));
   }
   for (const std::string& note : report.notes) tell("note: " + note);

@@ -84,7 +84,7 @@ enum class Source : std::uint8_t { keep, release };
 [[nodiscard]] std::optional<UpAxis> doubted_up(const SceneOptions& options, std::span<const Mesh> meshes);
 
 /// The height of the ceilings in metres, if the scene is so large that its unit is in doubt: nine tenths of the covered
-/// `floors` (see floor_samples) are no farther from what covers them, and that is over 20 m. None if less than a
+/// `floors` (see floor_samples) are no farther from their ceilings, and that is over 20 m. None if less than a
 /// quarter of the floors are covered, if an option or the file states a unit, or if `up`, see doubted_up, is in doubt,
 /// as walls then count as ceilings. Takes microseconds a floor.
 [[nodiscard]] std::optional<double> doubted_ceilings(const SceneOptions& options, const ImportReport& report,
