@@ -8,6 +8,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 
 #include "files/descriptor.h"
@@ -17,8 +18,10 @@ namespace {
 
 using namespace std::string_view_literals;
 
-/// Bytes that are searched. The index of a film stands before its comment, with some 12 bytes for each picture.
-constexpr std::uint64_t head = 4 << 20, tail = 64;
+/// Bytes of an MP4 or WebM that are searched. Its index stands before its comment, with some 12 bytes for each picture.
+constexpr std::uint64_t film_head = 4 << 20;
+/// Bytes of any other file in which the mark begins, unless it is at the end.
+constexpr std::uint64_t head = 4096;
 
 /// PNG, "Chunk naming conventions": the case of the letters says ancillary, private, unsafe to copy.
 constexpr std::string_view png_chunk = "\0\0\0\x0croAMmade by roam\xa8\x68\x17\x62"sv;
@@ -29,6 +32,37 @@ constexpr std::string_view jpeg_start = "\xff\xd8\xff\xe0"sv;              ///< 
 constexpr std::string_view svg_comment = "<!-- made by roam -->\n"sv;
 constexpr std::string_view gif_comment_and_end = "\x21\xfe\x0cmade by roam\0;"sv;
 constexpr std::string_view webp_chunk = "ROAM\x0c\0\0\0made by roam"sv;  ///< of a type that readers do not know
+
+/// Beginnings of DXF, PLY, OBJ and STL.
+constexpr std::array marked_starts{"999\nmade by roam\n"sv,
+                                   "ply\nformat binary_little_endian 1.0\ncomment made by roam;"sv, "# made by roam;"sv,
+                                   "binary STL made by roam;"sv};
+
+/// A place for bytes with the mark.
+struct Place {
+  std::size_t at = 0;
+  std::string_view bytes;
+};
+
+/// In a picture that begins with `start`; none if it is no PNG, JPEG or SVG.
+std::optional<Place> place_in(std::string_view start) {
+  if (start.starts_with(png_start)) return Place{png_header, png_chunk};
+  if (start.starts_with(jpeg_start) && start.size() > 6) {
+    const auto byte = [&](std::size_t i) { return std::size_t{static_cast<unsigned char>(start[i])}; };
+    return Place{4 + 256 * byte(4) + byte(5), jpeg_segment};
+  }
+  const std::size_t line = start.starts_with("<?xml ") ? start.find('\n') : std::string_view::npos;
+  if (line != std::string_view::npos) return Place{line + 1, svg_comment};
+  return std::nullopt;
+}
+
+bool is_gif(std::string_view start) { return start.starts_with("GIF89a"); }
+bool is_webp(std::string_view start) {
+  return start.starts_with("RIFF") && start.size() >= 12 && start.substr(8).starts_with("WEBP");
+}
+bool is_mp4_or_webm(std::string_view start) {
+  return start.starts_with("\x1a\x45\xdf\xa3") || (start.size() > 8 && start.substr(4).starts_with("ftyp"));
+}
 
 std::span<const std::byte> bytes_of(std::string_view text) { return std::as_bytes(std::span(text)); }
 
@@ -46,24 +80,16 @@ std::string read(int file, std::uint64_t offset, std::uint64_t size) {
 }  // namespace
 
 void add_mark(std::string& picture) {
-  if (picture.starts_with(png_start) && picture.size() > png_header) {
-    picture.insert(png_header, png_chunk);
-  } else if (picture.starts_with(jpeg_start) && picture.size() > 6) {
-    const auto byte = [&](std::size_t i) { return std::size_t{static_cast<unsigned char>(picture[i])}; };
-    const std::size_t end = 4 + 256 * byte(4) + byte(5);
-    if (end < picture.size()) picture.insert(end, jpeg_segment);
-  } else if (picture.starts_with("<?xml ")) {
-    const std::size_t end = picture.find('\n');
-    if (end != std::string::npos) picture.insert(end + 1, svg_comment);
-  }
+  const std::optional<Place> place = place_in(picture);
+  if (place && place->at < picture.size()) picture.insert(place->at, place->bytes);
 }
 
 void add_mark(WholeFile& film) {
   const std::uint64_t size = size_of(film.descriptor());
   const std::string start = read(film.descriptor(), 0, 12);
-  if (start.starts_with("GIF89a") && read(film.descriptor(), size - 1, 1) == ";") {
+  if (is_gif(start) && read(film.descriptor(), size - 1, 1) == ";") {
     film.write_at(size - 1, bytes_of(gif_comment_and_end));
-  } else if (start.starts_with("RIFF") && start.ends_with("WEBP")) {
+  } else if (is_webp(start)) {
     constexpr std::uint64_t before = 8;  // the size that RIFF states does not count these bytes
     const auto stated = static_cast<std::uint32_t>(size + webp_chunk.size() - before);
     std::array<std::byte, 4> little_endian;
@@ -77,10 +103,20 @@ bool is_marked(const std::filesystem::path& file) {
   const Descriptor opened(again([&] { return ::open(file.c_str(), O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC); }));
   if (!opened.is_open()) return false;
   const std::uint64_t size = size_of(opened.number());
-  const auto has_mark = [&](std::uint64_t offset, std::uint64_t length) {
-    return read(opened.number(), offset, length).find(mark) != std::string::npos;
+  if (size == 0) return true;
+  const std::string start = read(opened.number(), 0, std::min(size, head));
+  const auto ends_with = [&](std::string_view bytes) {
+    return size > bytes.size() && read(opened.number(), size - bytes.size(), bytes.size()) == bytes;
   };
-  return size == 0 || has_mark(0, std::min(size, head)) || has_mark(size - std::min(size, tail), tail);
+  if (is_gif(start)) return ends_with(gif_comment_and_end);
+  if (is_webp(start)) return ends_with(webp_chunk);
+  if (is_mp4_or_webm(start)) {
+    return read(opened.number(), 0, std::min(size, film_head)).find(mark) != std::string::npos;
+  }
+  if (const std::optional<Place> place = place_in(start)) {
+    return place->at < start.size() && std::string_view(start).substr(place->at).starts_with(place->bytes);
+  }
+  return std::any_of(marked_starts.begin(), marked_starts.end(), [&](auto words) { return start.starts_with(words); });
 }
 
 }  // namespace roam::files

@@ -10,8 +10,9 @@
 
 namespace roam::files {
 
-/// These words stand where other programs skip them: in a comment, or in a part of the file that only roam knows. They
-/// are in the first 4 MiB or the last 64 bytes.
+/// These words stand where other programs skip them: in a comment, or in a part of the file that only roam knows. Each
+/// format has one place for them; in an MP4 or WebM it is anywhere in the first 4 MiB. An editor that keeps comments may
+/// keep the mark, and then roam takes what a person edited for its own.
 inline constexpr std::string_view mark = "made by roam";
 
 /// Adds the mark to the bytes of a picture: PNG, JPEG or SVG. Others stay as they are. In a PNG it is a chunk that is
@@ -20,7 +21,7 @@ void add_mark(std::string& picture);
 /// Adds the mark to a complete film that is not committed yet: GIF or WebP. Others stay as they are. Throws FileError.
 void add_mark(WholeFile& film);
 
-/// Whether a file has the mark, or is empty. False for one that cannot be read.
+/// Whether a file has the mark at the place of its format, or is empty. False for one that cannot be read.
 [[nodiscard]] bool is_marked(const std::filesystem::path& file);
 
 }  // namespace roam::files

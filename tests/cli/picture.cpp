@@ -151,7 +151,7 @@ TEST(WalkPicture, FailsEarlyWhereItCannotBeWritten) {
 
 TEST(WalkPicture, LeavesTheOldOneWhenTheWalkFails) {
   Picture picture;
-  const std::string old = "<!-- made by roam -->";
+  const std::string old = "<?xml version=\"1.0\"?>\n<!-- made by roam -->\n";
   picture.folder.write("tour.svg", old);
   picture.scene = picture.folder.write("broken.obj", "this is no scene");
   picture.draw("tour.svg");

@@ -9,15 +9,29 @@ namespace {
 
 using roam::files::is_marked;
 
-TEST(Mark, IsFoundAtBothEndsOfAFile) {
+TEST(Mark, CountsOnlyAtThePlaceOfTheFormat) {
+  using namespace std::string_literals;
   const TestFolder folder;
-  const std::string words(roam::files::mark), much(5 << 20, ' '), some(1 << 20, ' ');
-  EXPECT_TRUE(is_marked(folder.write("start", words + much)));
-  EXPECT_TRUE(is_marked(folder.write("behind an index", some + words + much)));
-  EXPECT_TRUE(is_marked(folder.write("end", much + words + " ")));
+  const std::string words(roam::files::mark), some(1 << 20, ' '), much(5 << 20, ' ');
+  const std::string xml = "<?xml version=\"1.0\"?>\n", gif = "GIF89a, pictures", comment = "\x21\xfe\x0c" + words;
+  EXPECT_TRUE(is_marked(folder.write("a.obj", "# " + words + "; metres\nv 0 0 0\n")));
+  EXPECT_TRUE(is_marked(folder.write("a.dxf", "999\n" + words + "\n0\nSECTION\n")));
+  EXPECT_TRUE(is_marked(folder.write("a.svg", xml + "<!-- " + words + " -->\n<svg/>")));
+  EXPECT_TRUE(is_marked(folder.write("a.gif", gif + comment + "\0;"s)));
+  EXPECT_TRUE(is_marked(folder.write("a.mp4",
+                                     "\0\0\0\x20"
+                                     "ftypisom"s +
+                                         some + words + much)));
   EXPECT_TRUE(is_marked(folder.write("empty", "")));
-  EXPECT_FALSE(is_marked(folder.write("none", much)));
-  EXPECT_FALSE(is_marked(folder.write("short", "made")));
+  EXPECT_FALSE(is_marked(folder.write("b.obj", "# Blender\n# " + words + "; metres\nv 0 0 0\n")));
+  EXPECT_FALSE(is_marked(folder.write("b.svg", xml + "<svg/><!-- " + words + " -->\n")));
+  EXPECT_FALSE(is_marked(folder.write("b.gif", gif + comment + "\0,;"s)));
+  EXPECT_FALSE(is_marked(folder.write("b.mp4",
+                                      "\0\0\0\x20"
+                                      "ftypisom"s +
+                                          much + words)));
+  EXPECT_FALSE(is_marked(folder.write("words", words)));
+  EXPECT_FALSE(is_marked(folder.write("RIFF", "RIFF")));
   EXPECT_FALSE(is_marked(folder.file("absent")));
 }
 

@@ -85,7 +85,7 @@ PROMISES = [
     ("c_allocations", "CAllocations.*", "src/c/error.cpp",
      "} catch (const std::bad_alloc&) {\n    return failed(ROAM_NO_MEMORY,",
      "} catch (const std::bad_alloc&) {\n    return failed(ROAM_FAILED,"),
-    ("cli", "Outputs.*", "src/files/mark.cpp", "return size == 0 || has_mark", "return size > 0 || has_mark"),
+    ("cli", "Outputs.*", "src/files/mark.cpp", "if (size == 0) return true;", "if (size == 0) return false;"),
     ("generate", "GenerateAllocations.*", "src/files/whole_file.cpp",
      "WholeFile::~WholeFile() {\n  if (!temporary_.empty()) ", "WholeFile::~WholeFile() {\n  if (temporary_.empty()) "),
     ("import_allocations", "ImportAllocations.*", "src/process/child.cpp", "Child::~Child() { end(); }",
