@@ -92,6 +92,15 @@ TEST(ViewNews, ShowTheFrameBeforeWhatIsMissing) {
   EXPECT_EQ(news.notes()[2], "image 0 is missing");
 }
 
+TEST(ViewNews, ShowANewLineThoughAllOthersComeFirst) {
+  News news({});
+  for (int i = 0; i < 4; ++i) news.note_first("note " + std::to_string(i));
+  news.written("/film.mp4");
+  ASSERT_EQ(news.shown().size(), 4u);
+  EXPECT_EQ(news.shown()[0].text, "note 1");
+  EXPECT_EQ(news.shown()[3].text, "written: /film.mp4");
+}
+
 TEST_F(ViewObjects, ArrivalPutsTheBodyToItsPlace) {
   Arrival arrival(options_, plan(), what(), *roamer_, news_);
   wait_until([&] { return is_over(arrival.loader().state()); });

@@ -41,16 +41,16 @@ std::string News::without_folders(std::string sentence) const {
   return sentence;
 }
 
-/// Shows `item` with this sentence: after the others, or after the others that come first. The oldest that does not
-/// come first makes room.
+/// Shows `item` with this sentence: after the others, or after the others that come first. The oldest of the others
+/// that does not come first makes room, or else the oldest.
 void News::show(const std::string& sentence, Item item) {
   item.text = printable(without_secrets(sentence), longest_sentence);
   item.until = now_ + std::max(least_seconds, letter_seconds * static_cast<double>(item.text.size()));
-  const auto others = std::find_if(items_.begin(), items_.end(), [](const Item& one) { return !one.first; });
-  items_.insert(item.first ? others : items_.end(), std::move(item));
-  if (items_.size() <= most_items) return;
-  const auto oldest = std::find_if(items_.begin(), items_.end(), [](const Item& one) { return !one.first; });
-  items_.erase(oldest == items_.end() ? items_.begin() : oldest);
+  const auto others = [&] {
+    return std::find_if(items_.begin(), items_.end(), [](const Item& one) { return !one.first; });
+  };
+  if (items_.size() == most_items) items_.erase(others() == items_.end() ? items_.begin() : others());
+  items_.insert(item.first ? others() : items_.end(), std::move(item));
 }
 
 void News::note(const std::string& sentence) {
