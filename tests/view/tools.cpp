@@ -282,16 +282,16 @@ TEST(Probing, SaysThatItsSearchHasEnded) {
   d.tap('x');
   d.tap('t');
   EXPECT_FALSE(contains(d.hud(), "searching")) << d.hud();
-  EXPECT_TRUE(contains(d.hud(), "The search for a way has ended")) << d.hud();
+  EXPECT_TRUE(contains(d.hud(), "The search for a way was stopped")) << d.hud();
   d.click(-0.2, -0.9);
   d.tap('i');
   d.tap('t');
-  EXPECT_TRUE(contains(d.hud(), "Measuring has ended, and the search for a way")) << d.hud();
+  EXPECT_TRUE(contains(d.hud(), "Measuring has ended; the search for a way was stopped")) << d.hud();
   d.tap('t');
   d.click(0.1, -0.9);
   d.tap('i');
   d.click(0.4, -0.9);
-  EXPECT_TRUE(contains(d.hud(), "The search for a way has ended: this is another point")) << d.hud();
+  EXPECT_TRUE(contains(d.hud(), "The search for a way was stopped: this is another point")) << d.hud();
 }
 
 TEST(Probing, StandsInFrontOfAClickedWall) {

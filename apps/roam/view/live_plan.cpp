@@ -82,7 +82,7 @@ Box LivePlan::box_of(const Wish& wish) {
   return box;
 }
 
-LivePlan::Cut LivePlan::cut(const Wish& wish, const std::atomic<bool>& stops) {
+graphics::PlanLines LivePlan::cut(const Wish& wish, const std::atomic<bool>& stops) {
   const auto goes_on = [&] { return !stops; };
   const Space* space = wish.met.space.get();
   // A pager may only be queried between two frames. Its store may be read at any time.
@@ -93,17 +93,17 @@ LivePlan::Cut LivePlan::cut(const Wish& wish, const std::atomic<bool>& stops) {
   }
   Filtered met(*space);
   met.ignore_beyond(wish.met.open);
-  Cut made{wish, {.base = seen_from_above(wish.centre)}};
+  graphics::PlanLines made{.base = seen_from_above(wish.centre)};
   PlanArea area{wish.centre, wish.half, std::max(least_spacing, 2.0 * wish.half / rays_across)};
-  made.lines.walls = scan_plan(met, area, goes_on);
+  made.walls = scan_plan(met, area, goes_on);
   area.centre.z = wish.low;
-  made.lines.below = scan_plan(met, area, goes_on);
+  made.below = scan_plan(met, area, goes_on);
   return made;
 }
 
 bool LivePlan::is_stale(const Wish& wish) const {
-  if (!shown_ || shown_->of.met != wish.met || shown_->of.half != wish.half) return true;
-  const Vec3 way = wish.centre - shown_->of.centre;
+  if (!wished_ || wished_->met != wish.met || wished_->half != wish.half) return true;
+  const Vec3 way = wish.centre - wished_->centre;
   return std::abs(way.z) > storey || std::max(std::abs(way.x), std::abs(way.y)) > wish.half - half();
 }
 
@@ -113,11 +113,11 @@ void LivePlan::receive() {
     shown_ = cutting_.get();
   } catch (const Cancelled&) {
     return;
-  } catch (const Error&) {
-    // The store cannot be read there: its pager says so.
+  } catch (const Error& error) {
+    problem_ = error.what();
     return;
   }
-  panel_.set_lines(shown_->lines);
+  panel_.set_lines(*shown_);
   trail_shown_ = 0;  // it has another base
 }
 
@@ -143,11 +143,12 @@ void LivePlan::update(bool visible, HiddenSpace::Met met, const std::vector<grap
   const Vec3 centre = roamer_.walker()->position();
   const Wish wish{std::move(met), centre, roamer_.walker()->feet().z + knee, margin_factor * half()};
   if (!cutting_.valid() && is_stale(wish)) {
+    wished_ = wish;
     cutting_ = std::async(std::launch::async, [wish, this] { return cut(wish, stops_); });
   }
   if (shown_ && trail_shown_ != trail_.size()) {
     std::vector<glm::vec2> trail;
-    for (const Vec3& p : trail_) trail.emplace_back(seen_from_above(p) - shown_->lines.base);
+    for (const Vec3& p : trail_) trail.emplace_back(seen_from_above(p) - shown_->base);
     panel_.set_trail(trail);
     trail_shown_ = trail_.size();
   }
@@ -156,7 +157,7 @@ void LivePlan::update(bool visible, HiddenSpace::Met met, const std::vector<grap
   view.centre = seen_from_above(centre);
   view.half = half();
   view.yaw = roamer_.yaw();
-  view.is_coming = !shown_;
+  view.is_coming = !shown_ && cutting_.valid();
   panel_.set_view(view);
 }
 
@@ -175,7 +176,7 @@ bool LivePlan::go(double x, double y) {
 std::vector<glm::dvec2> LivePlan::walls() const {
   std::vector<glm::dvec2> all;
   if (!shown_) return all;
-  for (const glm::vec2& p : shown_->lines.walls) all.push_back(glm::dvec2(p) + shown_->lines.base);
+  for (const glm::vec2& p : shown_->walls) all.push_back(glm::dvec2(p) + shown_->base);
   return all;
 }
 

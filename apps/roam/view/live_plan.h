@@ -6,6 +6,8 @@
 #include <future>
 #include <memory>
 #include <optional>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "graphics/plan_panel.h"
@@ -38,6 +40,8 @@ class LivePlan {
   /// Shows more (> 1) or less.
   void zoom(double factor);
 
+  /// The reason why the last cut failed, such as a store that cannot be read. Empty: none, or it was taken before.
+  [[nodiscard]] std::string take_problem() { return std::exchange(problem_, {}); }
   /// The walls that are shown: pairs of points, metres in the scene seen from above.
   [[nodiscard]] std::vector<glm::dvec2> walls() const;
 
@@ -48,12 +52,8 @@ class LivePlan {
     double low = 0.0;   ///< height of the lower cut
     double half = 0.0;  ///< m
   };
-  struct Cut {
-    Wish of;
-    graphics::PlanLines lines;
-  };
   [[nodiscard]] static Box box_of(const Wish& wish);
-  [[nodiscard]] static Cut cut(const Wish& wish, const std::atomic<bool>& stops);
+  [[nodiscard]] static graphics::PlanLines cut(const Wish& wish, const std::atomic<bool>& stops);
   [[nodiscard]] double half() const;  ///< m; there must be a walker
   [[nodiscard]] bool is_stale(const Wish& wish) const;
   void follow();
@@ -64,8 +64,10 @@ class LivePlan {
   graphics::PlanSize size_ = graphics::PlanSize::none;
   double half_ = 12.0;  ///< m, of the small plan
   std::atomic<bool> stops_ = false;
-  std::future<Cut> cutting_;
-  std::optional<Cut> shown_;
+  std::future<graphics::PlanLines> cutting_;
+  std::optional<Wish> wished_;  ///< for the last cut, which is shown, running or failed
+  std::optional<graphics::PlanLines> shown_;
+  std::string problem_;
   std::vector<Vec3> trail_;
   std::size_t trail_shown_ = 0;
 };

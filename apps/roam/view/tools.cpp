@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "osgroam/pointer.h"
+#include "text/printable.h"
 
 namespace roam::app {
 namespace {
@@ -55,11 +56,12 @@ void Tools::toggle_measuring() {
   measuring_.clear();
   const bool searched = probing_.clear();
   if (tool_ == Tool::measure) {
-    stage_.hint(fmt::format("{}Measuring: click two points; {} ends",
-                            searched ? "The search for a way has ended. " : "", key_of(roamer_.controls(), "measure")),
-                seconds);
+    stage_.hint(
+        fmt::format("{}Measuring: click two points; {} ends", searched ? "The search for a way was stopped. " : "",
+                    key_of(roamer_.controls(), "measure")),
+        seconds);
   } else {
-    stage_.hint(searched ? "Measuring has ended, and the search for a way" : "Measuring has ended", seconds);
+    stage_.hint(searched ? "Measuring has ended; the search for a way was stopped" : "Measuring has ended", seconds);
   }
 }
 
@@ -139,6 +141,8 @@ void Tools::update(bool has_body, bool has_plan, const std::vector<graphics::Pla
   section_.show(scene_.group(), scene_.origin());
   const bool is_plan_seen = has_plan && stage_.hud().detail() != graphics::Detail::off;
   if (has_body) plan_.update(is_plan_seen, hidden_.met(), places);
+  if (const std::string problem = plan_.take_problem(); !problem.empty())
+    stage_.hint("The plan is not drawn: " + printable(problem), 8.0);
   stage_.hud().set_plan(plan_.place());
 }
 
@@ -261,7 +265,7 @@ void Tools::click(const Point& at) {
     stage_.hint("There is no surface here", seconds);
   } else if (tool_ == Tool::measure) {
     constexpr double seconds = 4.0;
-    if (probing_.clear()) stage_.hint("The search for a way has ended: this is another point", seconds);
+    if (probing_.clear()) stage_.hint("The search for a way was stopped: this is another point", seconds);
     measuring_.take(*found);
   } else if (tool_ == Tool::section) {
     section_.cut(*found);
