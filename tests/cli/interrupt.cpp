@@ -147,7 +147,8 @@ TEST_F(Interrupt, Walk) { interrupt({"walk", scene(), "--wander", "1e7", "--pict
 /// `timeout` and shells send a signal to the program and one to its group.
 TEST_F(Interrupt, WalkByThreeSignalsAtOnceWritesWhatItHas) {
   const std::string trace = folder_.file("t.csv");
-  const std::string floor = folder_.write("floor.obj", "v -9 -9 0\nv 9 -9 0\nv 9 9 0\nv -9 9 0\nf 1 2 3 4\n");
+  const std::string floor =
+      folder_.write("floor.obj", "v -9e3 -9e3 0\nv 9e3 -9e3 0\nv 9e3 9e3 0\nv -9e3 9e3 0\nf 1 2 3 4\n");
   interrupt({"walk", floor, "--wander", "1e7", "--trace", trace}, 2.0, SIGTERM, 3);
   EXPECT_TRUE(fs::exists(trace)) << folder_.read("log");
   EXPECT_NE(folder_.read("log").find("INTERRUPTED after"), std::string::npos) << folder_.read("log");
@@ -196,9 +197,12 @@ TEST_F(Interrupt, View) {
   interrupt({"view", scene(), "--headless", "--time", "1e6", "--screenshot", folder_.file("shot.png")});
 }
 
-TEST_F(Interrupt, ViewThatSaysThatItsPictureIsNotWritten) {
+TEST_F(Interrupt, ViewThatWritesItsFilmAndSaysThatItsPictureIsNotWritten) {
   const std::string floor = folder_.write("floor.obj", "v -9 -9 0\nv 9 -9 0\nv 9 9 0\nv -9 9 0\nf 1 2 3 4\n");
-  interrupt({"view", floor, "--headless", "--time", "1e6", "--screenshot", folder_.file("shot.png")}, 4.0, SIGINT);
+  const std::string film = folder_.file("film.mp4");
+  interrupt({"view", floor, "--headless", "--time", "1e6", "--screenshot", folder_.file("shot.png"), "--record", film},
+            5.0, SIGINT);
+  EXPECT_TRUE(fs::exists(film)) << folder_.read("log");
   EXPECT_NE(folder_.read("log").find("shot.png was not written: the session ended before"), std::string::npos)
       << folder_.read("log");
 }
