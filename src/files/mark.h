@@ -11,8 +11,8 @@
 namespace roam::files {
 
 /// These words stand where other programs skip them: in a comment, or in a part of the file that only roam knows. Each
-/// format has one place for them; in an MP4 or WebM it is anywhere in the first 4 MiB. An editor that keeps comments may
-/// keep the mark, and then roam takes what a person edited for its own.
+/// format has one place for them; in an MP4 or WebM it is anywhere in the first 4 MiB. An editor that keeps comments
+/// may keep the mark, and then roam takes what a person edited for its own.
 inline constexpr std::string_view mark = "made by roam";
 
 /// Adds the mark to the bytes of a picture: PNG, JPEG or SVG. Others stay as they are. In a PNG it is a chunk that is
