@@ -109,7 +109,7 @@ TEST(Json, AReportIsFollowedByNoSecondObject) {
   const TestFolder folder;
   const std::string scene = folder.write("room.obj", room_obj());
   const ProgramResult result =
-      roam({"train", scene, "--height", "1.8", "--json", "-o", folder.file(std::string(256, 'p'))});
+      run_without_files(ROAM_PROGRAM, {"train", scene, "--height", "1.8", "--json", "-o", folder.file("p.json")});
   EXPECT_EQ(result.status, 1) << result.err;
   EXPECT_FALSE(object_of(result).contains("error"));
 }

@@ -129,11 +129,14 @@ TEST(TrainVerb, RefusesAFileThatCannotBeWrittenBeforeAnyWork) {
 }
 
 TEST(TrainVerb, TellsItsAnswerThoughTheProfileCannotBeWritten) {
-  const Train train({}, {"--json", "-o", "@" + std::string(256, 'p')});
-  EXPECT_EQ(train.result.status, 1);
-  EXPECT_TRUE(contains(train.result.err, "cannot write")) << train.result.err;
-  EXPECT_TRUE(train.json().contains("answer")) << train.result.out;
-  EXPECT_TRUE(train.json()["profile"].is_null());
+  const TestFolder folder;
+  const std::string scene = folder.write("scene.obj", obj(corridor_mesh({})));
+  const ProgramResult train = run_without_files(ROAM_PROGRAM, {"train", scene, "--json", "-o", folder.file("p.json")});
+  EXPECT_EQ(train.status, 1);
+  EXPECT_TRUE(contains(train.err, "cannot write")) << train.err;
+  const nlohmann::json report = nlohmann::json::parse(train.out, nullptr, false);
+  ASSERT_TRUE(report.contains("answer")) << train.out;
+  EXPECT_TRUE(report["profile"].is_null());
 }
 
 TEST(TrainVerb, WritesNoProfileWhereItHasLearnedNothing) {

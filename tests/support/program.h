@@ -105,6 +105,13 @@ inline ProgramResult run_program(const std::string& program, const std::vector<s
   return result;
 }
 
+/// Runs a program that cannot write a byte into any file.
+inline ProgramResult run_without_files(const std::string& program, const std::vector<std::string>& arguments) {
+  std::vector<std::string> all{"-c", "ulimit -f 0; exec \"$0\" \"$@\"", program};
+  all.insert(all.end(), arguments.begin(), arguments.end());
+  return run_program("/bin/sh", all);
+}
+
 /// A folder that is empty when a test begins, and removed when it ends.
 class TestFolder {
  public:
