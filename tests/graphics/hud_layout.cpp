@@ -148,10 +148,11 @@ TEST_P(GraphicsHudLayout, HidesLabelsThatLieBehindAPart) {
     if (size != PlanSize::none) all.push_back(plan.place());
     ASSERT_GE(all.size(), 4u);
     for (const Rectangle& r : all) {
-      for (const float share : {0.0f, 0.5f, 1.0f}) {
-        hud.set_labels({{"too narrow", r.x + share * r.width, r.y + 0.5f * r.height - 8.0f}});
-        EXPECT_EQ(differing(*without, *stage.picture(true)), 0) << "plan " << int(size) << ", behind " << text_of(r);
-      }
+      std::vector<HudLabel> labels;
+      for (const float share : {0.0f, 0.5f, 1.0f})
+        labels.push_back({"too narrow", r.x + share * r.width, r.y + 0.5f * r.height - 8.0f});
+      hud.set_labels(labels);
+      EXPECT_EQ(differing(*without, *stage.picture(true)), 0) << "plan " << int(size) << ", behind " << text_of(r);
     }
   }
   hud.set_list(std::nullopt);
