@@ -316,7 +316,7 @@ TEST(ProbeVerb, MeasuresTheHeightOfALintelThatStopsTheBody) {
   EXPECT_NEAR(low["opening"]["missing_m"].get<double>(), 0.1, 1e-3);
   EXPECT_NEAR(low["opening"]["point"][0].get<double>(), 10.0, 0.31);  // below the lintel, by the body's radius
   EXPECT_TRUE(contains(low["answer"], "Stopped by: headroom 2.100 m ")) << low["answer"];
-  // No height helps who is too wide, too.
+  // A lower body that is as wide does not pass either.
   probe.ask({"--radius", "0.5", "--height", "2.2", "--json"});
   EXPECT_EQ(probe.json()["other"]["kind"], "door") << probe.result.out;
   probe.ask({"--radius", "0.5", "--height", "2.0", "--json"});

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "messages.h"
+#include "probed_room.h"
 #include "roam/probe.h"
 #include "walker_scenes.h"
 #include "words/probe.h"
@@ -17,20 +18,8 @@ using namespace scenes;
 using namespace roam;
 using Kind = ProbeLimit::Kind;
 
-const ProbeQuestion across{.from = {2.0, 0.3, 1.0}, .to = {18.0, -0.4, 1.0}};
-
 Survey survey_of(const Mesh& mesh, bool lossless = true) {
   return Survey::build({mesh}, {.threads = 1, .lossless = lossless, .progress = {}});
-}
-
-/// From x = 0 to 20, 4 m wide and 3 m high, with a wall across it at x = 10 that has a door of `width`.
-Mesh room(double width) {
-  Mesh m;
-  add_box(m, {0.0, -2.0, 0.0}, {20.0, 2.0, 3.0});
-  add_wall(m, 10.0, -2.0, 10.0, -0.5 * width, 0.0, 3.0);
-  add_wall(m, 10.0, 0.5 * width, 10.0, 2.0, 0.0, 3.0);
-  add_wall(m, 10.0, -0.5 * width, 10.0, 0.5 * width, 2.1, 3.0);
-  return m;
 }
 
 TEST(ProbeLimits, AreNoneWhereAWalkerFallsIntoACrackHoweverShallow) {

@@ -59,7 +59,7 @@ bool is_land(const Box& bounds, double room) {
   return room >= wide && size.z < flat * std::min(size.x, size.y);
 }
 
-/// Of the ball around a box, m.
+/// The radius of the ball around a box, in metres.
 double radius_of(const Box& box) { return box.empty() ? 1.0 : std::max(0.5 * glm::length(box.size()), 1e-4); }
 
 /// From its middle to a camera that sees all of it, m.

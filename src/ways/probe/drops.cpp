@@ -360,19 +360,15 @@ WayDown way_down(const ProbeSearch& search, const ProbeEnds& ends, double radius
   // is too narrow, only places with room for the body count.
   const double narrower = std::max(search.options.narrowest, radius - lattice_error * search.options.spacing);
   const std::uint64_t most = search.options.most_places;
-  std::uint64_t places = 0;
-  bool complete = true;
+  WayDown none;
   for (const double narrowest : {narrower, radius}) {
-    Descent descent(search, narrowest, radius, deepest, most - std::min(most, places));
+    Descent descent(search, narrowest, radius, deepest, most - std::min(most, none.passage.places));
     WayDown way = descent.run(ends);
     if (way.passage.found) return way;
-    places += way.passage.places;
-    complete = complete && way.passage.complete;
+    none.passage.places += way.passage.places;
+    none.passage.complete = none.passage.complete && way.passage.complete;
     if (!descent.has_narrow_places()) break;
   }
-  WayDown none;
-  none.passage.complete = complete;
-  none.passage.places = places;
   return none;
 }
 
