@@ -69,7 +69,7 @@ done
 before=()
 pack=$(cd "$work/whole" && ls packs/*.pack)
 size=$(stat -c %s "$work/whole/$pack")
-found=0
+damaged=0 found=0
 random() { echo $((RANDOM * 32768 + RANDOM)); }
 for ((i = 0; i < copies; ++i)); do
   rm -rf "$work/bad"
@@ -99,14 +99,15 @@ for ((i = 0; i < copies; ++i)); do
       truncate -s "$size" "$work/bad/$pack"
       ;;
   esac
-  cmp -s "$work/whole/$pack" "$work/bad/$pack" && continue
+  cmp -s "$work/whole/$pack" "$work/bad/$pack" && continue  # zeros over zeros
+  damaged=$((damaged + 1))
   "$roam" verify "$work/bad" > "$work/said" 2>&1
   status=$?
   ((status == 3)) && found=$((found + 1)) || complain "$what: verify says $status: $(tail -1 "$work/said")"
   walk "$work/bad" --mode fly
   walked $? "$what"
 done
-echo "damaged copies: verify found $found of $copies"
+echo "damaged copies: verify found $found of $damaged"
 
 # A pack that is not there at all.
 rm -rf "$work/bad"
