@@ -3,10 +3,12 @@
 import contextlib
 import os
 import pathlib
+import signal
 import subprocess
 import sys
 
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
+COMPILE_SECONDS = 7200
 
 
 class Late(Exception):
@@ -14,17 +16,23 @@ class Late(Exception):
 
 
 def ends_well(command, seconds):
-    """Whether a command ends with status 0. Raises Late if it does not end in time."""
-    try:
-        done = subprocess.run(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, timeout=seconds,
-                              check=False, env={**os.environ, "GTEST_FAIL_FAST": "1"})
-    except subprocess.TimeoutExpired as error:
-        raise Late from error
-    return done.returncode == 0
+    """Whether a command ends with status 0. If it does not end in time, ends it and all that it started, and raises
+    Late."""
+    with subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, start_new_session=True,
+                          env={**os.environ, "GTEST_FAIL_FAST": "1"}) as process:
+        try:
+            return process.wait(seconds) == 0
+        except subprocess.TimeoutExpired as error:
+            raise Late from error
+        finally:
+            if process.returncode is None:
+                os.killpg(process.pid, signal.SIGKILL)
 
 
 def listed_files():
-    listed = subprocess.run(["git", "ls-files", "-z"], cwd=SOURCE, check=True, capture_output=True, text=True).stdout
+    """Those of git, and new ones that it does not ignore."""
+    listed = subprocess.run(["git", "ls-files", "-z", "--cached", "--others", "--exclude-standard"], cwd=SOURCE,
+                            check=True, capture_output=True, text=True).stdout
     return [path for path in listed.split("\0") if (SOURCE / path).is_file()]
 
 
@@ -47,12 +55,15 @@ class ChangedTree:
                 file.chmod((SOURCE / path).stat().st_mode)
         subprocess.run(["cmake", "-S", self.tree, "-B", self.build, "-G", "Ninja", *options], check=True,
                        stdout=subprocess.DEVNULL)
-        if not self.compiles():
-            sys.exit("the tree does not compile as it is")
+        try:
+            if not self.compiles():
+                sys.exit("the tree does not compile as it is")
+        except Late:
+            sys.exit(f"the tree does not compile in {COMPILE_SECONDS // 3600} hours")
 
     def compiles(self, targets=None):
         chosen = targets or self.targets
-        return ends_well(["cmake", "--build", self.build, *(["--target", *chosen] if chosen else [])], 7200)
+        return ends_well(["cmake", "--build", self.build, *(["--target", *chosen] if chosen else [])], COMPILE_SECONDS)
 
     @contextlib.contextmanager
     def changed(self, path, change):
