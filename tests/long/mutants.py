@@ -122,8 +122,9 @@ def main():
                             capture_output=True).stdout
     tests = hashlib.sha256(listed).hexdigest()[:16]
     lines = {path: (SOURCE / path).read_text(encoding="utf-8").splitlines() for path in files}
+    # A line of it is one mutant: another in an equal line of the file may do harm.
     harmless = (SOURCE / "tests/long/mutants.txt").read_text(encoding="utf-8").splitlines()
-    bench, table, survived = None, {}, []
+    bench, table, survived, endless = None, {}, [], 0
     for path, line, column, token, replacement in chosen:
         key = (path, tests, line, lines[path][line - 1], column, token, replacement)
         if key not in known:
@@ -136,15 +137,21 @@ def main():
             continue
         counts = table.setdefault(path, [0, 0])
         counts[0] += 1
+        endless += bool(killed_by) and killed_by.endswith("did not end")
         if killed_by is None:
             counts[1] += 1
             survivor = f"{path}: {token} -> {replacement or 'nothing'}: {lines[path][line - 1].strip()}"
-            if survivor not in harmless:
+            if survivor in harmless:
+                harmless.remove(survivor)
+            else:
                 survived.append(survivor)
     for path, (tried, alive) in sorted(table.items()):
         print(f"{path}: {tried} mutants, {alive} survived")
-    print(f"{len(every)} in all; {sum(t for t, _ in table.values())} tried, {len(survived)} survived and not known as harmless")
-    print("\n".join(survived))
+    for survivor in survived:
+        print(survivor)
+    tried, alive = sum(t for t, _ in table.values()), sum(a for _, a in table.values())
+    print(f"{len(every)} mutants, {tried} tried: {tried - alive} killed ({endless} by tests that did not end), "
+          f"{alive - len(survived)} harmless, {len(survived)} survived")
     return 1 if survived else 0
 
 
