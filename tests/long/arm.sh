@@ -22,6 +22,7 @@ if [[ ! -e $libraries/libhwy.so ]]; then
 fi
 export PKG_CONFIG_LIBDIR=$libraries/pkgconfig PKG_CONFIG_SYSROOT_DIR=$root
 cmake -S "$source_folder" -B "$folder" -G Ninja -DCMAKE_BUILD_TYPE=Release -DROAM_TOOLS=OFF -DROAM_WERROR=ON \
+  -DROAM_TEST_TIMEOUT=3600 \
   -DCMAKE_SYSTEM_NAME=Linux -DCMAKE_SYSTEM_PROCESSOR=aarch64 -DCMAKE_LIBRARY_ARCHITECTURE=aarch64-linux-gnu \
   -DCMAKE_C_COMPILER=aarch64-linux-gnu-gcc -DCMAKE_CXX_COMPILER=aarch64-linux-gnu-g++ \
   -DCMAKE_FIND_ROOT_PATH="$root;/usr/aarch64-linux-gnu" -DCMAKE_FIND_ROOT_PATH_MODE_PROGRAM=NEVER \
@@ -29,4 +30,4 @@ cmake -S "$source_folder" -B "$folder" -G Ninja -DCMAKE_BUILD_TYPE=Release -DROA
   -DCMAKE_FIND_ROOT_PATH_MODE_PACKAGE=ONLY \
   "-DCMAKE_CROSSCOMPILING_EMULATOR=qemu-aarch64;-L;/usr/aarch64-linux-gnu;-E;LD_LIBRARY_PATH=$libraries"
 cmake --build "$folder"
-exec ctest --test-dir "$folder" --output-on-failure --parallel "$(nproc)" --timeout 3600 "$@"
+exec "$source_folder/tests/long/ctest.sh" "$folder" "$@"
