@@ -8,6 +8,8 @@ mkdir -p "$folder/corpus" "$folder/found"
 inputs=("$folder/corpus" "$folder/seeds")
 regressions=$(dirname "$0")/regressions/$target
 [[ ! -d $regressions ]] || inputs+=("$regressions")
+# As in tests/long/fuzz.sh, if this is a build with a sanitizer: foreign libraries leak.
+export ASAN_OPTIONS=detect_leaks=0:allocator_may_return_null=1 TSAN_OPTIONS=allocator_may_return_null=1
 # Without coverage libFuzzer would throw all seeds away.
 exec "$program" --target="$target" --seeds="$folder/seeds" -dict="$folder/seeds.words" -keep_seed=1 -seed=1 \
   -max_total_time="${ROAM_FUZZ_SECONDS:-1}" -timeout=60 -rss_limit_mb=0 -artifact_prefix="$folder/found/" \
