@@ -1,18 +1,23 @@
 #!/usr/bin/env bash
 # tests/long/packages.sh [FOLDER [SUITE]]
-# Installs the Debian packages in FOLDER (build-check) into a fresh Debian SUITE (this system's), and uses all of them
-# there: program, manual, Python module, C and C++ examples. Upgrades them to a later version, removes and purges them.
-# Nothing may be left, and no step may warn. Takes 2 GB of disk; needs root, debootstrap and a mirror.
+# Installs the Debian packages in FOLDER (those that ./check -R DebianPackages makes) into a fresh Debian SUITE (this
+# system's), and uses all of them there: program, manual, Python module, C and C++ examples. Upgrades them to a later
+# version, removes and purges them. Nothing may be left, and no step may warn. Takes 2 GB of disk; needs root, debootstrap
+# and a mirror.
 set -euo pipefail
 source_folder=$(realpath "$(dirname "$0")/../..")
-packages=$(realpath "${1:-$source_folder/build-check}")
+packages=$(realpath -m "${1:-$source_folder/build-check/tests/debian/packages}")
 suite=${2:-$(. /etc/os-release && echo "$VERSION_CODENAME")}
-cd "$packages"
+for tool in debootstrap dpkg-deb; do
+  command -v "$tool" > /dev/null || { echo "there is no $tool; as root: apt-get install debootstrap dpkg-dev"; exit 77; }
+done
+(($(id -u) == 0)) || { echo "a fresh Debian needs root"; exit 77; }
 names='roam roam-reader libroam0 libroam-dev python3-roam roam-doc'
 for name in $names; do
-  compgen -G "${name}_*.deb" > /dev/null ||
-    { echo "there is no $name in $packages: cmake --build . --target package"; exit 1; }
+  compgen -G "$packages/${name}_*.deb" > /dev/null ||
+    { echo "there is no $name in $packages: ./check -R DebianPackages"; exit 1; }
 done
+cd "$packages"
 work=$(mktemp -d)
 root=$work/root
 end() {
@@ -107,4 +112,4 @@ step 'purge' inside dpkg --purge libroam0  # the only one that is not gone, beca
 rm "$root"/packages/*.deb
 files > "$work/after"
 diff "$work/before" "$work/after" || fail 'something is left, or missing'
-echo "installed, used, upgraded, removed: nothing is left ($SECONDS s)"
+echo "$(wc -w <<< "$names") packages installed in $suite, used, upgraded, removed: 0 files left; $SECONDS s"
