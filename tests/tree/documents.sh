@@ -7,11 +7,11 @@
 #   - a relative link leads to a file or folder, and its #anchor to a heading, by GitHub's rules for anchors;
 #   - docs/NAME.md in code, tests and CMake files exists, and so does the heading in: docs/NAME.md, "Heading";
 #   - a test that a document names, `Suite.Test` or `Suite.*`, exists;
-#   - README.md and docs have at most 33,850 words together;
+#   - README.md and docs have at most 33,850 words together, docs/guarantees.md 1,500;
 #   - a line has at most 120 columns, without the targets of its links, unless it is code or a table.
 set -euo pipefail
 export LC_ALL=C  # awk counts bytes then, whichever awk it is
-most_words=33850
+most_words=33850 most_promises=1500
 
 # documents: their names, one a line.
 documents() {
@@ -125,9 +125,13 @@ check() {
       fail "$file:$line names $target, and there is no such test"
   done < <(grep -noHE '`[A-Z][A-Za-z]+\.([A-Z][A-Za-z]+|\*)`' "${names[@]}")
 
-  local words
+  local words promises
   words=$(find README.md docs -name '*.md' -exec cat {} + | wc -w)
   ((words <= most_words)) || fail "README.md and docs have $words words, more than $most_words"
+  if [[ -e docs/guarantees.md ]]; then
+    promises=$(wc -w < docs/guarantees.md)
+    ((promises <= most_promises)) || fail "docs/guarantees.md has $promises words, more than $most_promises"
+  fi
   ((failed == 0)) || return 1
   echo "${#names[@]} documents: $links links, $mentions mentions, $tests tests, $words words"
 }
@@ -169,6 +173,7 @@ cat > docs/rooms.md << 'END'
 END
 sed -i 's/ – / /' docs/rooms.md
 echo '# Cellar' > docs/deep/cellar.md
+echo '# Guarantees' > docs/guarantees.md
 echo '// See docs/rooms.md, "Again", and docs/deep/cellar.md.' > src/house.h
 echo 'TEST_F(House, Stands) {' > tests/house.cpp
 echo '`House.Stands`, `House.*`, `House.h`' >> docs/deep/cellar.md
@@ -200,6 +205,7 @@ planted docs/rooms.md '`House.Burns`' 'docs/rooms.md:10 names House.Burns, and t
 planted docs/rooms.md '`Hous.*`' 'there is no such test'
 planted README.md "$(printf 'x%.0s' {1..121})" 'README.md:13 has 121 columns'
 planted docs/deep/cellar.md "$(yes word | head -$most_words)" "more than $most_words"
+planted docs/guarantees.md "$(yes word | head -$((most_promises - 1)))" "1501 words, more than $most_promises"
 # As long as a line may be, with letters of two bytes and a link.
 echo "$(printf 'ü%.0s' {1..114}) [up](../README.md)" >> docs/rooms.md
 check .
