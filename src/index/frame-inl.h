@@ -124,6 +124,7 @@ struct Reach {
 struct Swept {
   alignas(16) std::int32_t lower[4], upper[4];
 
+  // cppcheck-suppress uninitMemberVar ; for members that are set later
   Swept() = default;
   HWY_INLINE Swept(const Frame& frame, const Reach& reach, float more) {
     // Planes lie between 0 and 2^16 steps of a tile, and between 0 and 2^29 + 2^19 steps of the tree over tiles. For a

@@ -39,6 +39,7 @@ HWY_INLINE void leave_out(Children& children, const Beyond& beyond) {
 template <class Bounds>
 class NearTraversal {
  public:
+  // cppcheck-suppress uninitMemberVar ; the stack is cleared before each use
   NearTraversal(const Index& index, const Piece& piece, const Near& near, Visit visit, void* context)
       : index_(index),
         piece_(piece),

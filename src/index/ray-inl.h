@@ -29,6 +29,7 @@ struct Ray {
   float start[2];  ///< in a tile: the projection of the ray, in steps
   float room = 0;  ///< in a tile: steps from it within which triangles count
 
+  // cppcheck-suppress uninitMemberVar ; enter() sets `start`
   explicit Ray(const Motion& motion) {
     for (int k = 0; k < 4; ++k) {
       const std::uint32_t bits = std::bit_cast<std::uint32_t>(motion.inverse[k]) & ~0xffU;

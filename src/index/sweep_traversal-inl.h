@@ -165,6 +165,7 @@ class SweepTraversal {
     out.node = &nodes[number].node;
     if (!Line::is_ray && !short_) {
       choose(*out.node, in_frame, ~0U, out.children);
+      // cppcheck-suppress[uninitvar,uninitStructMember] ; `first` counts only with `single`
       return out;
     }
     for (;;) {

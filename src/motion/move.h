@@ -75,6 +75,7 @@ class Move : public Mover, public Whereabouts {
 
   double time;  ///< seconds since the step began
 
+  // cppcheck-suppress uninitDerivedMemberVar ; the whole Mover is copied
   Move(const Mover& mover, const Whereabouts& from) : Mover(mover), Whereabouts(from), time(mover.report.elapsed) {}
 
   [[nodiscard]] Body body() const { return Body::capsule(settings.radius, height); }
