@@ -98,4 +98,4 @@ awk -v plan="$(number seconds plan.json)" -v balance="$(number balance plan.json
     printf "plan %.2f s (longest task %s times the mean, by triangles), merge %.2f s; together %.1f %% of all\n", plan,
       balance, merge, 100 * (plan + merge) / (all + plan + merge)
   }' shares times
-finish "$tasks tasks"
+finish "$tasks tasks, $troubles troubles"

@@ -18,8 +18,10 @@ if [[ ! -e $store/CURRENT ]]; then
 fi
 "$roam" publish "$store" "$work/www/x.roam" --nginx > "$work/location" || exit 1
 
+flights=-1 most_walkers=0  # the first flight is on the disk
 # flown STORE WHAT
 flown() {
+  flights=$((flights + 1))
   TIMEFORMAT=%R
   { time "$roam" walk "$1" --path "$path" --mode fly --speed 50 --json --trace "$work/trace" > "$work/report" \
     2> "$work/said"; } 2> "$work/time"
@@ -61,7 +63,8 @@ else
     after=$(clock) now=$(wc -l < "$work/nginx/requests")
     wait $job || complain "$walkers walkers: a tile did not come"
     tail -1 "$work/walked"
+    most_walkers=$walkers
     echo "  nginx: $(((now - lines) / 59)) requests a second, $(awk "BEGIN { print ($after - $before) / 0.59 }") % of a core"
   done
 fi
-finish "serving"
+finish "$flights slow flights as on the disk, at most $most_walkers walkers"
