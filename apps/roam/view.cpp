@@ -19,7 +19,6 @@
 #include "roam/error.h"
 #include "scenes/beside_scene.h"
 #include "scenes/frame.h"
-#include "text/printable.h"
 #include "verbs.h"
 #include "verify/verify_stored.h"
 #include "view/gamepad.h"
@@ -85,26 +84,6 @@ std::optional<NextSession> run_session(const ViewOptions& options, const ViewPla
   }
   report = session.finish();
   return cancelled ? std::nullopt : session.next();
-}
-
-/// Sets the options for the next session. `given`: the patterns of the command line. Returns a sentence for the person.
-std::string go_on(ViewOptions& options, const NextSession& next, const std::vector<std::string>& given) {
-  options.bookmark.clear();
-  options.at.clear();
-  if (next.frame) {
-    options.scene.up = to_string(next.frame->up);
-    options.scene.unit = to_string(next.frame->unit);
-    return fmt::format("read with {}{}{}", options_of(*next.frame), next.note.empty() ? "" : "; ", next.note);
-  }
-  const Vec3& place = next.at.position;
-  options.at = {place.x, place.y, place.z, next.at.yaw, next.at.pitch};
-  options.mode = to_string(next.mode);
-  if (next.leave_out.empty()) {
-    options.scene.ignore = given;
-    return "all objects are shown";
-  }
-  options.scene.ignore.push_back(next.leave_out);
-  return fmt::format("left out: {}", printable(next.leave_out));
 }
 
 ExitStatus view(ViewOptions options) {

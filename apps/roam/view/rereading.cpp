@@ -8,6 +8,7 @@
 #include "roam/profile.h"
 #include "roam/world.h"
 #include "scenes/frame.h"
+#include "text/printable.h"
 #include "view/body.h"
 #include "view/patterns.h"
 
@@ -17,6 +18,25 @@ SceneFrame next_unit(const SceneFrame& frame, std::optional<LengthUnit> stated) 
   if (stated) return {frame.up, *stated};
   const std::size_t next = (static_cast<std::size_t>(frame.unit) + 1) % length_unit_names.size();
   return {frame.up, static_cast<LengthUnit>(next)};
+}
+
+std::string go_on(ViewOptions& options, const NextSession& next, const std::vector<std::string>& given) {
+  options.bookmark.clear();
+  options.at.clear();
+  if (next.frame) {
+    options.scene.up = to_string(next.frame->up);
+    options.scene.unit = to_string(next.frame->unit);
+    return fmt::format("read with {}{}{}", options_of(*next.frame), next.note.empty() ? "" : "; ", next.note);
+  }
+  const Vec3& place = next.at.position;
+  options.at = {place.x, place.y, place.z, next.at.yaw, next.at.pitch};
+  options.mode = to_string(next.mode);
+  if (next.leave_out.empty()) {
+    options.scene.ignore = given;
+    return "all objects are shown";
+  }
+  options.scene.ignore.push_back(next.leave_out);
+  return fmt::format("left out: {}", printable(next.leave_out));
 }
 
 void Rereading::add_to(Commands& commands) {

@@ -6,6 +6,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "osgRoam/Manipulator.h"
 #include "view/arrival.h"
@@ -28,6 +29,9 @@ struct NextSession {
 
 /// The same axis, and the unit that the file states; without one, the next of m, cm, mm, ft, in, in a circle.
 [[nodiscard]] SceneFrame next_unit(const SceneFrame& frame, std::optional<LengthUnit> stated);
+
+/// Sets the options for the next session. `given`: the patterns of the command line. Returns a sentence for the person.
+std::string go_on(ViewOptions& options, const NextSession& next, const std::vector<std::string>& given);
 
 class Rereading {
  public:
