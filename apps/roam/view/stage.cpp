@@ -358,3 +358,7 @@ void Stage::finish() {
 }
 
 }  // namespace roam::app
+  if (!pictures_.empty() || enlarged_wanted_) {  // asked for in the last frame, which was not drawn
+    hold_film(true);
+    draw();
+  }
