@@ -1,4 +1,6 @@
 // The tools of roam view: measuring, the plan.
+#include <fmt/format.h>
+
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
@@ -179,24 +181,24 @@ TEST(Tools, ShowThePlanOfAStoreAsOfItsScene) {
   }
 }
 
-TEST(Tools, GoToWhatIsClickedOnThePlan) {
-  Tooled d;
-  d.tap('l');
-  d.tap('l');
-  ASSERT_EQ(d.session->tools().plan().size(), graphics::PlanSize::large);
+/// Clicks on the large plan, where it shows this point; false if it does not.
+bool click_on_plan(Tooled& d, double to_x, double to_y) {
+  while (d.session->tools().plan().size() != graphics::PlanSize::large) d.tap('l');
   d.run(0.1);
   d.session->stage().draw();  // which gives the plan its place
-  // 5 m ahead: the point of the picture that the plan shows there.
-  bool clicked = false;
-  for (double y = -1.0; y < 1.0 && !clicked; y += 0.01) {
-    for (double x = -1.0; x < 1.0 && !clicked; x += 0.01) {
+  for (double y = -1.0; y < 1.0; y += 0.01) {
+    for (double x = -1.0; x < 1.0; x += 0.01) {
       const auto at = d.session->tools().plan().at(x, y);
-      if (!at || std::abs(at->x - (d.place().x + 5.0)) > 0.5 || std::abs(at->y - d.place().y) > 0.5) continue;
+      if (!at || std::abs(at->x - to_x) > 0.5 || std::abs(at->y - to_y) > 0.5) continue;
       d.click(x, y);
-      clicked = true;
+      return true;
     }
   }
-  ASSERT_TRUE(clicked);
+  return false;
+}
+
+TEST(Tools, GoToWhatIsClickedOnThePlan) {
+  Tooled d;
   const double before = d.place().x;
   d.run(3.0);
   EXPECT_NEAR(d.place().x, before + 5.0, 1.0);
@@ -209,6 +211,7 @@ TEST(Tools, DrawTheLargePlanNoFartherThanTheSceneReaches) {
   Tooled d;  // in a corridor of 20 m
   d.tap('l');
   d.tap('l');
+  ASSERT_TRUE(click_on_plan(d, before + 5.0, d.place().y));
   d.run(0.1);
   d.session->stage().draw();
   double left = 1e9, right = -1e9;
@@ -216,6 +219,53 @@ TEST(Tools, DrawTheLargePlanNoFartherThanTheSceneReaches) {
     const auto at = d.session->tools().plan().at(x, 0.0);
     if (!at) continue;
     left = std::min(left, at->x);
+/// A floor 6 m wide from (x, z) to (x, z).
+std::string floor_obj(const char* name, double x0, double z0, double x1, double z1) {
+  return fmt::format("o {}\nv {} -3 {}\nv {} -3 {}\nv {} 3 {}\nv {} 3 {}\nf -4 -3 -2 -1\n", name, x0, z0, x1, z1, x1,
+                     z1, x0, z0);
+}
+
+TEST(Tools, GoUpAndDownASlopeThatIsClickedOnThePlan) {
+  const double steep = std::tan(glm::radians(20.0));
+  const std::string slope = floor_obj("slope", -20.0, -30.0 * steep, 40.0, 30.0 * steep);
+  for (const double way : {12.0, -12.0}) {
+    Tooled d(ViewOptions{}, false, slope);
+    const double before = d.place().z;
+    ASSERT_TRUE(click_on_plan(d, 10.0 + way, 0.0));
+    EXPECT_FALSE(contains(d.hud(), "There is no floor")) << d.hud();
+    d.run(12.0);
+    EXPECT_NEAR(d.place().x, 10.0 + way, 1.0);
+    EXPECT_NEAR(d.place().z, before + way * steep, 0.5);
+  }
+}
+
+TEST(Tools, GoToTheStoreyNearestToTheirOwnThatIsClickedOnThePlan) {
+  // A gallery above a hall; the gallery rises by 1.5 m, where a ceiling leaves no room.
+  const std::string building = floor_obj("gallery", 0.0, 0.0, 15.0, 0.0) + floor_obj("dais", 15.0, 1.5, 25.0, 1.5) +
+                               floor_obj("ceiling", 15.0, 5.0, 25.0, 5.0) + floor_obj("hall", -5.0, -4.0, 35.0, -4.0) +
+                               floor_obj("crawlway", 15.0, -0.4, 25.0, -0.4);
+  const double half = 0.95;
+  for (const auto& [x, height] : {std::pair(4.0, 0.0), std::pair(20.0, 1.5), std::pair(30.0, -4.0)}) {
+    Tooled d(ViewOptions{}, false, building);
+    d.session->roamer().setMode(Mode::fly);
+    ASSERT_TRUE(click_on_plan(d, x, 0.0));
+    EXPECT_FALSE(contains(d.hud(), "There is no floor")) << d.hud();
+    d.run(12.0);
+    if (x == 30.0) continue;  // the end of the gallery is in its straight way
+    EXPECT_NEAR(d.place().x, x, 1.0);
+    EXPECT_NEAR(d.place().z, height + half, 0.2);
+  }
+  Tooled d(ViewOptions{}, false, building);
+  ASSERT_TRUE(click_on_plan(d, 10.0, 6.0));
+  EXPECT_TRUE(contains(d.hud(), "There is no floor there")) << d.hud();
+}
+
+TEST(Tools, SayThatThereIsNoRoomOnWhatIsClickedOnThePlan) {
+  Tooled d(ViewOptions{}, false, floor_obj("floor", 0.0, 0.0, 14.0, 0.0) + floor_obj("cliff", 14.0, 0.0, 40.0, 60.0));
+  ASSERT_TRUE(click_on_plan(d, 20.0, 0.0));
+  EXPECT_TRUE(contains(d.hud(), "There is no floor with room for the body there")) << d.hud();
+}
+
     right = std::max(right, at->x);
   }
   EXPECT_NEAR(right - left, 40.0, 1.0);

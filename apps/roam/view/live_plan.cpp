@@ -13,6 +13,7 @@
 #include "math/boxes.h"
 #include "roam/error.h"
 #include "roam/pager.h"
+#include "roam/standing.h"
 #include "roam/world.h"
 #include "store/meshes.h"
 #include "view/plan_scan.h"
@@ -51,6 +52,36 @@ World part_of(const Store& store, const Box& box, const std::function<bool()>& g
 }
 
 glm::dvec2 seen_from_above(const Vec3& p) { return {p.x, p.y}; }
+
+struct Surfaces {
+  std::vector<double> heights;  ///< those nearest to `at` first
+  bool unknown = false;         ///< some of the column is not known
+};
+
+/// The surfaces above and below a point.
+Surfaces surfaces_of(const Space& space, const Vec3& at) {
+  constexpr int most = 64;         // on either side
+  constexpr double beyond = 5e-3;  // m behind a surface: there the search goes on
+  const Box bounds = space.bounds();
+  Surfaces found;
+  if (bounds.empty()) return found;
+  for (const double end : {bounds.lower.z - 1.0, bounds.upper.z + 1.0}) {
+    const double way = end < at.z ? -1.0 : 1.0;
+    double z = at.z;
+    for (int i = 0; i < most && way * (end - z) > 0.0; ++i) {
+      const double left = std::clamp(end - z, -Space::motion_limit, Space::motion_limit);
+      const FirstImpact hit = space.first_impact({0.0, 0.0}, {at.x, at.y, z}, {0.0, 0.0, left});
+      found.unknown |= hit.hit && hit.unknown;
+      if (!hit.hit || hit.unknown) break;
+      z += hit.time * left;
+      found.heights.push_back(z);
+      z += way * beyond;
+    }
+  }
+  std::sort(found.heights.begin(), found.heights.end(),
+            [&](double a, double b) { return std::abs(a - at.z) < std::abs(b - at.z); });
+  return found;
+}
 
 }  // namespace
 
@@ -161,16 +192,21 @@ void LivePlan::update(bool visible, HiddenSpace::Met met, const std::vector<grap
   panel_.set_view(view);
 }
 
-bool LivePlan::go(double x, double y) {
+std::string LivePlan::go(double x, double y) {
   const auto at = panel_.at(x, y);
-  if (!at || roamer_.walker() == nullptr) return false;
+  if (!at || roamer_.walker() == nullptr) return "There is no floor there";
   const Walker& walker = *roamer_.walker();
-  const Vec3 from(at->x, at->y, walker.position().z);
-  const double drop = walker.settings().height + walker.fall_limit();
-  const Impact floor = walker.space().ray(from, {0.0, 0.0, -drop});
-  if (!floor.hit || floor.unknown) return false;
-  roamer_.goTo(floor.point, floor.normal);
-  return true;
+  const auto [heights, unknown] = surfaces_of(walker.space(), Vec3(at->x, at->y, walker.feet().z));
+  const WalkerSettings& settings = walker.settings();
+  for (const double z : heights) {
+    const Vec3 centre(at->x, at->y, z + 0.5 * settings.height);
+    const auto place = place_to_stand(walker.space(), settings, centre, settings.radius);
+    if (!place) continue;
+    roamer_.goTo(*place - Vec3(0.0, 0.0, 0.5 * settings.height), {0.0, 0.0, 1.0});
+    return {};
+  }
+  if (unknown) return "That place is not loaded yet";
+  return heights.empty() ? "There is no floor there" : "There is no floor with room for the body there";
 }
 
 std::vector<glm::dvec2> LivePlan::walls() const {

@@ -35,8 +35,9 @@ class LivePlan {
   void update(bool visible, HiddenSpace::Met met, const std::vector<graphics::PlanPlace>& places);
   /// The metres at a point of the picture, x and y in [-1, 1]; none outside of the plan.
   [[nodiscard]] std::optional<glm::dvec2> at(double x, double y) const { return panel_.at(x, y); }
-  /// Sends the body to the floor at a point of the plan, as a double click in the picture does. False if there is none.
-  bool go(double x, double y);
+  /// Sends the body to a point of the plan, as a double click in the picture does: to the floor there on which it can
+  /// stand and whose height is nearest to its own. Returns the reason if there is none, else nothing.
+  std::string go(double x, double y);
   /// Shows more (> 1) or less.
   void zoom(double factor);
 

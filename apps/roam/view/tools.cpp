@@ -252,7 +252,7 @@ void Tools::release(const Adapter& event) {
   if (!is_click) return;
   if (is_on_plan_) {
     constexpr double seconds = 2.0;
-    if (!plan_.go(at.x, at.y)) stage_.hint("There is no floor there", seconds);
+    if (const std::string reason = plan_.go(at.x, at.y); !reason.empty()) stage_.hint(reason, seconds);
   } else if (tool_ != Tool::none) {
     click(at);
   }
