@@ -198,8 +198,9 @@ class Manipulator : public osgGA::CameraManipulator {
   /// On: moving the mouse forwards looks down.
   void setLookInverted(bool on);
   [[nodiscard]] bool lookInverted() const;
-  /// Seconds, >= 0, in which keys bring the body to full speed and to rest; default 0: at once. Walls stop it at once.
-  /// Pilots and goTo() are not eased. Throws roam::Error if it is negative or not finite.
+  /// Seconds, >= 0, in which keys and axes bring the body to full speed and to rest, and axes the gaze to its rate of
+  /// turning; default 0: at once. Walls stop the body at once. Pilots, goTo() and the mouse are not eased. Throws
+  /// roam::Error if it is negative or not finite.
   void setEasing(double seconds);
   [[nodiscard]] double easing() const;
 

@@ -21,6 +21,15 @@
 
 namespace osgRoam {
 
+/// A rate of turning that follows the wanted one.
+struct EasedTurn {
+  double rate = 0.0;  ///< rad/s
+  double pace = 0.0;  ///< rad/s, that is reached or left in the time of easing
+
+  /// Returns the angle turned in `seconds`.
+  double advance(double wanted, double seconds, double easing);
+};
+
 struct Manipulator::State {
   using Update = std::function<void(const roam::Body&, const roam::Vec3& place, const roam::Vec3& velocity)>;
   using StepCallback = std::function<void(const roam::StepReport&, double)>;
@@ -66,6 +75,7 @@ struct Manipulator::State {
   bool continuous = false;          ///< continuous update has been requested from the viewer
   HeldCommands held_before;         ///< as of the last frame
   Axes axes;
+  EasedTurn turning_left, looking_up;
   double scrolled_at = -1e9;  ///< s, of the last turn of the wheel
 
   // Reports.
@@ -116,6 +126,7 @@ struct Manipulator::State {
   bool take_build();
   /// Moves the body by the time since the last frame.
   void frame(double time);
+  /// Turns the gaze by the axes.
   void turn(double seconds);
   /// Whether keys or axes move the body.
   [[nodiscard]] bool moves(const HeldCommands& held) const;

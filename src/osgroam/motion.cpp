@@ -56,6 +56,19 @@ class StepTimer {
 
 }  // namespace
 
+double EasedTurn::advance(double wanted, double seconds, double easing) {
+  const double from = std::exchange(rate, wanted);
+  if (!(easing > 0.0) || from == wanted) {
+    pace = std::abs(wanted);
+    return seconds * wanted;
+  }
+  pace = std::max({pace, std::abs(from), std::abs(wanted)});
+  const double all = easing * std::abs(wanted / pace - from / pace), spent = std::min(seconds, all);
+  const double share = spent < all ? spent / all : 1.0;
+  rate = (1.0 - share) * from + share * wanted;
+  return spent * (0.5 * from + 0.5 * rate) + (seconds - spent) * wanted;
+}
+
 roam::Vec3 Manipulator::State::eye() const { return walker ? soft.eye(*walker) : pose.eye; }
 
 roam::Vec3 Manipulator::State::centre_under(const roam::Vec3& eye) const {
@@ -80,6 +93,7 @@ void Manipulator::State::tell_placed() {
   problem.clear();
   stuck = false;
   jump_left = eased_speed = 0.0;
+  turning_left = looking_up = {};
   if (walker) guarded([&] { call(on_step, walker->report(), 0.0); });
 }
 
@@ -205,8 +219,8 @@ void Manipulator::State::frame(double time) {
 
 void Manipulator::State::turn(double seconds) {
   if (!(seconds > 0.0)) return;
-  pose.yaw = wrapped_yaw(pose.yaw + seconds * axes.turn_left);
-  pose.pitch = limited_pitch(pose.pitch + seconds * axes.look_up);
+  pose.yaw = wrapped_yaw(pose.yaw + turning_left.advance(axes.turn_left, seconds, easing));
+  pose.pitch = limited_pitch(pose.pitch + looking_up.advance(axes.look_up, seconds, easing));
 }
 
 bool Manipulator::State::moves(const HeldCommands& held) const {
@@ -309,8 +323,9 @@ void Manipulator::State::ease(roam::WalkerInput& input, const HeldCommands& held
 bool Manipulator::State::restless() const {
   if (build) return true;
   if (!walker || stuck) return false;
-  return moved || moves(keyboard.held()) || axes.turn_left != 0.0 || axes.look_up != 0.0 || journey.under_way() ||
-         pilot || soft.moving() || jump_left > 0.0 || walker->report().met_unknown;
+  return moved || moves(keyboard.held()) || axes.turn_left != 0.0 || axes.look_up != 0.0 || turning_left.rate != 0.0 ||
+         looking_up.rate != 0.0 || journey.under_way() || pilot || soft.moving() || jump_left > 0.0 ||
+         walker->report().met_unknown;
 }
 
 }  // namespace osgRoam

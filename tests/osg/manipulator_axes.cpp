@@ -44,6 +44,40 @@ TEST(ManipulatorAxes, LookAround) {
   EXPECT_NEAR(r->pitch(), -0.25, 0.02);
 }
 
+TEST(ManipulatorAxes, BringTheGazeToItsRateAndToRestInTheTimeOfEasing) {
+  Standing r;
+  r->setEasing(0.2);
+  r->look(0.0, 0.0);
+  r.frame(1.0 / 60.0);
+  r->setAxes({.turn_left = 0.5, .look_up = -0.25});
+  r.frames(0.1);
+  EXPECT_NEAR(r->yaw(), 0.5 * 0.1 * 0.1 / (2.0 * 0.2), 1e-9);
+  r.frames(0.9);
+  EXPECT_NEAR(r->yaw(), 0.5 * 0.9, 1e-9);
+  EXPECT_NEAR(r->pitch(), -0.25 * 0.9, 1e-9);
+  r->setAxes({});
+  r.frames(0.1);
+  EXPECT_NEAR(r->yaw(), 0.5 * (0.9 + 0.075), 1e-9);
+  EXPECT_TRUE(r.viewer.continuous);
+  r.frames(0.5);
+  EXPECT_NEAR(r->yaw(), 0.5, 1e-9);
+  EXPECT_FALSE(r.viewer.continuous);
+  // A stick that is let go only in part is followed as fast.
+  r->look(0.0, 0.0);
+  r->setAxes({.turn_left = 1.0});
+  r.frames(1.0);
+  r->setAxes({.turn_left = 0.1});
+  r.frames(0.2);
+  const double yaw = r->yaw();
+  r.frames(0.1);
+  EXPECT_NEAR(r->yaw() - yaw, 0.01, 1e-9);
+  // A place that is set is kept.
+  r->setFeet({0.0, 0.0, 0.0}, 1.0, 0.0);
+  r->setAxes({});
+  r.frames(0.1);
+  EXPECT_EQ(r->yaw(), 1.0);
+}
+
 TEST(ManipulatorAxes, CountForNothingIfTheyAreNoNumbers) {
   Standing r;
   r->look(0.0, 0.0);
