@@ -30,6 +30,7 @@ class Hud::Panels : public osg::NodeCallback {
   std::optional<HudList> list;
   Rectangle plan;
   bool help_shown = false;
+  std::size_t help_page = 0, help_pages = 1;
   Detail detail = Detail::full;
   bool crosshair = true;
   bool status_changed = true, message_changed = true, help_changed = true, crosshair_changed = true;
@@ -165,7 +166,10 @@ class Hud::Panels : public osg::NodeCallback {
       message_place = made.where;
     }
     if (help_changed) {
-      help_place = show(*help_, help_targets, help_shown ? make_help(page_, help, help_focus, plates) : Clickable{});
+      const Help made = help_shown ? make_help(page_, help, help_page, help_focus, plates) : Help{};
+      help_page = made.page;
+      help_pages = made.pages;
+      help_place = show(*help_, help_targets, made);
     }
     if (button_changed) {
       const bool any = !button.empty() && !help_shown && detail == Detail::full;
@@ -265,8 +269,19 @@ void Hud::set_help(std::vector<HelpLine> lines) {
 void Hud::show_help(bool shown) {
   if (shown == panels_->help_shown) return;
   panels_->help_shown = shown;
+  panels_->help_page = 0;
   panels_->change_all();
 }
+
+void Hud::turn_help(int pages) {
+  const auto count = static_cast<int>(panels_->help_pages);
+  const int page = std::max(0, static_cast<int>(panels_->help_page) + pages) % count;
+  if (!panels_->help_shown || panels_->help_page == static_cast<std::size_t>(page)) return;
+  panels_->help_page = static_cast<std::size_t>(page);
+  panels_->help_changed = true;
+}
+
+bool Hud::help_goes_on() const { return panels_->help_shown && panels_->help_page + 1 < panels_->help_pages; }
 
 bool Hud::help_shown() const { return panels_->help_shown; }
 

@@ -94,14 +94,19 @@ class Hud {
   void set_recording(std::string text);
   /// Texts on the picture. Those that would lie behind another part of the display, or behind a plan, are not drawn.
   void set_labels(std::vector<HudLabel> labels);
-  /// From about 480 x 360 pixels on, all lines are visible. In smaller windows only the first ones are, with a line
-  /// that says so.
+  /// Where not all lines have room with letters of 10 pixels, they are divided into pages.
   void set_help(std::vector<HelpLine> lines);
-  /// The help replaces the status, the crosshair and the list; the message stays, unless the window is small.
+  /// The help replaces the status, the crosshair and the list; the message stays, unless the window is small. It begins
+  /// with its first page.
   void show_help(bool shown);
+  /// Shows the next page of the help (1), after the last one the first, or the one before (-1), if there is one.
+  void turn_help(int pages);
+  /// Whether pages follow the one that the last frame showed.
+  [[nodiscard]] bool help_goes_on() const;
   [[nodiscard]] bool help_shown() const;
-  /// The name of the help's line at a point of the last frame, x and y in [-1, 1]; empty: none.
+  /// The name of the help's line at a point of the last frame, x and y in [-1, 1], or help_more; empty: none.
   [[nodiscard]] std::string help_at(double x, double y) const;
+  static constexpr const char* help_more = "more";  ///< the line that turns the page
   /// Highlights the help's line with this name; empty: none.
   void set_help_focus(std::string name);
   /// A button at the lower left, in full detail and without help; empty: none.

@@ -1,5 +1,8 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "graphics/hud_panels.h"
@@ -12,13 +15,10 @@ const osg::Vec4 focused_color(0.30f, 0.45f, 0.62f, 0.95f);
 const osg::Vec4 heading_color(0.52f, 0.80f, 1.0f, 1.0f);
 const osg::Vec4 key_color(1.0f, 1.0f, 1.0f, 1.0f);
 const osg::Vec4 deed_color(0.86f, 0.89f, 0.92f, 1.0f);
-/// Pixels. Smaller letters are unreadable.
-constexpr int smallest_letter = 7;
-/// Pixels. Lines are broken before letters get smaller than this.
-constexpr int comfortable_letter = 10;
+/// Pixels. Lines are broken, and then divided into pages, before letters get smaller than this.
+constexpr int smallest_letter = 10;
 constexpr std::size_t most_columns = 5;
 constexpr float columns_gap = 2.5f;  ///< in gaps between a key and its effect
-constexpr const char* more = "… enlarge the window";
 
 /// One column: lines [first, last), and the widths of its two halves.
 struct Column {
@@ -32,12 +32,17 @@ struct Arrangement {
   float line = 0, gap = 0;
   float width = 0, height = 0;
   std::vector<Column> columns;
+  std::size_t page = 0, pages = 1;
+  std::string footer;  ///< below the columns, if there are several pages
 };
 
 bool is_heading(const HelpLine& line) { return line.effect.empty(); }
 
 /// Above every heading, except at the top of a column.
 constexpr float heading_space = 0.6f;  // lines
+
+/// Of the footer, with the space above it.
+constexpr float footer_height = 1.0f + heading_space;  // lines
 
 /// Height of a column, in lines.
 float height_of(const std::vector<HelpLine>& lines, const Column& column) {
@@ -62,6 +67,10 @@ std::vector<Column> cut(const std::vector<HelpLine>& lines, float most) {
     Column column{first, first + 1};
     while (column.last < lines.size() && height_of(lines, {first, column.last + 1}) <= most) ++column.last;
     if (column.last < lines.size()) column.last = without_stub(lines, column);
+    // A broken line stays whole.
+    std::size_t whole = column.last;
+    while (whole > first && whole < lines.size() && lines[whole].key.empty()) --whole;
+    if (whole > first) column.last = whole;
     columns.push_back(column);
     first = column.last;
   }
@@ -138,58 +147,79 @@ std::vector<HelpLine> narrowed(const std::vector<HelpLine>& lines, int letter, f
   return broken;
 }
 
-/// The lines that fit into at most `count` columns of at most `most` lines and `width` pixels each, and a line that
-/// says that there are more.
-Arrangement first_of(const std::vector<HelpLine>& lines, int letter, std::size_t count, float most, float width) {
-  std::vector<Column> columns = cut(lines, most - heading_space);
-  columns.resize(std::min(columns.size(), count));
-  const std::size_t shown = columns.back().last - 1;
-  std::vector<HelpLine> some(lines.begin(), lines.begin() + static_cast<std::ptrdiff_t>(shown));
-  some.push_back({shorten(more, {letter, true, heading_color}, width), ""});
-  return arrange(some, letter, std::move(columns));
+/// The width of each of `count` columns; none if each line would be one word.
+std::optional<float> width_of_column(float width, int letter, std::size_t count) {
+  constexpr float least = 14.0f;  // letters
+  const float gap = blank(letter).gap;
+  const auto n = static_cast<float>(count);
+  const float column = std::floor((width - 3 * gap - columns_gap * gap * (n - 1)) / n) - 1;
+  if (count > 1 && column < least * static_cast<float>(letter)) return std::nullopt;
+  return column;
+}
+
+/// One of the pages with the fewest columns with which there are as few pages as possible.
+Arrangement paged(const std::vector<HelpLine>& lines, float width, float height, std::size_t page) {
+  const Arrangement none = blank(smallest_letter);
+  const float most = std::floor((height - 2 * none.gap) / none.line - footer_height);
+  Arrangement best;
+  if (most < 2) return best;
+  for (std::size_t count = 1; count <= most_columns; ++count) {
+    const auto column = width_of_column(width, smallest_letter, count);
+    if (!column) break;
+    const std::vector<HelpLine> broken = narrowed(lines, smallest_letter, *column);
+    std::vector<Column> columns = cut(broken, most);
+    const std::size_t pages = (columns.size() + count - 1) / count;
+    if (!best.columns.empty() && pages >= best.pages) continue;
+    const std::size_t shown = std::min(page, pages - 1);
+    const auto first = columns.begin() + static_cast<std::ptrdiff_t>(shown * count);
+    const auto last = columns.begin() + static_cast<std::ptrdiff_t>(std::min((shown + 1) * count, columns.size()));
+    const Look look{smallest_letter, true, heading_color};
+    const std::string footer = shorten(fmt::format("Page {} of {}: click here, or turn the wheel", shown + 1, pages),
+                                       look, width - 3 * none.gap);
+    Arrangement a = arrange(broken, smallest_letter, {first, last});
+    a.width = std::max(a.width, std::ceil(width_of(footer, look)) + 3 * none.gap);
+    a.height += footer_height * a.line;
+    if (a.width > width || a.height > height) continue;
+    a.page = shown;
+    a.pages = pages;
+    a.footer = footer;
+    best = std::move(a);
+  }
+  return best;
 }
 
 /// The arrangement with the largest letters with which all lines fit, then with unbroken lines if possible, then with
-/// the fewest columns. If none fits, as many lines as possible.
-Arrangement fit(const Page& page, const std::vector<HelpLine>& lines) {
+/// the fewest columns. If none fits, a page of them.
+Arrangement fit(const Page& page, const std::vector<HelpLine>& lines, std::size_t shown) {
   const float width = page.width - 2 * page.margin, height = page.height - bottom_of_help(page) - page.margin;
   const auto fits = [&](const Arrangement& a) { return a.width <= width && a.height <= height; };
-  const int comfortable = std::min(page.letter, comfortable_letter);
-  for (int letter = page.letter; letter >= comfortable; --letter) {
+  for (int letter = std::max(page.letter, smallest_letter); letter >= smallest_letter; --letter) {
     for (std::size_t count = 1; count <= most_columns; ++count) {
       Arrangement a = arrange(lines, letter, cut_evenly(lines, count));
       if (a.width > width) break;
       if (fits(a)) return a;
     }
   }
-  Arrangement best;
-  for (int letter = comfortable; letter >= smallest_letter; --letter) {
-    const Arrangement none = blank(letter);
-    for (std::size_t count = 1; count <= most_columns; ++count) {
-      const auto n = static_cast<float>(count);
-      const float column = std::floor((width - 3 * none.gap - columns_gap * none.gap * (n - 1)) / n) - 1;
-      constexpr float least_column = 14.0f;  // letters; in narrower columns each line is one word
-      if (count > 1 && column < least_column * static_cast<float>(letter)) break;
-      const std::vector<HelpLine> broken = narrowed(lines, letter, column);
-      Arrangement a = arrange(broken, letter, cut_evenly(broken, count));
-      if (fits(a)) return a;
-      const float most = std::floor((height - 2 * none.gap) / none.line);
-      if (letter > smallest_letter || most < 2) continue;
-      a = first_of(broken, letter, count, most, column);
-      if (fits(a) && a.lines.size() > best.lines.size()) best = std::move(a);
-    }
+  for (std::size_t count = 1; count <= most_columns; ++count) {
+    const auto column = width_of_column(width, smallest_letter, count);
+    if (!column) break;
+    const std::vector<HelpLine> broken = narrowed(lines, smallest_letter, *column);
+    Arrangement a = arrange(broken, smallest_letter, cut_evenly(broken, count));
+    if (fits(a)) return a;
   }
-  return best;
+  return paged(lines, width, height, shown);
 }
 
 }  // namespace
 
-Clickable make_help(const Page& page, const std::vector<HelpLine>& lines, const std::string& focus,
-                    osg::StateSet* plates) {
+Help make_help(const Page& page, const std::vector<HelpLine>& lines, std::size_t shown, const std::string& focus,
+               osg::StateSet* plates) {
   osg::ref_ptr<osg::Group> group = new osg::Group;
-  Clickable made{group, {}, {}};
-  const Arrangement a = lines.empty() ? Arrangement{} : fit(page, lines);
+  Help made{{group, {}, {}}};
+  const Arrangement a = lines.empty() ? Arrangement{} : fit(page, lines, shown);
   if (a.columns.empty()) return made;
+  made.page = a.page;
+  made.pages = a.pages;
   const auto add_plate = [&](const Rectangle& where, float radius, const osg::Vec4& color) {
     const osg::ref_ptr<osg::Geometry> plate = make_plate(where, radius, color);
     plate->setStateSet(plates);
@@ -202,6 +232,13 @@ Clickable make_help(const Page& page, const std::vector<HelpLine>& lines, const 
   add_plate(made.where, 0.6f * page.margin, help_panel_color);
 
   float x = left + 1.5f * a.gap;
+  if (!a.footer.empty()) {
+    const float y = made.where.y + a.gap + std::round(0.3f * a.line);
+    const Rectangle row{x - 0.5f * a.gap, y - std::round(0.3f * a.line), a.width - 2 * a.gap, a.line};
+    made.targets.push_back({row, Hud::help_more});
+    if (focus == Hud::help_more) add_plate(row, 0.25f * a.line, focused_color);
+    group->addChild(make_text(a.footer, {a.letter, true, heading_color}, std::round(x), y));
+  }
   for (const Column& column : a.columns) {
     float y = top - a.gap - std::round(1.1f * static_cast<float>(a.letter));
     const float width = column.keys + a.gap + column.deeds;

@@ -122,10 +122,16 @@ struct Clickable {
 [[nodiscard]] std::size_t rows_of_list(const Page& page);
 [[nodiscard]] float left_of_list(const Page& page);
 
-/// The keys, over the whole picture. The lines named `focus` are highlighted. Uses as many columns, as small letters
-/// and as many breaks as needed to fit. If they still do not fit, shows the first of them and "… enlarge the window".
-[[nodiscard]] Clickable make_help(const Page& page, const std::vector<HelpLine>& lines, const std::string& focus,
-                                  osg::StateSet* plates);
+/// The help, of which a small window shows one of several pages.
+struct Help : Clickable {
+  std::size_t page = 0, pages = 1;
+};
+
+/// The keys, over the whole picture. The lines named `focus` are highlighted. Uses as many columns, letters as small
+/// and as many breaks as needed to fit. If they still do not fit, shows the page `shown`, or the last one, and a line
+/// that turns it, Hud::help_more.
+[[nodiscard]] Help make_help(const Page& page, const std::vector<HelpLine>& lines, std::size_t shown,
+                             const std::string& focus, osg::StateSet* plates);
 
 /// The small cross in the middle: light with a dark rim.
 [[nodiscard]] osg::ref_ptr<osg::Node> make_crosshair(const Page& page, osg::StateSet* plates);

@@ -199,7 +199,7 @@ TEST(ViewUsage, PrintsTheTableOfKeysAsTheSettingsHaveIt) {
   use_no_settings(folder);
   ProgramResult plain = run_program(ROAM_PROGRAM, {"view", "--keys"});
   EXPECT_EQ(plain.status, 0);
-  for (const char* part : {"forward", "W, Up", "bookmark", "Escape", "1 to 8"}) EXPECT_TRUE(contains(plain.out, part));
+  for (const char* part : {"forward", "W, Up", "bookmark", "Escape", "2 to 8"}) EXPECT_TRUE(contains(plain.out, part));
   const std::string settings = folder.write("s.json", R"({"keys": {"forward": ["Z", "Up"]}})");
   EXPECT_TRUE(contains(run_program(ROAM_PROGRAM, {"view", "--keys", "--settings", settings}).out, "Z, Up"));
 }

@@ -396,36 +396,56 @@ std::optional<std::pair<double, double>> line_of(graphics::Hud& hud, const std::
   return std::nullopt;
 }
 
-TEST(Menu, PressesTheKeyOfTheClickedLine) {
-  Tooled d;
+/// Opens the help, and turns its pages to this line.
+std::optional<std::pair<double, double>> find_in_help(Tooled& d, const std::string& command) {
   graphics::Hud& hud = d.session->stage().hud();
-  const auto choose = [&](const char* command) {
-    hud.show_help(true);
+  hud.show_help(true);
+  for (;;) {
     d.session->stage().draw();
     const auto at = line_of(hud, command);
-    ASSERT_TRUE(at) << command;
-    d.click(at->first, at->second);
-    d.run(0.1);
-    EXPECT_FALSE(hud.help_shown());
-  };
-  choose("measure");
+    if (at || !hud.help_goes_on()) return at;
+    d.events().mouseScroll(osgGA::GUIEventAdapter::SCROLL_DOWN);
+    d.run(1.0 / 60.0);
+  }
+}
+
+/// Opens the help and clicks on a line.
+void choose(Tooled& d, const char* command) {
+  const auto at = find_in_help(d, command);
+  ASSERT_TRUE(at) << command;
+  d.click(at->first, at->second);
+  d.run(0.1);
+  EXPECT_FALSE(d.session->stage().hud().help_shown());
+}
+
+TEST(Menu, PressesTheKeyOfTheClickedLine) {
+  Tooled d;
+  choose(d, "measure");
   EXPECT_TRUE(contains(d.hud(), "Measuring")) << d.hud();
-  choose("gravity");
+  choose(d, "gravity");
   EXPECT_EQ(d.session->roamer().mode(), Mode::fly);
   EXPECT_TRUE(d.measured().empty()) << "a click in the menu is none on the scene";
 }
 
 TEST(Menu, ReachesCommandsWithCtrl) {
   Tooled d;
-  graphics::Hud& hud = d.session->stage().hud();
-  hud.show_help(true);
-  d.session->stage().draw();
-  const auto at = line_of(hud, "picture_with_display");
+  const auto at = find_in_help(d, "picture_with_display");
   ASSERT_TRUE(at);
   const auto before = std::filesystem::current_path();
   std::filesystem::current_path(d.folder.file(""));
   d.click(at->first, at->second);
   for (int i = 0; i < 500 && !contains(d.hud(), "roam-1.png"); ++i) d.session->stage().draw();
+TEST(Menu, ReachesAndLeavesTheOtherCameras) {
+  Tooled d;
+  for (const std::size_t i : {1, 2, 3, 4, 5, 6, 7, 1}) {
+    choose(d, "cameras");
+    EXPECT_FALSE(d.session->roamer_leads());
+    EXPECT_TRUE(contains(d.hud(), camera_names()[i] + "  (1: back to the body)")) << d.hud();
+  }
+  choose(d, "body_camera");
+  EXPECT_TRUE(d.session->roamer_leads());
+}
+
   EXPECT_TRUE(contains(d.hud(), "roam-1.png")) << d.hud();
   std::filesystem::current_path(before);
 }
@@ -441,6 +461,42 @@ TEST(Menu, OpensWithItsButtonAndClosesElsewhere) {
   d.click(0.999, -0.999, 2);
   EXPECT_FALSE(hud.help_shown());
   d.run(1.0);
+TEST(Menu, HasAllCommandsInASmallWindow) {
+  Tooled d;  // of 640 x 360
+  graphics::Hud& hud = d.session->stage().hud();
+  for (const auto& command : d.session->roamer().controls().commands()) {
+    const bool is_clickable = command.kind == osgRoam::Controls::Kind::pressed || is_camera(command.name);
+    EXPECT_EQ(find_in_help(d, command.name).has_value(), is_clickable) << command.name;
+    hud.show_help(false);
+  }
+  hud.show_help(true);
+  d.session->stage().draw();
+  ASSERT_TRUE(hud.help_goes_on());
+  const auto next = line_of(hud, graphics::Hud::help_more);
+  ASSERT_TRUE(next);
+  d.click(next->first, next->second);
+  EXPECT_TRUE(hud.help_shown());
+  d.session->stage().draw();
+  while (hud.help_goes_on()) {
+    d.tap('h');
+    d.session->stage().draw();
+  }
+  d.tap('h');
+  EXPECT_FALSE(hud.help_shown()) << "the key closes the last page";
+}
+
+TEST(Pictures, AreDrawnThoughTheSessionEndsInTheSameFrame) {
+  Tooled d;
+  const auto before = std::filesystem::current_path();
+  std::filesystem::current_path(d.folder.file(""));
+  d.press('p');
+  d.session->run("quit");
+  EXPECT_FALSE(d.session->frame());
+  EXPECT_NO_THROW(static_cast<void>(d.session->finish()));
+  std::filesystem::current_path(before);
+  EXPECT_TRUE(std::filesystem::exists(d.folder.file("roam-1.png")));
+}
+
   EXPECT_LT(glm::distance(d.place(), before), 1e-3) << "nobody is sent there";
 }
 

@@ -11,6 +11,11 @@
 #include "view/commands.h"
 
 namespace roam::app {
+namespace {
+
+constexpr int first_key = '1';
+
+}  // namespace
 
 Cameras::Cameras(osgRoam::Manipulator& roamer) {
   osgGA::CameraManipulator* const cameras[] = {
@@ -23,9 +28,9 @@ Cameras::Cameras(osgRoam::Manipulator& roamer) {
       new osgGA::FirstPersonManipulator,
       new osgGA::SphericalManipulator,
   };
-  int key = '1';
+  int key = first_key;
   for (osgGA::CameraManipulator* camera : cameras) {
-    addMatrixManipulator(key, camera_names()[static_cast<std::size_t>(key - '1')], camera);
+    addMatrixManipulator(key, camera_names()[static_cast<std::size_t>(key - first_key)], camera);
     ++key;
   }
 }
@@ -35,6 +40,15 @@ std::string Cameras::present() const {
     if (named.second.get() == getCurrentMatrixManipulator()) return named.first;
   }
   return {};
+}
+
+int Cameras::key_for(const std::string& command) const {
+  if (command == body_camera) return first_key;
+  const int last = first_key + static_cast<int>(camera_names().size()) - 1;
+  for (int key = first_key; key < last; ++key) {
+    if (camera_names()[static_cast<std::size_t>(key - first_key)] == present()) return key + 1;
+  }
+  return first_key + 1;
 }
 
 }  // namespace roam::app

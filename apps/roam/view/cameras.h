@@ -26,6 +26,8 @@ class Cameras : public osgGA::KeySwitchMatrixManipulator {
   }
   /// The name of the camera that receives the keys.
   [[nodiscard]] std::string present() const;
+  /// The key of the body's camera, or of the next one of the others in a circle.
+  [[nodiscard]] int key_for(const std::string& command) const;
 
  protected:
   ~Cameras() override = default;

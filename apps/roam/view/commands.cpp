@@ -85,6 +85,8 @@ const std::vector<std::string>& camera_names() {
   return names;
 }
 
+bool is_camera(const std::string& command) { return command == body_camera || command == other_cameras; }
+
 bool Commands::run(const std::string& name) const {
   if (std::none_of(std::begin(lines), std::end(lines), [&](const Line& line) { return line.name == name; }))
     return false;
@@ -99,8 +101,9 @@ bool Commands::run(const std::string& name) const {
 
 void set_up(osgRoam::Controls& controls, const ViewSettings& settings) {
   for (const Line& line : lines) controls.add(line.name, line.keys, line.help, Kind::pressed);
-  controls.add("cameras", fmt::format("1 to {}", camera_names().size()),
-               "other cameras, as in osgviewer; only the first meets walls", Kind::gesture);
+  controls.add(body_camera, "1", "shows what the body sees", Kind::gesture);
+  controls.add(other_cameras, fmt::format("2 to {}", camera_names().size()),
+               "other cameras, as in osgviewer, which meet no walls; click: the next one", Kind::gesture);
   std::string changes;
   for (const auto& [command, keys] : settings.keys) {
     const std::string file = settings.file.string(), entry = fmt::format("the entry \"keys.{}\"", command);
@@ -154,7 +157,8 @@ std::vector<graphics::HelpLine> key_lines(const osgRoam::Controls& controls, boo
       if (command.name == first) table.push_back({heading, ""});
     }
     const std::string keys = osgRoam::Controls::keyText(command);
-    if (!keys.empty()) table.push_back({keys, command.help, command.kind == Kind::pressed ? command.name : ""});
+    const bool is_clickable = command.kind == Kind::pressed || is_camera(command.name);
+    if (!keys.empty()) table.push_back({keys, command.help, is_clickable ? command.name : ""});
   }
   if (gamepad) {
     table.push_back({"Gamepad", ""});

@@ -45,7 +45,7 @@ void press_key_of(const osgRoam::Controls& controls, const std::string& command,
 /// The line that a window begins with: "H: help     W A S D: walk     drag: look".
 [[nodiscard]] std::string first_hint(const osgRoam::Controls& controls);
 
-/// The table of keys, for display. Lines of commands that a key press runs have the command's name.
+/// The table of keys, for display. Lines of commands that a key press runs, and of cameras, have the command's name.
 /// `gamepad`: with the parts of a gamepad.
 [[nodiscard]] std::vector<graphics::HelpLine> key_lines(const osgRoam::Controls& controls, bool gamepad = false);
 /// The same as text: one line a command, with its name in the settings file.
@@ -53,5 +53,9 @@ void press_key_of(const osgRoam::Controls& controls, const std::string& command,
 
 /// The cameras on the keys 1, 2, 3, ... by their names for display; the first is the body's.
 [[nodiscard]] const std::vector<std::string>& camera_names();
+/// The commands of the table for the first of them and for the others, whose keys are fixed.
+inline constexpr const char* body_camera = "body_camera";
+inline constexpr const char* other_cameras = "cameras";
+[[nodiscard]] bool is_camera(const std::string& command);
 
 }  // namespace roam::app

@@ -1,5 +1,8 @@
 #include "view/menu.h"
 
+#include "osgroam/pointer.h"
+#include "view/commands.h"
+
 namespace roam::app {
 namespace {
 
@@ -22,8 +25,14 @@ bool Menu::handle(const Adapter& event, osgGA::GUIActionAdapter& /*action*/) {
     case Adapter::DRAG:
       hud.set_help_focus(here);
       return hud.help_shown() || is_down_;
-    case Adapter::DOUBLECLICK:
     case Adapter::SCROLL:
+      if (const double notches = osgRoam::notches_of(event); notches > 0.0) {
+        hud.turn_help(-1);
+      } else if (notches < 0.0 && hud.help_goes_on()) {
+        hud.turn_help(1);
+      }
+      return hud.help_shown() || is_down_;
+    case Adapter::DOUBLECLICK:
       return hud.help_shown() || is_down_;
     default:
       return false;
@@ -37,11 +46,20 @@ bool Menu::push(const Adapter& event) {
   const bool opens = hud.button_at(x, y);
   if (!hud.help_shown() && !opens) return false;
   const std::string command = hud.help_at(x, y);
+  if (command == graphics::Hud::help_more) {
+    hud.turn_help(1);
+    return is_down_ = true;
+  }
   hud.set_help_focus({});
   hud.show_help(opens);
   is_down_ = true;
-  if (!command.empty() && command != "help") {
-    press_key_of(roamer_.controls(), command, *stage_.viewer().getEventQueue());
+  osgGA::EventQueue& events = *stage_.viewer().getEventQueue();
+  if (is_camera(command)) {
+    const int key = cameras_.key_for(command);
+    events.keyPress(key);
+    events.keyRelease(key);
+  } else if (!command.empty() && command != "help") {
+    press_key_of(roamer_.controls(), command, events);
   }
   return true;
 }

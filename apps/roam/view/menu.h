@@ -6,6 +6,7 @@
 #include <string>
 
 #include "osgRoam/Manipulator.h"
+#include "view/cameras.h"
 #include "view/stage.h"
 
 namespace roam::app {
@@ -16,7 +17,8 @@ namespace roam::app {
 /// Call all members from the thread that draws, between two frames.
 class Menu : public osgGA::GUIEventHandler {
  public:
-  Menu(Stage& stage, const osgRoam::Manipulator& roamer) : stage_(stage), roamer_(roamer) {}
+  Menu(Stage& stage, const osgRoam::Manipulator& roamer, const Cameras& cameras)
+      : stage_(stage), roamer_(roamer), cameras_(cameras) {}
 
   using osgGA::GUIEventHandler::handle;
   bool handle(const osgGA::GUIEventAdapter& event, osgGA::GUIActionAdapter& action) override;
@@ -29,6 +31,7 @@ class Menu : public osgGA::GUIEventHandler {
 
   Stage& stage_;
   const osgRoam::Manipulator& roamer_;
+  const Cameras& cameras_;
   bool is_down_ = false;  ///< a button of the mouse was pressed here
 };
 

@@ -80,7 +80,7 @@ Session::Session(const ViewOptions& options, const ViewPlan& plan, const ViewSet
   roamer_->setCommandCallback([this](const std::string& name) { run(name); });
   stage_.viewer().addEventHandler(prompt_);
   stage_.viewer().addEventHandler(new SessionHandler(*this));
-  stage_.viewer().addEventHandler(new Menu(stage_, *roamer_));
+  stage_.viewer().addEventHandler(new Menu(stage_, *roamer_, *cameras_));
   stage_.viewer().addEventHandler(layers_);
   stage_.viewer().addEventHandler(bookmark_list_);
   stage_.viewer().addEventHandler(tools_);

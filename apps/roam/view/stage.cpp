@@ -149,7 +149,11 @@ void Stage::set_hud(HudMode mode) {
 
 void Stage::add_to(Commands& commands) {
   commands.add("help", [this] {
-    hud_->show_help(!hud_->help_shown());
+    if (hud_->help_goes_on()) {
+      hud_->turn_help(1);
+    } else {
+      hud_->show_help(!hud_->help_shown());
+    }
     end_hint(0.0);  // it would lie over the help
   });
   commands.add("hud", [this] { cycle_hud(); });
