@@ -21,7 +21,7 @@ TEST(Tools, MeasureBetweenClickedPoints) {
     EXPECT_TRUE(contains(d.hud(), "Measuring: click two points; T ends")) << d.hud();
     EXPECT_TRUE(contains(d.hud(), "clear: 4.00 m wide, 3.00 m high")) << d.hud();
     d.click(0, 0);
-    ASSERT_TRUE(d.until([&] { return contains(d.hud(), ", front, slope 90"); })) << d.hud();
+    ASSERT_TRUE(d.until([&] { return contains(d.hud(), ", front, wall facing 270\u00b0 (W)"); })) << d.hud();
     d.click(0, -0.9);
     ASSERT_TRUE(d.until([&] { return contains(d.hud(), ", floor, slope 0"); })) << d.hud();
     EXPECT_TRUE(contains(d.hud(), "A to B: ")) << d.hud();
@@ -41,6 +41,17 @@ TEST(Tools, MeasureBetweenClickedPoints) {
     EXPECT_NEAR(span.height, b.point.z - a.point.z, 1e-9);
     EXPECT_LT(span.slope_degrees, 0.0);
   }
+}
+
+TEST(Tools, SayWhatAClickedSurfaceIs) {
+  const double c = std::cos(glm::radians(3.0)), s = std::sin(glm::radians(3.0)), d = std::sqrt(0.5);
+  EXPECT_EQ(surface_text({0, 0, 1}), "floor, slope 0\u00b0");
+  EXPECT_EQ(surface_text({s, 0, c}), "floor, slope 3\u00b0");
+  EXPECT_EQ(surface_text({s, 0, -c}), "ceiling, slope 3\u00b0");
+  EXPECT_EQ(surface_text({0, 1, 0}), "wall facing 0\u00b0 (N)");
+  EXPECT_EQ(surface_text({d, -d, 0}), "wall facing 135\u00b0 (SE)");
+  EXPECT_EQ(surface_text({-c, 0, s}), "wall facing 270\u00b0 (W), slope 87\u00b0");
+  EXPECT_EQ(surface_text({0, -c, -s}), "wall facing 180\u00b0 (S), overhanging, slope 87\u00b0");
 }
 
 TEST(Tools, GiveMeasurementsInTheReport) {
@@ -200,6 +211,7 @@ bool click_on_plan(Tooled& d, double to_x, double to_y) {
 TEST(Tools, GoToWhatIsClickedOnThePlan) {
   Tooled d;
   const double before = d.place().x;
+  ASSERT_TRUE(click_on_plan(d, before + 5.0, d.place().y));
   d.run(3.0);
   EXPECT_NEAR(d.place().x, before + 5.0, 1.0);
   d.tap('l');
@@ -207,18 +219,6 @@ TEST(Tools, GoToWhatIsClickedOnThePlan) {
   EXPECT_FALSE(d.session->tools().plan().at(0.9, 0.0));
 }
 
-TEST(Tools, DrawTheLargePlanNoFartherThanTheSceneReaches) {
-  Tooled d;  // in a corridor of 20 m
-  d.tap('l');
-  d.tap('l');
-  ASSERT_TRUE(click_on_plan(d, before + 5.0, d.place().y));
-  d.run(0.1);
-  d.session->stage().draw();
-  double left = 1e9, right = -1e9;
-  for (double x = -1.0; x < 1.0; x += 0.002) {
-    const auto at = d.session->tools().plan().at(x, 0.0);
-    if (!at) continue;
-    left = std::min(left, at->x);
 /// A floor 6 m wide from (x, z) to (x, z).
 std::string floor_obj(const char* name, double x0, double z0, double x1, double z1) {
   return fmt::format("o {}\nv {} -3 {}\nv {} -3 {}\nv {} 3 {}\nv {} 3 {}\nf -4 -3 -2 -1\n", name, x0, z0, x1, z1, x1,
@@ -266,6 +266,17 @@ TEST(Tools, SayThatThereIsNoRoomOnWhatIsClickedOnThePlan) {
   EXPECT_TRUE(contains(d.hud(), "There is no floor with room for the body there")) << d.hud();
 }
 
+TEST(Tools, DrawTheLargePlanNoFartherThanTheSceneReaches) {
+  Tooled d;  // in a corridor of 20 m
+  d.tap('l');
+  d.tap('l');
+  d.run(0.1);
+  d.session->stage().draw();
+  double left = 1e9, right = -1e9;
+  for (double x = -1.0; x < 1.0; x += 0.002) {
+    const auto at = d.session->tools().plan().at(x, 0.0);
+    if (!at) continue;
+    left = std::min(left, at->x);
     right = std::max(right, at->x);
   }
   EXPECT_NEAR(right - left, 40.0, 1.0);
@@ -348,7 +359,7 @@ TEST(Probing, StandsInFrontOfAClickedWall) {
   Tooled d;
   d.tap('t');
   d.click(0, 0);
-  ASSERT_TRUE(d.until([&] { return contains(d.hud(), ", front, slope 90"); })) << d.hud();
+  ASSERT_TRUE(d.until([&] { return contains(d.hud(), ", front, wall facing 270\u00b0 (W)"); })) << d.hud();
   d.tap('i');
   ASSERT_TRUE(d.until([&] { return contains(d.hud(), "probe: YES: a body 0.60 m wide"); })) << d.hud();
   const ViewReport report = d.session->finish();
@@ -427,14 +438,6 @@ TEST(Menu, PressesTheKeyOfTheClickedLine) {
   EXPECT_TRUE(d.measured().empty()) << "a click in the menu is none on the scene";
 }
 
-TEST(Menu, ReachesCommandsWithCtrl) {
-  Tooled d;
-  const auto at = find_in_help(d, "picture_with_display");
-  ASSERT_TRUE(at);
-  const auto before = std::filesystem::current_path();
-  std::filesystem::current_path(d.folder.file(""));
-  d.click(at->first, at->second);
-  for (int i = 0; i < 500 && !contains(d.hud(), "roam-1.png"); ++i) d.session->stage().draw();
 TEST(Menu, ReachesAndLeavesTheOtherCameras) {
   Tooled d;
   for (const std::size_t i : {1, 2, 3, 4, 5, 6, 7, 1}) {
@@ -446,21 +449,18 @@ TEST(Menu, ReachesAndLeavesTheOtherCameras) {
   EXPECT_TRUE(d.session->roamer_leads());
 }
 
+TEST(Menu, ReachesCommandsWithCtrl) {
+  Tooled d;
+  const auto at = find_in_help(d, "picture_with_display");
+  ASSERT_TRUE(at);
+  const auto before = std::filesystem::current_path();
+  std::filesystem::current_path(d.folder.file(""));
+  d.click(at->first, at->second);
+  for (int i = 0; i < 500 && !contains(d.hud(), "roam-1.png"); ++i) d.session->stage().draw();
   EXPECT_TRUE(contains(d.hud(), "roam-1.png")) << d.hud();
   std::filesystem::current_path(before);
 }
 
-TEST(Menu, OpensWithItsButtonAndClosesElsewhere) {
-  Tooled d;
-  graphics::Hud& hud = d.session->stage().hud();
-  hud.set_button("Menu: H");
-  const Vec3 before = d.place();
-  d.click(-0.93, -0.88);
-  EXPECT_TRUE(hud.help_shown());
-  d.session->stage().draw();
-  d.click(0.999, -0.999, 2);
-  EXPECT_FALSE(hud.help_shown());
-  d.run(1.0);
 TEST(Menu, HasAllCommandsInASmallWindow) {
   Tooled d;  // of 640 x 360
   graphics::Hud& hud = d.session->stage().hud();
@@ -497,6 +497,17 @@ TEST(Pictures, AreDrawnThoughTheSessionEndsInTheSameFrame) {
   EXPECT_TRUE(std::filesystem::exists(d.folder.file("roam-1.png")));
 }
 
+TEST(Menu, OpensWithItsButtonAndClosesElsewhere) {
+  Tooled d;
+  graphics::Hud& hud = d.session->stage().hud();
+  hud.set_button("Menu: H");
+  const Vec3 before = d.place();
+  d.click(-0.93, -0.88);
+  EXPECT_TRUE(hud.help_shown());
+  d.session->stage().draw();
+  d.click(0.999, -0.999, 2);
+  EXPECT_FALSE(hud.help_shown());
+  d.run(1.0);
   EXPECT_LT(glm::distance(d.place(), before), 1e-3) << "nobody is sent there";
 }
 

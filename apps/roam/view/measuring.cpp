@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
@@ -12,11 +13,11 @@
 namespace roam::app {
 namespace {
 
-/// "12.345, 5.600, 1.200, Door_12, slope 90°"
+/// "12.345, 5.600, 1.200, Door_12, wall facing 135° (SE)"
 std::string point_text(const Pick& pick) {
   const Vec3& p = pick.point;
   const std::string object = pick.object.empty() ? std::string() : printable(pick.object) + ", ";
-  return fmt::format("{:.3f}, {:.3f}, {:.3f}, {}slope {:.0f}\u00b0", p.x, p.y, p.z, object, slope_degrees(pick));
+  return fmt::format("{:.3f}, {:.3f}, {:.3f}, {}{}", p.x, p.y, p.z, object, surface_text(pick.normal));
 }
 
 std::string span_text(const Span& span) {
@@ -25,6 +26,18 @@ std::string span_text(const Span& span) {
 }
 
 }  // namespace
+
+std::string surface_text(const Vec3& normal) {
+  constexpr double level_cosine = 0.7071;  // 45 degrees
+  const double slope = glm::degrees(std::acos(std::min(std::abs(normal.z), 1.0)));
+  if (std::abs(normal.z) > level_cosine)
+    return fmt::format("{}, slope {:.0f}\u00b0", normal.z > 0.0 ? "floor" : "ceiling", slope);
+  const auto [bearing, wind] = bearing_of(glm::degrees(std::atan2(normal.y, normal.x)));
+  std::string text = fmt::format("wall facing {}\u00b0 ({})", bearing, wind);
+  constexpr double upright = 89.5;  // degrees
+  if (slope < upright) text += fmt::format(", {}slope {:.0f}\u00b0", normal.z < 0.0 ? "overhanging, " : "", slope);
+  return text;
+}
 
 Span span_of(const Vec3& a, const Vec3& b) {
   const Vec3 way = b - a;

@@ -29,6 +29,10 @@ struct Span {
 };
 [[nodiscard]] Span span_of(const Vec3& a, const Vec3& b);
 
+/// "floor, slope 3\u00b0", "wall facing 135\u00b0 (SE)": what a surface with this unit normal, towards the eye, is to a
+/// person.
+[[nodiscard]] std::string surface_text(const Vec3& normal);
+
 /// The measurements of a session. The points are those of the collision data: exact to Space::largest_error(). Needs no
 /// window. Call all members from one thread, between two frames.
 class Measuring {

@@ -84,13 +84,18 @@ std::string ahead_text(const Surroundings& around) {
 
 }  // namespace
 
-std::string heading_text(double yaw, double pitch) {
+Bearing bearing_of(double yaw) {
   constexpr const char* winds[] = {"N", "NE", "E", "SE", "S", "SW", "W", "NW"};
   constexpr int circle = 360, sector = 45;
-  const int bearing = static_cast<int>(std::lround(90.0 - std::remainder(yaw, double(circle))) + circle) % circle;
+  const int degrees = static_cast<int>(std::lround(90.0 - std::remainder(yaw, double(circle))) + circle) % circle;
+  return {degrees, winds[(degrees + sector / 2) / sector % 8]};
+}
+
+std::string heading_text(double yaw, double pitch) {
+  const auto [bearing, wind] = bearing_of(yaw);
   const int up = static_cast<int>(std::lround(pitch));
   const std::string slope = up == 0 ? "level" : fmt::format("{}\u00b0 {}", std::abs(up), up > 0 ? "up" : "down");
-  return fmt::format("{}\u00b0 {}, {}", bearing, winds[(bearing + sector / 2) / sector % 8], slope);
+  return fmt::format("{}\u00b0 {}, {}", bearing, wind, slope);
 }
 
 std::string load_text(const char* what, const LoadState& state) {

@@ -87,6 +87,14 @@ struct Status {
 /// The finished share of the loading, in [0, 1]; negative if all of it is finished.
 [[nodiscard]] double load_share(const LoadState& display, const LoadState& collision);
 
+/// A direction from above, from north, +y: 135, "SE".
+struct Bearing {
+  int degrees = 0;  ///< [0, 360)
+  const char* wind = "N";
+};
+/// `yaw`: degrees, see Pose.
+[[nodiscard]] Bearing bearing_of(double yaw);
+
 /// The bearing of a gaze from north, +y: "212\u00b0 SW, 10\u00b0 down". Degrees, see Pose.
 [[nodiscard]] std::string heading_text(double yaw, double pitch);
 
