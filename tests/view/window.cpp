@@ -218,6 +218,20 @@ TEST(ViewWindow, ShowsItsMenuByTheMouseAlone) {
   w.end();
 }
 
+TEST(ViewWindow, SaysOnceWhatItLeavesOutWithoutAGraphicsCard) {
+  const std::string note =
+      "no graphics card: drawn plain, without shadows, gloss, ambient occlusion, lines and smoothing";
+  const auto count = [&](const std::vector<std::string>& options) {
+    Window window(options);
+    const std::string notes = all(window.end().at("notes"));
+    int found = 0;
+    for (std::size_t at = notes.find(note); at != std::string::npos; at = notes.find(note, at + 1)) ++found;
+    return found;
+  };
+  EXPECT_EQ(count({}), 1);
+  EXPECT_EQ(count({"--quality", "plain"}), 0) << "as the person wants it";
+}
+
 TEST(ViewWindow, WritesEachPictureToAFileOfItsOwn) {
   Window w({"--at", "2,0,0.95,0"});
   xdo("key p key p");

@@ -150,6 +150,7 @@ void Session::enter() {
   arrival_.enter();
   show_keys();
   stage_.end_hint(hint_seconds);
+  if (const std::string note = stage_.plainness(); !note.empty()) news_.note(note);
   placed_at_ = stage_.now();
   // Placement is not part of the session's path.
   roamer_->setStepCallback([this](const StepReport& report, double seconds) { step_taken(report, seconds); });

@@ -98,6 +98,7 @@ Stage::Stage(const ViewOptions& options, const ViewPlan& plan)
   settings.near = graphics::near_limit(plan.walker.radius, plan.fov, static_cast<double>(plan.width) / plan.height);
   settings.quality = quality(plan.quality, context_);
   frame_.emplace(*viewer_, context_, settings);
+  is_plain_by_itself_ = plan.quality == "auto" && settings.quality == graphics::Quality::plain;
   if (plan.quality == "auto" && !context_.headless && options.record.empty()) thrift_.emplace();
   frame_->set_edges(plan.edges);
   frame_->space()->addChild(graphics::make_sky());
@@ -122,6 +123,13 @@ TextureQuality Stage::texture_quality() const {
 std::string Stage::quality_note() const {
   if (!drawn_less_.empty()) return drawn_less_;
   return context_.abilities.software && frame_->quality() == graphics::Quality::plain ? "plain: no graphics card" : "";
+}
+
+std::string Stage::plainness() const {
+  if (!is_plain_by_itself_) return {};
+  return "no graphics card: drawn plain, without shadows, gloss, ambient occlusion, lines and smoothing; --quality "
+         "light "
+         "or full draws more";
 }
 
 void Stage::show(const Status& status) {
@@ -351,6 +359,10 @@ void Stage::fill(ViewReport& report) const {
 }
 
 void Stage::finish() {
+  if (!pictures_.empty() || enlarged_wanted_) {  // asked for in the last frame, which was not drawn
+    hold_film(true);
+    draw();
+  }
   for (graphics::Screenshot& picture : pictures_) {
     picture.finish();
     written_.push_back(picture.path().string());
@@ -362,7 +374,3 @@ void Stage::finish() {
 }
 
 }  // namespace roam::app
-  if (!pictures_.empty() || enlarged_wanted_) {  // asked for in the last frame, which was not drawn
-    hold_film(true);
-    draw();
-  }

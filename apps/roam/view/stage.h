@@ -50,6 +50,8 @@ class Stage {
   [[nodiscard]] TextureQuality texture_quality() const;
   /// Says why drawing is not full, if that was not wished: no graphics card, or slow frames. Else empty.
   [[nodiscard]] std::string quality_note() const;
+  /// What is not drawn because there is no graphics card; empty: nothing, or the person wants it so.
+  [[nodiscard]] std::string plainness() const;
 
   /// Shows the lines and the message; does nothing if they are shown already.
   void show(const Status& status);
@@ -123,6 +125,7 @@ class Stage {
   bool runs_ = false;
   Histogram times_;               ///< ns
   std::optional<Thrift> thrift_;  ///< none: the quality is as wished
+  bool is_plain_by_itself_ = false;  ///< for lack of a graphics card
   std::string drawn_less_;        ///< why
   double last_ms_ = 0.0;
   bool fullscreen_ = false;
