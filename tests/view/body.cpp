@@ -60,6 +60,26 @@ TEST(Hold, ComparesWhatIsTooLowWithTheHeight) {
   }
 }
 
+TEST(Hold, TellsWhyTheBodyIsCrouched) {
+  const World world = World::build(std::vector<Mesh>{rectangle("Table_3", {-1, -1, 1.3}, {2, 0, 0}, {0, 2, 0}),
+                                                     rectangle("ground", {-50, -50, 0}, {100, 0, 0}, {0, 100, 0})});
+  Walker walker(world, {}, Mode::walk, {0, 0, 0.95});
+  ASSERT_TRUE(walker.crouched());
+  Hold hold;
+  const auto step = [&](const Vec3& wish, bool crouch) {
+    hold.take(walker, wish, walker.step({.velocity = wish, .crouch = crouch}, 1.0 / 60.0).elapsed);
+  };
+  step({}, false);
+  EXPECT_EQ(hold.told().text, "crouched: Table_3 is 1.30 m above the floor, and the body 1.80 m high");
+  EXPECT_FALSE(hold.told().warning);
+  for (int i = 0; i < 120; ++i) step({1.4, 0, 0}, true);
+  ASSERT_TRUE(walker.crouched());
+  EXPECT_EQ(hold.told().text, "") << "it could stand here";
+  for (int i = 0; i < 60; ++i) step({}, false);
+  ASSERT_FALSE(walker.crouched());
+  EXPECT_EQ(hold.told().text, "");
+}
+
 TEST(Hold, TellsOfNothingBelow) {
   const World world = hall(0.5);
   Walker walker(world, {}, Mode::walk, {8, 0, -30});

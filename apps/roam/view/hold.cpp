@@ -4,6 +4,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "measure/room.h"
 #include "roam/opening.h"
 #include "text/printable.h"
 
@@ -41,6 +42,7 @@ void Hold::take(const Walker& walker, const Vec3& wish, double seconds, bool fai
   note_unknown(walker, failing);
   note_events(walker);
   look_at_blockage(walker, wish, seconds);
+  look_above(walker);
   level_ = walker.stance().level.value_or(level_);
 }
 
@@ -110,6 +112,24 @@ void Hold::look_at_blockage(const Walker& walker, const Vec3& wish, double secon
   }
 }
 
+void Hold::look_above(const Walker& walker) {
+  if (!walker.crouched() || held_ || waiting_) {
+    looked_above_at_ = -measuring_period;
+    above_.clear();
+    return;
+  }
+  if (now_ - looked_above_at_ < measuring_period) return;
+  looked_above_at_ = now_;
+  above_.clear();
+  const WalkerSettings settings = walker.settings();
+  const measure::Room room(walker.space(), settings, walker.mode());
+  const measure::Free above = room.headroom(walker.body(), walker.position());
+  if (!above.bounded || above.distance >= settings.height) return;
+  const std::string object = walker.space().object_name(above.triangle);
+  above_ = fmt::format("crouched: {} is {:.2f} m above the floor, and the body {:.2f} m high",
+                       object.empty() ? "what is above" : printable(object), above.distance, settings.height);
+}
+
 Told Hold::told(const std::string& coming) const {
   const std::string ahead = coming.empty() ? "loading ahead" : coming;
   if (waiting_) return {"waiting: " + (reason_.empty() ? ahead : reason_), true};
@@ -117,6 +137,7 @@ Told Hold::told(const std::string& coming) const {
     return {nothing_below_ ? "held: there is nothing below to stand on" : "held: the body does not fit here", true};
   if (!blockage_.empty()) return {"blocked by " + blockage_, true};
   if (now_ - news_at_ <= news_seconds) return news_;
+  if (!above_.empty()) return {above_, false};
   if (now_ - slowed_at_ <= slowed_seconds) return {"slowed: " + ahead, false};
   return {};
 }

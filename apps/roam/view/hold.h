@@ -29,6 +29,7 @@ class Hold {
   void note_events(const Walker& walker);
   void note_unknown(const Walker& walker, bool failing);
   void look_at_blockage(const Walker& walker, const Vec3& wish, double seconds);
+  void look_above(const Walker& walker);
 
   double now_ = 0.0;            ///< s of all steps
   bool held_ = false;           ///< see Walker::held
@@ -40,6 +41,8 @@ class Hold {
   double blocked_at_ = -1e9;   ///< time of the last blocked step
   double measured_at_ = -1e9;  ///< time of the last measurement of the opening
   std::string blockage_;
+  double looked_above_at_ = -1e9;  ///< time of the last measurement above a crouched body
+  std::string above_;              ///< why a crouched body cannot stand; empty: it can, or stands
   Told news_;
   double news_at_ = -1e9;
   double level_ = 0.0;  ///< z of the ground last stood on
