@@ -240,12 +240,11 @@ TEST(Tools, GoUpAndDownASlopeThatIsClickedOnThePlan) {
 }
 
 TEST(Tools, GoToTheStoreyNearestToTheirOwnThatIsClickedOnThePlan) {
-  // A gallery above a hall; the gallery rises by 1.5 m, where a ceiling leaves no room.
-  const std::string building = floor_obj("gallery", 0.0, 0.0, 15.0, 0.0) + floor_obj("dais", 15.0, 1.5, 25.0, 1.5) +
-                               floor_obj("ceiling", 15.0, 5.0, 25.0, 5.0) + floor_obj("hall", -5.0, -4.0, 35.0, -4.0) +
-                               floor_obj("crawlway", 15.0, -0.4, 25.0, -0.4);
+  // A gallery with a ramp up, above a cellar and a hall.
+  const std::string building = floor_obj("gallery", 0.0, 0.0, 10.5, 0.0) + floor_obj("ramp", 10.5, 0.0, 25.0, 2.175) +
+                               floor_obj("cellar", 15.0, -1.4, 25.0, -1.4) + floor_obj("hall", -5.0, -5.0, 35.0, -5.0);
   const double half = 0.95;
-  for (const auto& [x, height] : {std::pair(4.0, 0.0), std::pair(20.0, 1.5), std::pair(30.0, -4.0)}) {
+  for (const auto& [x, height] : {std::pair(4.0, 0.0), std::pair(20.0, 1.425), std::pair(30.0, -5.0)}) {
     Tooled d(ViewOptions{}, false, building);
     d.session->roamer().setMode(Mode::fly);
     ASSERT_TRUE(click_on_plan(d, x, 0.0));
