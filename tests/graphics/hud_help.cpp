@@ -26,21 +26,6 @@ TEST(GraphicsHud, HelpFitsTheWindow) {
   }
 }
 
-/// Pixels of the help's text, which is light on its dark panel; all of it, or that of the headings, which is blue.
-int letters_of(const std::vector<graphics::HelpLine>& lines, int width, int height) {
-  Stage stage(width, height);
-  fill_with(stage, 0);
-  Hud hud(stage.frame);
-  hud.set_help(lines);
-  hud.show_help(true);
-  const auto picture = stage.picture(true);
-  int count = 0;
-  for (int y = 0; y < height; ++y) {
-    for (int x = 0; x < width; ++x) count += at(*picture, x, y).g > 120;
-  }
-  return count;
-}
-
 /// Pixels of a line's height, where it is on the page that is shown; 0: it is not.
 int height_of_line(const Hud& hud, const std::string& name, int width, int height) {
   for (int x = 0; x < width; x += 8) {
