@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # demo.sh SOURCE FOLDER PROGRAM: runs ./demo with a program that is built already.
-# Every walk ends as its text announces, the page shows every picture that it names, and it replaces no other page.
+# Every walk ends as its text announces, the page shows every picture that it names, and it replaces no other page. With a
+# scene of one's own it takes the options of scene and body, and its last line is a command that works.
 set -euo pipefail
 source=$1 folder=$2 program=$3
 rm -rf "$folder"
@@ -10,6 +11,7 @@ ln -s "$program" "$folder/build/roam"
 cat > "$folder/cmake/packages.sh" << 'END'
 program_packages=
 python_packages=
+device_packages=
 missing_of() { :; }
 configure() { :; }
 behind_line() { :; }
@@ -27,3 +29,24 @@ echo 'a page of somebody' > "$folder/demo-out/index.html"
 if "$folder/demo" > "$folder/log" 2>&1 < /dev/null; then echo "another page was replaced" && exit 1; fi
 [[ $(< "$folder/demo-out/index.html") == 'a page of somebody' ]]
 rm -rf "$folder/demo-out"
+
+# A name with a blank, and an option that `roam info` does not take.
+"$program" make gallery -o "$folder/a hall.ply" --triangles 10k > "$folder/log"
+cd "$folder"
+if ! ./demo 'a hall.ply' --radius 0.2 --up=z > log 2>&1 < /dev/null; then
+  cat log
+  exit 1
+fi
+[[ -s 'demo-out/a hall.png' ]]
+command=$(tail -n 1 log)
+[[ $command == *build/roam\ view*'a\ hall.ply'*0.2* ]]
+eval "$command --headless --size 64x36 --screenshot last.png" > /dev/null
+[[ -s last.png ]]
+# What no verb takes is refused before the build, which this would be.
+echo 'configure() { touch built; }' >> cmake/packages.sh
+for wrong in '--wander 5' '--radius' '--up=z missing.ply'; do
+  status=0
+  ./demo 'a hall.ply' $wrong > log 2>&1 < /dev/null || status=$?
+  ((status == 1 || status == 2)) && [[ ! -e built ]] || { echo "$wrong: status $status" && cat log && exit 1; }
+done
+rm -rf demo-out
