@@ -21,7 +21,8 @@ if ! "$folder/demo" > "$folder/log" 2>&1 < /dev/null; then
   exit 1
 fi
 pictures=$(grep -o 'src="[^"]*"' "$folder/demo-out/index.html" | cut -d '"' -f 2)
-(($(wc -w <<< "$pictures") >= 12))
+(($(wc -w <<< "$pictures") >= 13))
+[[ $pictures == city-seen.png* ]] || { echo "the page begins with $pictures" && exit 1; }
 for picture in $pictures; do
   [[ -s $folder/demo-out/$picture ]] || { echo "$picture is not there" && exit 1; }
 done
