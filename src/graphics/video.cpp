@@ -53,7 +53,8 @@ const std::array<Kind, 4>& kinds() {
         "webm"},
        true},
       {".gif", {"-loop", "0", "-f", "gif"}, false},
-      {".webp", {"-c:v", "libwebp_anim", "-quality", "75", "-loop", "0", "-f", "webp"}, false},
+      // Whole pictures: libwebp_anim leaves parts that have changed a little, which shows as blocks in the sky.
+      {".webp", {"-c:v", "libwebp", "-quality", "80", "-loop", "0", "-f", "webp"}, false},
   }};
   return all;
 }
