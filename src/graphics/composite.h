@@ -49,6 +49,7 @@ class Composite {
 
   /// Makes the passes' own buffers. If the driver refuses, leaves none and returns false.
   bool resize(osg::GLExtensions& gl, int width, int height, const Effects& effects);
+  [[nodiscard]] int passes() const { return 1 + (effects_.occlusion ? 2 : 0) + (effects_.smoothing ? 1 : 0); }
   /// Frees the buffers.
   void release(osg::GLExtensions& gl);
   /// Draws the picture. Leaves `target` bound, with the viewport of its whole size.

@@ -5,6 +5,7 @@
 #include <osg/ClipControl>
 #include <osg/Depth>
 #include <osg/StateSet>
+#include <osg/Stats>
 
 #include "graphics/pipeline.h"
 #include "text/number.h"
@@ -104,6 +105,7 @@ Frame::Frame(osgViewer::Viewer& viewer, const Context& context, const FrameSetti
   camera_->setClearColor(background);
   camera_->setClearDepth(pipeline_->reversed_depth() ? 0.0 : 1.0);
   pipeline_->attach(*camera_);
+  camera_->getStats()->collectStats("scene", true);  // for draw_calls()
   project();
 
   root_ = new osg::Group;
@@ -133,6 +135,13 @@ Quality Frame::quality() const { return pipeline_->quality(); }
 Quality Frame::next_quality() const { return pipeline_->next_quality(); }
 bool Frame::edges() const { return pipeline_->edges(); }
 bool Frame::reversed_depth() const { return pipeline_->reversed_depth(); }
+
+int Frame::draw_calls() const {
+  const osg::Stats& stats = *camera_->getStats();
+  double sets = 0.0;
+  stats.getAttribute(stats.getLatestFrameNumber(), "Visible number of PrimitiveSets", sets);
+  return static_cast<int>(sets) + pipeline_->passes();
+}
 
 void Frame::project() {
   const osg::Viewport& window = part_ ? *window_ : *camera_->getViewport();

@@ -52,6 +52,9 @@ class Frame::Pipeline : public osg::Referenced {
   /// The quality of the next frame: full if a full picture is requested. Any thread.
   [[nodiscard]] Quality next_quality();
 
+  /// Of the last frame's effects. Call it from the drawing thread.
+  [[nodiscard]] int passes() const { return plan_.effects.any() ? composite_.passes() : 0; }
+
   using Done = std::function<void(osg::ref_ptr<osg::Image>)>;
   using Failed = std::function<void(const std::string&)>;
   /// Any thread.

@@ -139,6 +139,18 @@ TEST(GraphicsSun, DrawsTheMapsOnlyWhenTheyMoveOrTheSceneChanges) {
   EXPECT_EQ(drawn(), 1);
 }
 
+TEST(GraphicsSun, ItsMapsAndThePassesAreDrawCalls) {
+  for (const auto& [settings, passes] : {std::pair(plain, 0), std::pair(with_light, 3), std::pair(with_full, 4)}) {
+    Yard yard(settings);
+    (void)yard.stage.picture();
+    const int first = yard.stage.frame.draw_calls();
+    (void)yard.stage.picture();
+    EXPECT_EQ(yard.stage.frame.draw_calls(), 3 + passes) << "sky, ground and board";
+    // Each map shows both. The third holds all.
+    EXPECT_EQ(first, (settings.quality == graphics::Quality::full ? 3 * 2 : 0) + 3 + passes);
+  }
+}
+
 TEST(GraphicsSun, DrawsEachMapInTurnWhileTheSceneChangesInEachFrame) {
   Yard yard;
   std::uint64_t version = 0;

@@ -279,6 +279,7 @@ void Stage::draw() {
   const double ns = std::chrono::duration<double, std::nano>(Clock::now() - begin).count();
   if (times_.count() > 0) last_ms_ = ns * 1e-6;
   times_.add(ns);
+  draw_calls_.add(frame_->draw_calls());
   if (thrift_ && runs_) draw_less_if_slow(begin, ns * 1e-6);
   if (std::exchange(enlarged_wanted_, false)) take_enlarged();
 }
@@ -352,6 +353,8 @@ void Stage::fill(ViewReport& report) const {
   constexpr double ns_in_ms = 1e-6;
   report.frames = times_.count();
   report.frame_ms = times(times_, ns_in_ms);
+  report.draw_calls = times(draw_calls_, 1.0);
+  for (double* calls : {&report.draw_calls.median, &report.draw_calls.p99}) *calls = std::round(*calls);
   report.renderer = frame_->describe();
   std::istringstream hud(hud_->text());
   for (std::string line; std::getline(hud, line);) report.hud.push_back(line);

@@ -123,7 +123,8 @@ class Stage {
   Clock::time_point frame_begin_ = begin_;
   double now_ = 0.0;  ///< s
   bool runs_ = false;
-  Histogram times_;               ///< ns
+  Histogram times_;  ///< ns
+  Histogram draw_calls_;
   std::optional<Thrift> thrift_;  ///< none: the quality is as wished
   bool is_plain_by_itself_ = false;  ///< for lack of a graphics card
   std::string drawn_less_;        ///< why

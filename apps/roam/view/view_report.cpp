@@ -85,6 +85,7 @@ Json json_report(const ViewReport& report) {
                {"collision_own_ns", to_json(report.collision_own_ns)},
                {"frames", report.frames},
                {"frame_ms", to_json(report.frame_ms)},
+               {"draw_calls", to_json(report.draw_calls)},
                {"least_clearance_m", nullptr},
                {"violations", nullptr},
                {"throttled", report.throttled},

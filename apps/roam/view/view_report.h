@@ -51,6 +51,7 @@ struct ViewReport {
   std::optional<double> least_axis_clearance;
   std::uint64_t frames = 0;
   Times frame_ms;
+  Times draw_calls;        ///< a frame
   Times collision_ns;      ///< per frame, by the clock
   Times collision_own_ns;  ///< per frame, by the thread's processor time
   std::uint64_t resident_bytes = 0;
