@@ -72,12 +72,15 @@ TEST(ViewPicture, ShowsTheSceneAndTheDisplay) {
   EXPECT_GT(view.picture().colours(), 8u);
   const nlohmann::json report = view.json();
   for (const char* key :
-       {"scene",        "triangles",        "mode",   "radius",   "height",           "outcome", "steps",
-        "collision_ns", "collision_own_ns", "frames", "frame_ms", "violations",       "start",   "end",
-        "memory",       "renderer",         "hud",    "notes",    "missing_textures", "written"}) {
+       {"scene",        "triangles",        "mode",     "radius",   "height",     "outcome",          "steps",
+        "collision_ns", "collision_own_ns", "frames",   "frame_ms", "draw_calls", "violations",       "start",
+        "end",          "memory",           "renderer", "hud",      "notes",      "missing_textures", "written"}) {
     EXPECT_TRUE(report.contains(key)) << key;
   }
   EXPECT_EQ(report["triangles"], 12);
+  // Sky, room, passes, at most four shadow maps, and the display.
+  EXPECT_GE(report["draw_calls"]["max"], 6);
+  EXPECT_LE(report["draw_calls"]["max"], 40);
   EXPECT_EQ(report["mode"], "walk");
   EXPECT_EQ(report["height"], 1.8);
   for (const char* part : {"walk", "radius 0.30 m", "feet", "memory", "collision"}) {
@@ -260,6 +263,27 @@ TEST(ViewMissing, OpenGlSaysWhatToInstall) {
   unsetenv("ROAM_HEADLESS");
   EXPECT_EQ(view.result.status, 1);
   EXPECT_TRUE(contains(view.result.err, "xvfb")) << view.result.err;
+}
+
+TEST(ViewSite, FollowsTheFrameInWhichTilesAreRead) {
+  View view;
+  std::filesystem::create_directories(view.folder.file("site/Data/Tile_1"));
+  view.folder.write("site/metadata.xml",
+                    "<ModelMetadata><SRS>EPSG:32632</SRS><SRSOrigin>512000,5403000,400</SRSOrigin></ModelMetadata>\n");
+  view.folder.write("site/Data/Tile_1/Tile_1.osgb",
+                    "#Ascii Scene\n#Version 161\n#Generator OpenSceneGraph 3.6.5\n\nosg::Geode {\n UniqueID 1\n "
+                    "Drawables 1 {\n  osg::Geometry {\n   UniqueID 2\n   PrimitiveSetList 1 {\n    osg::DrawArrays {\n"
+                    "     UniqueID 3\n     Mode TRIANGLES\n     Count 3\n    }\n   }\n   VertexArray TRUE {\n    "
+                    "osg::Vec3Array {\n     UniqueID 4\n     Binding BIND_PER_VERTEX\n     vector 3 {\n      90 0 0\n"
+                    "      0 90 0\n      0 0 90\n     }\n    }\n   }\n  }\n }\n}\n");
+  view.scene = view.folder.file("site");
+  const std::string place = "20,-40,60";  // of the centre, 0.5 m above the lowest point
+  view.shot({"--hud", "plain", "--mode", "fly", "--sphere", "--radius", "0.5", "--at", place});
+  ASSERT_EQ(view.result.status, 0) << view.result.err;
+  EXPECT_TRUE(contains(all(view.json()["hud"]), "512020.00, 5402960.00, 459.50 EPSG:32632")) << view.json()["hud"];
+  view.shot({"--hud", "plain", "--mode", "fly", "--sphere", "--radius", "0.5", "--at", place, "--up=y"});
+  ASSERT_EQ(view.result.status, 0) << view.result.err;
+  EXPECT_TRUE(contains(all(view.json()["hud"]), "512020.00, 5403059.50, 440.00 EPSG:32632")) << view.json()["hud"];
 }
 
 TEST(ViewMissing, TextureIsNotedAndTheRestShown) {

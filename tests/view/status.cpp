@@ -127,6 +127,15 @@ TEST(Status, SaysWhereTheFeetAreOnTheEarth) {
   const auto site = std::find_if(lines.begin(), lines.end(), [](const StatusText& l) { return l.label == "site"; });
   ASSERT_NE(site, lines.end());
   EXPECT_EQ(site->value, "512001.25, 5403002.00, 403.46 EPSG:32632");
+  // The reference is said of the file, in which other axes are up, or feet count.
+  const auto there = [&](UpAxis up, LengthUnit unit) {
+    status.georeferenced = {up, unit};
+    return site_text(status, {0.3048, 0.6096, 0.9144});
+  };
+  EXPECT_EQ(there(UpAxis::z, LengthUnit::ft), "512001.25, 5403002.00, 403.00 EPSG:32632");
+  EXPECT_EQ(there(UpAxis::y, LengthUnit::ft), "512001.25, 5403003.00, 398.00 EPSG:32632");
+  EXPECT_EQ(there(UpAxis::x, LengthUnit::ft), "512003.25, 5403002.00, 399.00 EPSG:32632");
+  status.georeferenced = {};
   // The option --origin names no reference system.
   status.georeference->srs.clear();
   EXPECT_TRUE(contains(status_lines(status)[2].value, "512001.25, 5403002.00, 403.46"));

@@ -54,6 +54,17 @@ TEST(Tools, SayWhatAClickedSurfaceIs) {
   EXPECT_EQ(surface_text({0, -c, -s}), "wall facing 180\u00b0 (S), overhanging, slope 87\u00b0");
 }
 
+TEST(Tools, NameTheSiteOfAPoint) {
+  Tooled d;
+  d.session.reset();
+  d.options.origin = {512'000.0, 5'403'000.0, 400.0};
+  d.begin();
+  d.tap('t');
+  d.click(0, 0);
+  ASSERT_TRUE(d.until([&] { return contains(d.hud(), ", front, wall facing "); })) << d.hud();
+  EXPECT_TRUE(contains(d.hud(), "site: 512020.00, 5403000.00, 401.")) << d.hud();
+}
+
 TEST(Tools, GiveMeasurementsInTheReport) {
   Tooled d;
   d.tap('t');

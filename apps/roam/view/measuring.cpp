@@ -71,10 +71,14 @@ void Measuring::fill(Status& status) {
   Measurement& last = all_.back();
   name(last.a);
   if (from_body_) status.tool.push_back({"A", "the body's place"});
-  status.tool.push_back({from_body_ ? "B" : "A", point_text(last.a)});
+  const auto add = [&](const char* label, const Pick& pick) {
+    status.tool.push_back({label, point_text(pick)});
+    if (status.georeference) status.tool.push_back({"site", site_text(status, pick.point)});
+  };
+  add(from_body_ ? "B" : "A", last.a);
   if (!last.b) return;
   name(*last.b);
-  status.tool.push_back({"B", point_text(*last.b)});
+  add("B", *last.b);
   status.tool.push_back({"A to B", span_text(span_of(last.a.point, last.b->point))});
 }
 

@@ -270,8 +270,9 @@ void Session::show(bool at_once) {
   if (roaming() && !roamer_leads()) status.camera = cameras_->present();
   if (!options_.origin.empty()) {
     status.georeference = Georeference{{}, {options_.origin[0], options_.origin[1], options_.origin[2]}};
-  } else if (scene_.report() && frame_of(what_.scene) == SceneFrame{}) {  // it is said of the file's own frame
+  } else if (const auto frame = frame_of(what_.scene); frame && scene_.report()) {
     status.georeference = scene_.report()->import.georeference;
+    status.georeferenced = *frame;
   }
   arrival_.fill(status);
   building_.fill(status);

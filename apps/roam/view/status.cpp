@@ -118,6 +118,17 @@ double load_share(const LoadState& display, const LoadState& collision) {
   return is_over(collision) ? display.share : share_of(collision);
 }
 
+std::string site_text(const Status& status, const Vec3& point) {
+  if (!status.georeference) return {};
+  const auto& [srs, origin] = *status.georeference;
+  const auto rows = status.georeferenced.to_file();
+  Vec3 site = origin;
+  for (int i = 0; i < 3; ++i) {
+    for (int k = 0; k < 3; ++k) site[i] += rows[static_cast<std::size_t>(i)][static_cast<std::size_t>(k)] * point[k];
+  }
+  return fmt::format("{:.2f}, {:.2f}, {:.2f}{}{}", site.x, site.y, site.z, srs.empty() ? "" : " ", printable(srs));
+}
+
 std::vector<StatusText> status_lines(const Status& status) {
   std::vector<StatusText> lines;
   lines.push_back({"", mode_text(status), false});
@@ -127,12 +138,7 @@ std::vector<StatusText> status_lines(const Status& status) {
       if (!value.empty()) lines.push_back({label, std::move(value), false, false, true});
     };
     add("feet", fmt::format("{:.2f}, {:.2f}, {:.2f}", p.x, p.y, p.z));
-    if (status.georeference) {
-      const auto& [srs, origin] = *status.georeference;
-      const Vec3 site = p + origin;
-      add("site",
-          fmt::format("{:.2f}, {:.2f}, {:.2f}{}{}", site.x, site.y, site.z, srs.empty() ? "" : " ", printable(srs)));
-    }
+    add("site", site_text(status, p));
     add("height", height_text(status));
     add("heading", heading_text(status.yaw, status.pitch));
     add("ahead", ahead_text(status.around));

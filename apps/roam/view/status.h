@@ -12,6 +12,7 @@
 #include "roam/error.h"
 #include "roam/import.h"
 #include "roam/pager.h"
+#include "roam/scene_frame.h"
 #include "roam/walker.h"
 #include "view/hold.h"
 #include "view/surroundings.h"
@@ -50,7 +51,8 @@ struct Status {
   bool crouched = false;
   bool grounded = false;
   Surroundings around;
-  std::optional<Georeference> georeference;  ///< of the scene's coordinates
+  std::optional<Georeference> georeference;  ///< of the coordinates in `georeferenced`
+  SceneFrame georeferenced;                  ///< the file's frame, or the scene's
   double yaw = 0.0, pitch = 0.0;             ///< degrees
   std::string camera;                        ///< name of the active camera, if not the body's; else empty
   LoadState display, collision;
@@ -71,6 +73,9 @@ struct Status {
   Told hold;
   std::string coming;  ///< see coming_text
 };
+
+/// "512001.25, 5403002.00, 403.46 EPSG:32632": a point in the reference system; empty if there is none.
+[[nodiscard]] std::string site_text(const Status& status, const Vec3& point);
 
 /// The lines from top to bottom. The first alone is the minimal display.
 [[nodiscard]] std::vector<StatusText> status_lines(const Status& status);
