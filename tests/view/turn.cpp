@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "collada_made.h"
+#include "gltf_made.h"
 #include "roam/profile.h"
 #include "scenes/frame.h"
 #include "view_driven.h"
@@ -108,6 +109,28 @@ TEST(Turn, EndsTheSessionAndIsKept) {
   EXPECT_STREQ(to_string(d.session->next()->frame->up), "y");
   EXPECT_EQ(find_frame(d.options.scene.scenes), d.session->next()->frame);
   EXPECT_FALSE(find_profile(d.options.scene.scenes));
+}
+
+TEST(Turn, IsToldWhenTheSceneIsOpenedAgain) {
+  DrivenSession d;
+  d.write_scene();
+  d.begin();
+  EXPECT_FALSE(contains(d.hud(), "as you chose")) << d.hud();
+  d.session->run("turn");
+  d.session.reset();
+  take_kept_frame(d.options.scene);
+  d.begin();
+  EXPECT_TRUE(contains(d.hud(), "y is up, as you chose; U turns")) << d.hud();
+}
+
+TEST(Turn, SaysThatSeveralScenesDiffer) {
+  DrivenSession d;
+  d.write_scene();
+  d.options.scene.scenes.emplace_back(d.folder.write("other.glb", test::MadeGrid(2).gltf().glb()));
+  d.begin();
+  d.session->run("turn");
+  EXPECT_FALSE(d.session->next());
+  EXPECT_TRUE(contains(d.hud(), "so no key changes them")) << d.hud();
 }
 
 TEST(Turn, SaysWhyItIsNotKept) {

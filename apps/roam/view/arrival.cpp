@@ -10,6 +10,7 @@
 #include "cli/interrupt.h"
 #include "cli/tell.h"
 #include "roam/error.h"
+#include "scenes/frame.h"
 #include "text/web_address.h"
 #include "view/body.h"
 #include "view/commands.h"
@@ -37,12 +38,21 @@ CollisionWish wish_for(const ViewOptions& options, const ViewPlan& plan, std::ui
   return wish;
 }
 
+/// "-z is up, as you chose", if the profile keeps a frame; else empty.
+std::string kept_text(const SceneOptions& scene) {
+  const std::optional<SceneFrame> frame = scene.frame_file.empty() ? std::nullopt : frame_of(scene);
+  if (!frame) return {};
+  const std::string unit = frame->unit == LengthUnit::m ? "" : fmt::format(", {} is the unit", to_string(frame->unit));
+  return fmt::format("{} is up{}, as you chose", to_string(frame->up), unit);
+}
+
 }  // namespace
 
 Arrival::Arrival(const ViewOptions& options, const ViewPlan& plan, const SceneAndStore& what,
                  osgRoam::Manipulator& roamer, News& news)
     : plan_(plan),
       scene_names_(what.scene.names()),
+      kept_(plan.note.empty() ? kept_text(what.scene) : std::string()),
       unit_is_chosen_(!what.scene.unit.empty()),
       needs_collision_(!options.path.empty() || options.verify),
       roamer_(roamer),
@@ -109,6 +119,7 @@ void Arrival::note_frame() {
     news_.note_first(words::high_ceilings(scene_names_, *loaded_->doubted_ceilings),
                      remedy("unit", "applies the next unit"));
   }
+  if (!kept_.empty()) news_.tell(turns.empty() ? kept_ : kept_ + "; " + key_of(roamer_.controls(), "turn") + " turns");
 }
 
 void Arrival::place_ghost(const Seen& seen, const Error& why) {

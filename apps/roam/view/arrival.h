@@ -93,6 +93,7 @@ class Arrival {
 
   ViewPlan plan_;
   std::string scene_names_;
+  std::string kept_;  ///< the frame that the profile keeps, in words; empty: none
   bool unit_is_chosen_;
   bool needs_collision_;  ///< a path or --verify: a ghost does not suffice
   osgRoam::Manipulator& roamer_;

@@ -61,8 +61,10 @@ bool Rereading::is_possible() {
 /// In another frame, which the profile keeps.
 void Rereading::read_with(const std::function<SceneFrame(const SceneFrame&)>& changed) {
   const std::optional<SceneFrame> frame = frame_of(what_.scene);
-  if (!what_.store.empty() || !frame) {
+  if (!what_.store.empty()) {
     news_.tell("a store keeps the frame in which it was built: change that of its scene, and build it again");
+  } else if (!frame) {
+    news_.tell("these scenes have different axes up, so no key changes them: give --up and --unit, or view one alone");
   } else if (is_possible()) {
     next_ = NextSession{changed(*frame), {}, {}, Mode::walk, {}};
     if (what_.scene.no_profile) return;
