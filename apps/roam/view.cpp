@@ -8,6 +8,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <utility>
 
 #include "cli/interrupt.h"
 #include "cli/output_file.h"
@@ -110,22 +111,28 @@ ExitStatus view(ViewOptions options) {
   const std::vector<std::string> given = options.scene.ignore;
   std::optional<graphics::DisplayHold> hold;
   if (!options.headless) hold.emplace();
-  std::vector<std::string> notes;  // of all sessions
+  std::vector<std::string> notes, noted;  // of all sessions
   while (const std::optional<NextSession> next = run_session(options, plan, settings, report, cancelled)) {
-    notes.insert(notes.end(), report.notes.begin(), report.notes.end());
+    append(notes, report.notes);
+    append(noted, report.noted);
     if (!next->note.empty()) notes.push_back(next->note);
     const std::string note = go_on(options, *next, given);
     plan = make_plan(options, settings, std::nullopt, profile_for(options, std::nullopt));
     plan.note = note;
+    plan.noted = noted;
   }
   hold.reset();  // Xlib ends a program whose server goes away
-  report.notes.insert(report.notes.begin(), notes.begin(), notes.end());
+  append(notes, std::exchange(report.notes, {}));
+  append(noted, report.noted);
+  report.notes = std::move(notes);
   const std::string picture = options.screenshot.string();
   if (!picture.empty() && std::find(report.written.begin(), report.written.end(), picture) == report.written.end()) {
     report.notes.push_back(picture + " was not written: the session ended before its picture was drawn" +
                            earlier_stays(picture));
   }
-  for (const std::string& note : report.notes) tell("note: " + note);
+  for (const std::string& note : report.notes) {
+    if (std::find(noted.begin(), noted.end(), note) == noted.end()) tell("note: " + note);
+  }
   if (options.verify && report.roamed) {
     Progress progress("verifying", "pieces");
     try {

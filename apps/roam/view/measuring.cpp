@@ -96,6 +96,12 @@ void Measuring::add_to(graphics::Marks& marks, const Vec3& origin) const {
   marks.labels.push_back({0.5 * (a + b), fmt::format("{:.3f} m", glm::distance(a, b))});
 }
 
+std::string text_of(const Measurement& measurement) {
+  const auto& [a, b] = measurement;
+  if (!b) return "A " + point_text(a);
+  return fmt::format("A {}; B {}; {}", point_text(a), point_text(*b), span_text(span_of(a.point, b->point)));
+}
+
 std::string room_text(const osgRoam::Manipulator& roamer) {
   const Walker& walker = *roamer.walker();
   const WalkerSettings settings = walker.settings();

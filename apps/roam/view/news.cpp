@@ -4,6 +4,7 @@
 #include <string_view>
 #include <utility>
 
+#include "cli/tell.h"
 #include "text/printable.h"
 #include "text/web_address.h"
 
@@ -56,8 +57,18 @@ void News::show(const std::string& sentence, Item item) {
 void News::note(const std::string& sentence) {
   const auto led =
       std::find_if(items_.begin(), items_.end(), [&](const Item& one) { return one.first && one.note == sentence; });
-  if (led == items_.end()) show(without_folders(sentence), {sentence, true});
-  if (std::find(notes_.begin(), notes_.end(), sentence) == notes_.end()) notes_.push_back(sentence);
+  if (led == items_.end() && !was_noted_before(sentence)) show(without_folders(sentence), {sentence, true});
+  if (std::find(notes_.begin(), notes_.end(), sentence) != notes_.end()) return;
+  notes_.push_back(sentence);
+  tell_on_terminal(sentence);
+}
+
+bool News::was_noted_before(const std::string& sentence) const {
+  return std::find(before_.begin(), before_.end(), sentence) != before_.end();
+}
+
+void News::tell_on_terminal(const std::string& sentence) const {
+  if (!was_noted_before(sentence)) app::tell("note: " + sentence);
 }
 
 void News::note_first(const std::string& sentence, const std::string& remedy) {
@@ -67,7 +78,11 @@ void News::note_first(const std::string& sentence, const std::string& remedy) {
   show(shown, {sentence, true, true});
   const auto known = std::find(notes_.begin(), notes_.end(), sentence);
   if (known - notes_.begin() < first_notes_) return;
-  if (known != notes_.end()) notes_.erase(known);
+  if (known != notes_.end()) {
+    notes_.erase(known);
+  } else {
+    tell_on_terminal(sentence);
+  }
   notes_.insert(notes_.begin() + first_notes_++, sentence);
 }
 

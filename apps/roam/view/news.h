@@ -13,8 +13,9 @@ namespace roam::app {
 /// Sentences, each shown long enough to be read. Not thread-safe.
 class News {
  public:
-  /// Sentences leave out the folders of these scenes, which the person knows.
-  explicit News(std::vector<std::filesystem::path> scenes) : scenes_(std::move(scenes)) {}
+  /// Sentences leave out the folders of these scenes, which the person knows. `before`: notes of earlier sessions.
+  explicit News(std::vector<std::filesystem::path> scenes, std::vector<std::string> before = {})
+      : scenes_(std::move(scenes)), before_(std::move(before)) {}
 
   /// Sets the present time, in s; never decreasing.
   void set_time(double seconds) { now_ = seconds; }
@@ -23,9 +24,10 @@ class News {
   void tell(std::string sentence, bool warning = false);
   /// The same with all paths as they are, for a person who needs their folders.
   void tell_as_is(const std::string& sentence, bool warning = false);
-  /// Shows a warning, and keeps it for the report.
+  /// Shows a warning, tells it on the terminal at once, and keeps it for the report. One of an earlier session is only
+  /// kept.
   void note(const std::string& sentence);
-  /// The same before all other sentences, with its remedy, which the report leaves out: "U turns it". If the sentence
+  /// The same, always shown, before all other sentences, with its remedy, which the report leaves out: "U turns it". If the sentence
   /// is shown already, it moves to this place.
   void note_first(const std::string& sentence, const std::string& remedy = {});
   /// Shows that a file was written, with its absolute path, and keeps its name for the report.
@@ -47,8 +49,11 @@ class News {
   };
   [[nodiscard]] std::string without_folders(std::string sentence) const;
   void show(const std::string& sentence, Item item);
+  [[nodiscard]] bool was_noted_before(const std::string& sentence) const;
+  void tell_on_terminal(const std::string& sentence) const;
 
   std::vector<std::filesystem::path> scenes_;
+  std::vector<std::string> before_;
   double now_ = 0.0;
   std::vector<Item> items_;
   std::vector<std::string> notes_;

@@ -79,6 +79,7 @@ struct ViewPlan {
   std::vector<Waypoint> path;  ///< of --path; make_plan leaves it empty
   std::optional<Pose> at;
   std::string note;  ///< a sentence for the person; may be empty
+  std::vector<std::string> noted;  ///< in earlier sessions
 };
 
 /// The plan for `options` and `settings`.

@@ -4,10 +4,12 @@
 #include <chrono>
 #include <iterator>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <string_view>
 #include <utility>
 
 #include "cli/interrupt.h"
+#include "cli/standard_streams.h"
 #include "scenes/frame.h"
 #include "view/body.h"
 #include "view/menu.h"
@@ -44,7 +46,7 @@ Session::Session(const ViewOptions& options, const ViewPlan& plan, const ViewSet
     : what_(scene_and_store(options.scene, options.store)),
       options_(with_scene(options, what_)),
       roamer_(make_roamer(plan, settings)),
-      news_(what_.scene.scenes),
+      news_(what_.scene.scenes, plan.noted),
       commands_(news_),
       records_(what_.scene, *roamer_, news_),
       plan_(with_bookmark(plan, options.bookmark, records_)),
@@ -84,6 +86,7 @@ Session::Session(const ViewOptions& options, const ViewPlan& plan, const ViewSet
   stage_.viewer().addEventHandler(layers_);
   stage_.viewer().addEventHandler(bookmark_list_);
   stage_.viewer().addEventHandler(tools_);
+  tells_results_ = !options_.json && !options_.headless;
   // SessionHandler handles Escape; the viewer would end before any other use of the key.
   stage_.viewer().setKeyEventSetsDone(0);
   show_keys();
@@ -130,6 +133,7 @@ bool Session::frame() {
   const bool at_end = is_at_its_end();
   const bool last = at_end && (options_.screenshot.empty() || scene_.is_complete());
   show(last);
+  tell_results();
   if (!last) {
     load_pages_of_film();
     stage_.draw_if_seen(at_end || (options_.turntable && !turning_at_));
@@ -283,6 +287,26 @@ void Session::show(bool at_once) {
   display_.show(std::move(status));
 }
 
+/// Tells on the terminal what was measured and written, as it happens.
+void Session::tell_results() {
+  if (!tells_results_) return;
+  const auto& measured = tools_->measurements();
+  std::string text;
+  std::size_t measurements = measurements_told_, files = written_told_;
+  for (; measurements < measured.size() && measured[measurements].b; ++measurements) {
+    text += measured_line(measured[measurements]);
+  }
+  for (; files < news_.files().size(); ++files) text += written_line(news_.files()[files]);
+  if (text.empty()) return;
+  try {
+    print_report(false, {}, text, options_.trace);
+    measurements_told_ = measurements;
+    written_told_ = files;
+  } catch (const std::exception&) {
+    tells_results_ = false;  // the report at the end fails
+  }
+}
+
 ListPanel* Session::shown_list() {
   if (layers_->is_shown()) return layers_.get();
   return bookmark_list_->is_shown() ? bookmark_list_.get() : nullptr;
@@ -307,7 +331,7 @@ ViewReport Session::finish() {
   layers_->finish();
   ViewReport report;
   report.scene = options_.scene.names();
-  report.notes = news_.notes();
+  report.noted = report.notes = news_.notes();
   if (replay_) replay_->fill(report);
   if (learning_) report.learned = learning_->taken();
   building_.fill(report);
@@ -318,6 +342,8 @@ ViewReport Session::finish() {
   records_.finish();
   records_.fill(report);
   report.written = news_.files();
+  report.measurements_told = measurements_told_;
+  report.written_told = written_told_;
   log_.fill(report);
   stage_.finish();
   stage_.fill(report);

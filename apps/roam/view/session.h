@@ -96,6 +96,7 @@ class Session {
   void load_pages_of_film();
   void show_keys();
   void show(bool at_once);
+  void tell_results();
   [[nodiscard]] Vec3 place() const;
   [[nodiscard]] bool is_replaying() const { return replay_ && !replay_->done(); }
   [[nodiscard]] bool is_at_its_end() const;
@@ -127,6 +128,8 @@ class Session {
   double placed_at_ = 0.0;            ///< s since the session began
   std::optional<double> turning_at_;  ///< s since the session began, of the turntable's start
   bool quits_ = false;
+  bool tells_results_ = false;  ///< on the terminal
+  std::size_t measurements_told_ = 0, written_told_ = 0;
 };
 
 }  // namespace roam::app

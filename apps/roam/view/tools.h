@@ -43,6 +43,7 @@ class Tools : public osgGA::GUIEventHandler {
   void fill(Status& status);
   void fill(ViewReport& report);
   void add_to(graphics::Marks& marks);
+  [[nodiscard]] const std::vector<Measurement>& measurements() const { return measuring_.all(); }
   [[nodiscard]] const LivePlan& plan() const { return plan_; }
   [[nodiscard]] bool is_measuring() const { return tool_ == Tool::measure; }
   [[nodiscard]] const SectionShape& section() const { return section_.shape(); }

@@ -160,11 +160,17 @@ std::string text_report(const ViewReport& report) {
   if (report.verified) {
     text += fmt::format("verified: {}\n", summary(*report.verified));
   }
-  for (const Measurement& measurement : report.measurements) {
-    text += fmt::format("measured: {}\n", to_json(measurement).dump(-1, ' ', false, Json::error_handler_t::replace));
+  for (std::size_t i = report.measurements_told; i < report.measurements.size(); ++i) {
+    text += measured_line(report.measurements[i]);
   }
-  for (const std::string& file : report.written) text += fmt::format("written: {}\n", printable_part(file));
+  for (std::size_t i = report.written_told; i < report.written.size(); ++i) text += written_line(report.written[i]);
   return text;
 }
+
+std::string measured_line(const Measurement& measurement) {
+  return fmt::format("measured: {}\n", text_of(measurement));
+}
+
+std::string written_line(const std::string& file) { return fmt::format("written: {}\n", printable_part(file)); }
 
 }  // namespace roam::app

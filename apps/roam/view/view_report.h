@@ -62,16 +62,19 @@ struct ViewReport {
   std::string renderer;
   std::vector<std::string> hud;    ///< lines of the last frame
   std::vector<std::string> notes;  ///< warnings
+  std::vector<std::string> noted;  ///< those of them that the terminal has
   std::uint64_t missing_textures = 0;
   std::vector<std::string> missing_texture_files;
   std::uint64_t missing_pages = 0;
   std::vector<Measurement> measurements;
+  std::size_t measurements_told = 0;  ///< the first ones, as text
   std::vector<ProbeReply> probes;
   SectionShape section;              ///< at the end
   std::size_t hidden_objects = 0;    ///< at the end
   bool passes_objects = false;       ///< the body passes through hidden objects, if there are any
   bool passes_section = false;       ///< the body passes through what the section hides
   std::vector<std::string> written;  ///< files
+  std::size_t written_told = 0;      ///< the first ones, as text
   std::vector<Mesh> meshes;          ///< for --verify; none if the session began with a store
   verification::PieceLog pieces;     ///< for --verify
   std::optional<verification::Verification> verified;
@@ -81,6 +84,11 @@ struct ViewReport {
 void append(std::vector<std::string>& all, const std::vector<std::string>& more);
 
 [[nodiscard]] Json json_report(const ViewReport& report);
+/// Without what was told.
 [[nodiscard]] std::string text_report(const ViewReport& report);
+
+/// Lines of the text report.
+[[nodiscard]] std::string measured_line(const Measurement& measurement);
+[[nodiscard]] std::string written_line(const std::string& file);
 
 }  // namespace roam::app
