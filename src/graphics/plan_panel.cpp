@@ -92,7 +92,7 @@ void PlanPanel::set_lines(const PlanLines& lines) {
 }
 
 void PlanPanel::set_trail(const std::vector<glm::vec2>& trail) {
-  show_only(*trail_, {strokes(trail, GL_LINE_STRIP, blue)});
+  show_only(*trail_, {strokes(trail, GL_LINES, blue)});
 }
 
 void PlanPanel::set_places(const std::vector<PlanPlace>& places) {

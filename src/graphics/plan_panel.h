@@ -57,7 +57,7 @@ class PlanPanel {
   PlanPanel& operator=(const PlanPanel&) = delete;
 
   void set_lines(const PlanLines& lines);
-  /// Metres, from the base of the lines.
+  /// Points in pairs, metres from the base of the lines.
   void set_trail(const std::vector<glm::vec2>& trail);
   void set_places(const std::vector<PlanPlace>& places);
   void set_view(const PlanView& view);

@@ -2,6 +2,7 @@
 #include "view/live_plan.h"
 
 #include <atomic>
+#include <cmath>
 #include <memory>
 #include <string>
 
@@ -47,6 +48,26 @@ TEST(LivePlan, SaysOnceThatItsSpaceCannotBeRead) {
   }
   EXPECT_EQ(plan.take_problem(), "");
   EXPECT_EQ(unreadable->queries, queries) << "the same place is not read again";
+}
+
+TEST(LivePlan, BreaksItsTrailWhereTheBodyIsPut) {
+  view_stores::Tooled d;
+  d.tap('l');
+  const Vec3 begin = d.place();
+  d.press('w');
+  d.run(2.0);
+  d.release('w');
+  d.run(0.5);
+  ASSERT_GT(d.place().x, begin.x + 1.0);
+  d.tap(osgGA::GUIEventAdapter::KEY_Home);
+  d.run(0.5);
+  ASSERT_NEAR(d.place().x, begin.x, 0.1);
+  d.press('s');
+  d.run(1.0);
+  const std::vector<Vec3> trail = d.session->tools().plan().trail();
+  ASSERT_GT(trail.size(), 8u);
+  for (std::size_t i = 0; i < trail.size(); i += 2) EXPECT_LT(std::abs(trail[i].x - trail[i + 1].x), 0.6);
+  EXPECT_LT(trail.back().x, begin.x);
 }
 
 }  // namespace

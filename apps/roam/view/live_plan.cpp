@@ -154,12 +154,23 @@ void LivePlan::receive() {
 
 void LivePlan::follow() {
   const Vec3 feet = roamer_.walker()->feet();
-  if (!trail_.empty() && glm::distance(trail_.back(), feet) < trail_spacing) return;
-  trail_.push_back(feet);
+  if (!trail_.empty() && glm::distance(trail_.back().at, feet) < trail_spacing) return;
+  trail_.push_back({feet, std::exchange(has_jumped_, false)});
   if (trail_.size() <= longest_trail) return;
   // Every other point, so that the trail keeps its length.
-  for (std::size_t i = 0; 2 * i < trail_.size(); ++i) trail_[i] = trail_[2 * i];
+  for (std::size_t i = 0; 2 * i < trail_.size(); ++i) {
+    const bool is_first = trail_[2 * i].is_first || (i > 0 && trail_[2 * i - 1].is_first);
+    trail_[i] = {trail_[2 * i].at, is_first};
+  }
   trail_.resize((trail_.size() + 1) / 2);
+}
+
+std::vector<Vec3> LivePlan::trail() const {
+  std::vector<Vec3> pairs;
+  for (std::size_t i = 1; i < trail_.size(); ++i) {
+    if (!trail_[i].is_first) pairs.insert(pairs.end(), {trail_[i - 1].at, trail_[i].at});
+  }
+  return pairs;
 }
 
 void LivePlan::update(bool visible, HiddenSpace::Met met, const std::vector<graphics::PlanPlace>& places) {
@@ -179,7 +190,7 @@ void LivePlan::update(bool visible, HiddenSpace::Met met, const std::vector<grap
   }
   if (shown_ && trail_shown_ != trail_.size()) {
     std::vector<glm::vec2> trail;
-    for (const Vec3& p : trail_) trail.emplace_back(seen_from_above(p) - shown_->base);
+    for (const Vec3& p : this->trail()) trail.emplace_back(seen_from_above(p) - shown_->base);
     panel_.set_trail(trail);
     trail_shown_ = trail_.size();
   }

@@ -31,6 +31,10 @@ class LivePlan {
   [[nodiscard]] graphics::PlanSize size() const { return size_; }
   /// As of PlanPanel.
   [[nodiscard]] graphics::Rectangle place() const { return panel_.place(); }
+  /// The body was put where it is now: its trail begins anew there.
+  void jump() { has_jumped_ = true; }
+  /// The trail: pairs of points, metres in the scene.
+  [[nodiscard]] std::vector<Vec3> trail() const;
   /// Call it in each frame. `visible` false: nothing is shown or cut. `met`: the walls.
   void update(bool visible, HiddenSpace::Met met, const std::vector<graphics::PlanPlace>& places);
   /// The metres at a point of the picture, x and y in [-1, 1]; none outside of the plan.
@@ -69,7 +73,12 @@ class LivePlan {
   std::optional<Wish> wished_;  ///< for the last cut, which is shown, running or failed
   std::optional<graphics::PlanLines> shown_;
   std::string problem_;
-  std::vector<Vec3> trail_;
+  struct TrailPoint {
+    Vec3 at{0.0};
+    bool is_first = false;  ///< no line leads to it
+  };
+  std::vector<TrailPoint> trail_;
+  bool has_jumped_ = false;
   std::size_t trail_shown_ = 0;
 };
 

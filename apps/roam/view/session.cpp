@@ -204,6 +204,7 @@ void Session::load_pages_of_film() {
 
 void Session::step_taken(const StepReport& report, double seconds) {
   log_.take(report, roamer_->mode(), seconds);
+  if (seconds <= 0.0 || report.put_back) tools_->jump();
   const bool has_body = roamer_->walker() != nullptr;
   const Vec3 wish = !has_body ? Vec3(0.0) : replay_ && !replay_->left() ? replay_->wish() : wish_of(*roamer_);
   display_.watch(report, wish);

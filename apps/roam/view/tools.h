@@ -40,6 +40,8 @@ class Tools : public osgGA::GUIEventHandler {
   using osgGA::GUIEventHandler::handle;
   bool handle(const osgGA::GUIEventAdapter& event, osgGA::GUIActionAdapter& action) override;
 
+  /// The body was put somewhere.
+  void jump() { plan_.jump(); }
   void fill(Status& status);
   void fill(ViewReport& report);
   void add_to(graphics::Marks& marks);
