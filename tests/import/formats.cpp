@@ -193,6 +193,8 @@ TEST(ImportFormats, RefusesWhatIsNoSceneAndSaysWhatToDo) {
   EXPECT_TRUE(contains(import_error(folder.path() / "gone.obj"), "there is no such file or folder"));
   EXPECT_TRUE(
       contains(import_error(folder.path()), "this folder holds no Data/Tile_*/Tile_*.osgb and no tileset.json"));
+  folder.write("part.osgb", "");
+  EXPECT_TRUE(contains(import_error(folder.path()), "name its files: " + (folder.path() / "*.osgb").string()));
   EXPECT_TRUE(contains(import_error(folder.write("empty.obj", "")), "this file is empty"));
   EXPECT_TRUE(
       contains(import_error(folder.write("notes.txt", "hello")), "knows no reader for '.txt' files. It reads obj"));

@@ -83,6 +83,14 @@ std::vector<fs::path> tile_roots(const fs::path& folder, SceneFiles& files, std:
   return roots;
 }
 
+/// Whether a folder has files of tiles by themselves.
+bool holds_osgb(const fs::path& folder) {
+  std::error_code none;
+  const fs::directory_iterator entries(folder, none);
+  return std::any_of(fs::begin(entries), fs::end(entries),
+                     [](const fs::directory_entry& entry) { return entry.path().extension() == ".osgb"; });
+}
+
 /// Removes all roots except that of one tile, which counts as missing if it has disappeared.
 void keep_only(const std::string& tile, std::vector<fs::path>& roots, std::size_t& missing) {
   const auto wanted =
@@ -129,9 +137,12 @@ void read_tiles(const fs::path& path, SceneFiles& files, MeshSink& sink, const R
   std::size_t missing = 0;
   std::vector<fs::path> roots = tile_roots(has_data ? folder / "Data" : folder, files, missing);
   if (roots.size() == missing) {
+    const bool has_files = holds_osgb(folder);
     throw Error(path.string(),
-                "this folder holds no Data/Tile_*/Tile_*.osgb and no tileset.json; name a folder of tiles, or the "
-                "scene's file.");
+                has_files ? "this folder holds .osgb files, but no Data/Tile_*/Tile_*.osgb; name its files: " +
+                                (path / "*.osgb").string()
+                          : "this folder holds no Data/Tile_*/Tile_*.osgb and no tileset.json; name a folder of tiles, "
+                            "or the scene's file.");
   }
   if (const auto georeference = georeference_in(metadata, files, sink)) {
     place(*georeference, path.string(), settings, sink);
