@@ -20,12 +20,12 @@ TEST(Section, HidesAClickedSurfaceAndWhatIsBeforeIt) {
   d.tap('x');
   EXPECT_TRUE(contains(d.hud(), "Section: click what is to be hidden, turn the wheel to cut deeper; X ends"))
       << d.hud();
-  d.click(0, -0.9);
-  d.tap('t');
-  d.click(0.2, -0.9);  // at the same place it would be a double click
-  EXPECT_TRUE(contains(d.hud(), "There is no surface here")) << "the floor is hidden: " << d.hud();
   d.click(0, 0);
-  EXPECT_TRUE(contains(d.hud(), "There is no surface here")) << "so is all that is above it: " << d.hud();
+  d.tap('t');
+  d.click(0.2, 0);  // at the same place it would be a double click
+  EXPECT_TRUE(contains(d.hud(), "There is no surface here")) << "the wall is hidden: " << d.hud();
+  d.click(0, -0.9);
+  EXPECT_TRUE(contains(d.hud(), "There is no surface here")) << "so is all that is before it: " << d.hud();
   const Vec3 before = d.place();
   d.run(1.0);
   EXPECT_LT(glm::distance(d.place(), before), 1e-3) << "the body still stands on the floor";
@@ -42,14 +42,17 @@ TEST(Section, IsMovedByTheWheel) {
   Tooled d;
   d.tap('x');
   d.click(0, -0.9);
+  EXPECT_TRUE(contains(d.hud(), "Cut below the eye, at z = 1.")) << d.hud();
+  EXPECT_TRUE(contains(d.hud(), "section: a plane, z = 1.")) << d.hud();
   d.events().mouseScroll(osgGA::GUIEventAdapter::SCROLL_UP);
   d.events().mouseScroll(osgGA::GUIEventAdapter::SCROLL_UP);
   d.run(0.1);
   const Json json = json_report(d.session->finish());
   ASSERT_EQ(json["section"].size(), 1u);
   EXPECT_NEAR(json["section"][0]["normal"][2], 1.0, 1e-6);
-  EXPECT_LT(json["section"][0]["distance_m"], -0.1) << "below the floor at 0";
-  EXPECT_GT(json["section"][0]["distance_m"], -0.5);
+  const double eye = json["end"]["eye"][2];
+  EXPECT_LT(json["section"][0]["distance_m"], eye - 0.1) << "a clicked floor is cut at the height of the eye";
+  EXPECT_GT(json["section"][0]["distance_m"], eye - 0.5);
 }
 
 ViewOptions with_section(const std::vector<std::string>& section, bool pass_hidden) {
@@ -105,24 +108,27 @@ void tap_box(Tooled& d) {
   d.run(0.1);
 }
 
-TEST(SectionBox, BeginsAroundTheMiddleOfThePictureAndEndsWithItsKey) {
+TEST(SectionBox, BeginsAroundTheRoomAndEndsWithItsKey) {
   Tooled d;
   tap_box(d);
   EXPECT_TRUE(contains(d.hud(), "Box: drag its points")) << d.hud();
-  EXPECT_TRUE(contains(d.hud(), "section: a box; the body meets what is hidden")) << d.hud();
+  EXPECT_TRUE(contains(d.hud(), "section: a box, 16.20 x 4.20 x 3.20 m; the body meets")) << d.hud();
   ASSERT_TRUE(box_of(d));
-  EXPECT_NEAR(box_of(d)->center().x, 20.0, 0.01) << "the wall ahead";
-  EXPECT_NEAR(box_of(d)->size().z, 7.0, 0.1) << "of the distance of 10 m";
+  EXPECT_NEAR(box_of(d)->center().x, 10.0, 0.01) << "8 m to either side";
+  EXPECT_NEAR(box_of(d)->lower.z, -0.1, 0.01) << "the floor is in it";
   const Json during = json_report(d.session->finish());
-  EXPECT_NEAR(during["section_box"]["upper"][0], 23.5, 0.1);
+  EXPECT_NEAR(during["section_box"]["upper"][0], 18.1, 0.1);
   tap_box(d);
   EXPECT_FALSE(box_of(d));
   EXPECT_TRUE(contains(d.hud(), "All is shown again")) << d.hud();
   EXPECT_TRUE(json_report(d.session->finish())["section_box"].is_null());
 }
 
+/// A box about the wall ahead.
+ViewOptions with_box_ahead() { return with_section({"box 16.5 -3.5 -2, 23.5 3.5 5"}, false); }
+
 TEST(SectionBox, IsResizedAndMovedByItsGrips) {
-  Tooled d;
+  Tooled d(with_box_ahead());
   tap_box(d);
   const Box first = *box_of(d);
   const double yaw = d.session->roamer().yaw();
@@ -146,7 +152,7 @@ TEST(SectionBox, IsResizedAndMovedByItsGrips) {
 }
 
 TEST(SectionBox, IsShrunkByTheWheelAndMovedByAClick) {
-  Tooled d;
+  Tooled d(with_box_ahead());
   tap_box(d);
   const Box first = *box_of(d);
   d.point_at(0.9, 0.9);
@@ -199,8 +205,8 @@ double flies_to(Tooled& d) {
 
 TEST(OpenSection, LetsTheBodyThroughWhatIsHiddenWhole) {
   Tooled shut(with_section({"x<15"}, false)), open(with_section({"x<15"}, true));
-  EXPECT_TRUE(contains(shut.hud(), "section: a plane; the body meets what is hidden")) << shut.hud();
-  EXPECT_TRUE(contains(open.hud(), "section: a plane; the body passes through what is hidden whole")) << open.hud();
+  EXPECT_TRUE(contains(shut.hud(), "section: a plane, x = 15.00 m; the body meets what is hidden")) << shut.hud();
+  EXPECT_TRUE(contains(open.hud(), "section: a plane, x = 15.00 m; the body passes")) << open.hud();
   EXPECT_NEAR(flies_to(shut), 19.7, 0.02) << "the wall at 20 m";
   EXPECT_GT(flies_to(open), 20.3);
   const ViewReport report = open.session->finish();
@@ -212,7 +218,7 @@ TEST(OpenSection, LetsTheBodyThroughWhatIsHiddenWhole) {
 
 TEST(OpenSection, LeavesWhatIsSeenInPartSolid) {
   Tooled d(with_section({"z<1.5", "box -1 -3 -1, 25 3 5"}, true));
-  EXPECT_TRUE(contains(d.hud(), "section: a box and a plane; the body passes through")) << d.hud();
+  EXPECT_TRUE(contains(d.hud(), "section: a box and a plane, 26.00 x 6.00 x 6.00 m, z = 1.50 m; the")) << d.hud();
   EXPECT_NEAR(flies_to(d), 19.7, 0.02) << "half of the wall is seen";
   // The ceiling is hidden whole.
   d.session->roamer().setPose({10, 0, 1.5}, 0.0, 0.0);
@@ -247,7 +253,7 @@ TEST(OpenSection, IsSwitchedByAKeyAndFollowsTheBox) {
 
 TEST(OpenSection, OfAStoreLetsTheBodyThroughToo) {
   Tooled d(with_section({"x<15", "z<1.5"}, true), true);
-  EXPECT_TRUE(contains(d.hud(), "section: 2 planes; the body passes through what is hidden whole")) << d.hud();
+  EXPECT_TRUE(contains(d.hud(), "section: 2 planes, z = 1.50 m; the body passes through what")) << d.hud();
   EXPECT_FALSE(contains(d.notes(), "With a store"));
   EXPECT_GT(flies_to(d), 20.3);
   // A part of the wall behind is still drawn.

@@ -25,12 +25,14 @@ std::shared_ptr<Filtered> filter_of(std::shared_ptr<Kept> space) {
   return {both, &both->filtered};
 }
 
-/// "a box and 2 planes"
+/// "a box and 2 planes, 8.00 x 5.20 x 2.50 m, z = 2.40 m": sizes of the box, place of the last plane
 std::string text_of(const SectionShape& section) {
   const std::size_t planes = section.planes.size();
   std::string text = section.box ? "a box" : "";
   if (planes > 0) text += fmt::format("{}{}", text.empty() ? "" : " and ", planes == 1 ? "a plane" : "");
   if (planes > 1) text += fmt::format("{} planes", planes);
+  if (section.box) text += ", " + place_of(*section.box);
+  if (planes > 0) text += ", " + place_of(section.planes.back());
   return text;
 }
 

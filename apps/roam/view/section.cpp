@@ -64,6 +64,21 @@ std::vector<HalfSpace> SectionShape::hidden() const {
   return all;
 }
 
+std::string place_of(const HalfSpace& plane) {
+  constexpr double straight = 0.9999;
+  for (int axis = 0; axis < 3; ++axis) {
+    if (std::abs(plane.normal[axis]) < straight) continue;
+    return fmt::format("{} = {:.2f} m", "xyz"[axis], plane.distance / plane.normal[axis] + 0.0);
+  }
+  const Vec3& n = plane.normal;
+  return fmt::format("{:.2f} m along ({:.2f}, {:.2f}, {:.2f})", plane.distance, n.x, n.y, n.z);
+}
+
+std::string place_of(const Box& box) {
+  const Vec3 size = box.size();
+  return fmt::format("{:.2f} x {:.2f} x {:.2f} m", size.x, size.y, size.z);
+}
+
 void add_section(const std::string& text, SectionShape& shape) {
   const std::string where = "--section " + text;
   const std::string box = "box ";

@@ -115,7 +115,7 @@ void Tools::toggle_box() {
   if (ends) {
     section_.set_box(std::nullopt);
   } else if (!section_.box()) {
-    section_.set_box(box_ahead());
+    section_.set_box(room_around());
   }
   const std::string key = key_of(roamer_.controls(), "section_box");
   stage_.hint(
@@ -124,17 +124,25 @@ void Tools::toggle_box() {
       seconds);
 }
 
-/// From outside a box about the scene, else one about the middle of the picture.
-Box Tools::box_ahead() const {
-  constexpr double share = 0.35, least = 0.5;  // half a side: of the distance; metres
+/// From outside a box about the scene, else one about the room that the eye is in.
+Box Tools::room_around() const {
+  constexpr double reach = 8.0, wall = 0.1;  // m
   const Box scene = scene_.bounds();
   const auto middle = sightline(camera(), 0.0, 0.0);
   const Vec3 eye = middle ? middle->eye : scene.center();
-  const Box whole = scene.grown(0.01);  // no side of the scene flickers
-  if (!scene.empty() && !scene.holds(eye)) return whole;
-  const auto seen = pick_at({});
-  if (!seen) return whole.empty() ? Box{eye - 1.0, eye + 1.0} : whole;
-  return Box{seen->point, seen->point}.grown(std::max(least, share * glm::distance(eye, seen->point)));
+  if (!scene.empty() && !scene.holds(eye)) return scene.grown(0.01);  // no side of the scene flickers
+  const Space* const visible = hidden_.visible();
+  const Space& space = visible != nullptr ? *visible : *roamer_.space();
+  Box room{eye, eye};
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const double way : {-reach, reach}) {
+      Vec3 ray(0.0);
+      ray[axis] = way;
+      const Impact met = space.ray(eye, ray);
+      room.include(met.hit && !met.unknown ? met.point : eye + ray);
+    }
+  }
+  return room.grown(wall);
 }
 
 void Tools::update(bool has_body, bool has_plan, const std::vector<graphics::PlanPlace>& places) {
@@ -202,6 +210,22 @@ bool Tools::scroll(const Adapter& event) {
   return true;
 }
 
+/// All above the floor that the body stands on would be hidden with the floor: the cut begins at the eye.
+void Tools::cut(Pick pick) {
+  constexpr double seconds = 6.0, flat = 0.7, near = 0.5;  // near, below: m
+  constexpr double below = 0.05;
+  const Walker* const walker = roamer_.walker();
+  const bool is_floor = pick.normal.z > flat && walker != nullptr && std::abs(pick.point.z - walker->feet().z) < near;
+  if (is_floor) {
+    pick.normal = Vec3(0.0, 0.0, 1.0);
+    pick.point.z = roamer_.eye().z - below;
+  }
+  section_.cut(pick);
+  stage_.hint(fmt::format("Cut{} at {}: the wheel moves it", is_floor ? " below the eye," : "",
+                          place_of(section_.shape().planes.back())),
+              seconds);
+}
+
 /// Over a grip its side alone.
 void Tools::resize_box(const Point& at, double notches) {
   constexpr double share = 0.04;  // of the longest side
@@ -251,7 +275,7 @@ void Tools::release(const Adapter& event) {
   is_down_ = false;
   if (!is_click) return;
   if (is_on_plan_) {
-    constexpr double seconds = 2.0;
+    constexpr double seconds = 4.0;
     if (const std::string reason = plan_.go(at.x, at.y); !reason.empty()) stage_.hint(reason, seconds);
   } else if (tool_ != Tool::none) {
     click(at);
@@ -268,7 +292,7 @@ void Tools::click(const Point& at) {
     if (probing_.clear()) stage_.hint("The search for a way was stopped: this is another point", seconds);
     measuring_.take(*found);
   } else if (tool_ == Tool::section) {
-    section_.cut(*found);
+    cut(*found);
   } else if (section_.box()) {
     const Vec3 half = 0.5 * section_.box()->size();
     section_.set_box(Box{found->point - half, found->point + half});

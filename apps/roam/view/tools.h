@@ -73,7 +73,8 @@ class Tools : public osgGA::GUIEventHandler {
   [[nodiscard]] std::string ended_text() const;
   void probe();
   [[nodiscard]] std::optional<Pick> pick_at(const Point& at) const;
-  [[nodiscard]] Box box_ahead() const;
+  [[nodiscard]] Box room_around() const;
+  void cut(Pick pick);
   bool drag(const osgGA::GUIEventAdapter& event);
   void resize_box(const Point& at, double notches);
 
