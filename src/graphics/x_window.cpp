@@ -22,6 +22,15 @@ class XWindow : public osgViewer::GraphicsWindowX11 {
   /// Viewer::realize realizes every window again; the base class would warn about it.
   bool realizeImplementation() override { return _realized || osgViewer::GraphicsWindowX11::realizeImplementation(); }
 
+  /// Learns of other layouts of the keyboard first: their letters would be missing.
+  bool checkEvents() override {
+    XEvent event;
+    while (_eventDisplay != nullptr && XCheckTypedEvent(_eventDisplay, MappingNotify, &event) != 0) {
+      XRefreshKeyboardMapping(&event.xmapping);
+    }
+    return osgViewer::GraphicsWindowX11::checkEvents();
+  }
+
   /// Sets the class by which desktops group windows and find icons.
   void set_class() {
     XClassHint hint;
