@@ -192,6 +192,25 @@ TEST(ViewWindow, WritesPicturesWithoutTheDisplayUnlessAsked) {
   w.end();
 }
 
+TEST(ViewWindow, WritesPicturesWithoutTheMarksOfTools) {
+  Window w({"--at", "18,0,0.95,0"});
+  const auto picture = [&](const std::string& keys, const char* name) {
+    xdo(keys);
+    EXPECT_TRUE(eventually([&] { return std::filesystem::exists(w.folder.file(name)); })) << name;
+    wait(0.5);
+    return Shot(w.folder.file(name)).at(160, 101);
+  };
+  const osg::Vec4 before = picture("key p", "roam-1.png");
+  xdo("key t");
+  xdo("search --name '^roam: ' mousemove --window %1 160 100 click 1");
+  wait(1.0);
+  const osg::Vec4 marked = picture("key p", "roam-2.png");
+  const osg::Vec4 shown = picture("key ctrl+p", "roam-3.png");
+  EXPECT_LT((marked - before).length(), 0.02f);
+  EXPECT_GT((shown - before).length(), 0.1f) << "the cross of the measured point";
+  w.end();
+}
+
 TEST(ViewWindow, WritesPicturesLargerThanItself) {
   Window w({"--at", "2,0,0.95,0", "--picture-scale", "4"});
   xdo("key p");
@@ -295,7 +314,7 @@ TEST(ViewWindow, DragsLookAround) {
 }
 
 TEST(ViewWindow, DragsASideOfTheSectionsBox) {
-  Window w({"--at", "2,0,0.95,0"});
+  Window w({"--at", "2,0,0.95,0", "--section", "box 13.7 -6.3 -4.7, 26.3 6.3 7.9"});
   w.point(10, 190);
   wait(0.5);
   xdo("key ctrl+x");

@@ -251,7 +251,7 @@ bool Session::is_at_its_end() const {
 
 void Session::show(bool at_once) {
   graphics::Marks marks;
-  tools_->add_to(marks);
+  if (!stage_.is_still_next()) tools_->add_to(marks);
   hidden_.update(tools_->section());
   layers_->update();
   ListPanel* const list = shown_list();

@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "cli/interrupt.h"
+#include "cli/tell.h"
 #include "graphics/large_picture.h"
 #include "graphics/lettering.h"
 #include "osg_plugins/plugins.h"
@@ -170,9 +171,11 @@ void Stage::add_to(Commands& commands) {
   for (const auto& [name, with_display] : {std::pair("picture", false), std::pair("picture_with_display", true)}) {
     commands.add(name, [this, with_display = with_display] {
       if (!with_display && picture_scale_ > 1.0) {
-        enlarged_wanted_ = true;
+        enlarged_in_ = 2;
+        hint(fmt::format("Writing {} x {} ...", enlarged_size()[0], enlarged_size()[1]));
         return;
       }
+      still_wanted_ = !with_display;
       pictures_.emplace_back(*frame_, "roam.png", with_display, files::Naming::numbered);
     });
   }
@@ -225,6 +228,7 @@ std::vector<Picture> Stage::poll_pictures() {
   std::vector<Picture> told = std::exchange(failed_, {});
   std::erase_if(pictures_, [&](graphics::Screenshot& picture) {
     if (!picture.done()) return false;
+    if (picture_scale_ > 1.0 && hint_.starts_with("Writing ")) end_hint(0.0);
     told.push_back({picture.path(), {}});
     try {
       picture.finish();
@@ -281,7 +285,8 @@ void Stage::draw() {
   times_.add(ns);
   draw_calls_.add(frame_->draw_calls());
   if (thrift_ && runs_) draw_less_if_slow(begin, ns * 1e-6);
-  if (std::exchange(enlarged_wanted_, false)) take_enlarged();
+  still_wanted_ = false;
+  if (enlarged_in_ > 0 && --enlarged_in_ == 0) take_enlarged();
 }
 
 /// On a slow card. It stays so: a picture that changes back and forth is worse.
@@ -311,16 +316,21 @@ osg::ref_ptr<osg::Image> Stage::large_picture(int width, int height) {
   return picture;
 }
 
-/// The picture of the key, larger than the window.
-void Stage::take_enlarged() {
+std::array<int, 2> Stage::enlarged_size() const {
   constexpr double longest = 16384.0;  // pixels
-  const char* const file = "roam.png";
   const double scale = std::min(picture_scale_, longest / std::max(frame_->width(), frame_->height()));
   const auto scaled = [&](int length) { return static_cast<int>(std::lround(scale * length)); };
+  return {scaled(frame_->width()), scaled(frame_->height())};
+}
+
+/// The picture of the key, larger than the window.
+void Stage::take_enlarged() {
+  const char* const file = "roam.png";
   try {
-    pictures_.emplace_back(large_picture(scaled(frame_->width()), scaled(frame_->height())), file,
-                           files::Naming::numbered);
+    const auto [width, height] = enlarged_size();
+    pictures_.emplace_back(large_picture(width, height), file, files::Naming::numbered);
   } catch (const Error& error) {
+    end_hint(0.0);
     failed_.push_back({file, error.what()});
   }
 }
@@ -361,11 +371,29 @@ void Stage::fill(ViewReport& report) const {
   report.written.insert(report.written.end(), written_.begin(), written_.end());
 }
 
+/// On the terminal, and in the window unless it is closed.
+void Stage::say_what_is_finished() {
+  std::string what;
+  if (film_) what = written_.front();
+  for (const graphics::Screenshot& picture : pictures_) {
+    if (!picture.done()) what = picture.path().string();
+  }
+  if (what.empty() || headless()) return;
+  tell("finishing " + what + " ...");
+  if (!context_.window->isRealized()) return;
+  hint("Finishing ...");
+  fade_hint();
+  viewer_->updateTraversal();
+  viewer_->renderingTraversals();
+}
+
 void Stage::finish() {
-  if (!pictures_.empty() || enlarged_wanted_) {  // asked for in the last frame, which was not drawn
+  if (!pictures_.empty() || enlarged_in_ > 0) {  // asked for in the last frame, which was not drawn
+    enlarged_in_ = std::min(enlarged_in_, 1);
     hold_film(true);
     draw();
   }
+  say_what_is_finished();
   for (graphics::Screenshot& picture : pictures_) {
     picture.finish();
     written_.push_back(picture.path().string());

@@ -64,6 +64,8 @@ class Stage {
   /// poll_pictures() returns them when written.
   void add_to(Commands& commands);
 
+  /// Whether the next frame is one for a picture without the display, which no tool's marks belong to.
+  [[nodiscard]] bool is_still_next() const { return still_wanted_ || enlarged_in_ > 0; }
   /// The pictures finished since the last call.
   [[nodiscard]] std::vector<Picture> poll_pictures();
 
@@ -98,6 +100,8 @@ class Stage {
 
   [[nodiscard]] osg::ref_ptr<osg::Image> large_picture(int width, int height);
   void take_enlarged();
+  [[nodiscard]] std::array<int, 2> enlarged_size() const;
+  void say_what_is_finished();
   void cycle_hud();
   void fade_hint();
   void toggle_fullscreen();
@@ -114,7 +118,8 @@ class Stage {
   std::vector<Picture> failed_;              ///< pictures that could not be drawn
   std::optional<std::array<int, 2>> large_;  ///< pixels, of a picture larger than the window
   double picture_scale_ = 1.0;
-  bool enlarged_wanted_ = false;
+  bool still_wanted_ = false;
+  int enlarged_in_ = 0;  ///< frames, so that the window says it before; 0: none is wanted
   HudMode hud_mode_ = HudMode::plain;
   std::string hint_;
   double hint_end_ = 0.0;             ///< s
