@@ -29,7 +29,7 @@ enum class Detail : std::uint8_t { full, minimal, off };
 enum class Tone : std::uint8_t { info, warning };
 
 /// One line of the status panel, at the upper left. UTF-8. With an empty label the value begins at the left edge. A
-/// value that would make the panel wider than about half of the picture is broken into up to three lines.
+/// value that would make the panel wider than about half of the picture is broken into up to five lines.
 struct StatusLine {
   std::string label{};
   std::string value{};

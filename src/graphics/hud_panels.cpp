@@ -26,8 +26,8 @@ osg::ref_ptr<osg::Geometry> plate(osg::StateSet* plates, const Rectangle& where,
   return made;
 }
 
-/// A note with its remedy takes two or three lines.
-constexpr std::size_t most_value_lines = 3;
+/// A note with its remedy takes two or three lines, a reason with a place up to five.
+constexpr std::size_t most_value_lines = 5;
 
 float top_of_button(const Page& page) { return page.margin + page.line + std::round(0.6f * page.margin); }
 
@@ -204,7 +204,15 @@ Placed make_message(const Page& page, const std::string& text, Tone tone, std::o
   const float room = std::min(0.3f * page.height, limit - bottom - bar_height - pad);
   if (room < line_height) return {};
   const auto most = static_cast<std::size_t>(room / line_height);
-  if (lines.size() > most) lines.resize(most);
+  // Whole sentences, as many as there is room for; of one that is too long the beginning.
+  for (std::string rest = text; lines.size() > most && rest.find('\n') != std::string::npos;) {
+    rest.resize(rest.rfind('\n'));
+    lines = break_evenly(rest, look, 0.78f * page.right);
+  }
+  if (lines.size() > most) {
+    for (std::size_t i = most; i < lines.size(); ++i) lines[most - 1].append(1, ' ').append(lines[i]);
+    lines.resize(most);
+  }
   float widest = progress ? 16.0f * page.margin : 0.0f;
   for (std::string& line : lines) {
     line = (line.find(' ') == std::string::npos ? shorten_name : shorten)(line, look, 0.9f * page.right);

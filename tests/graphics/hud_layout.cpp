@@ -116,6 +116,18 @@ TEST_P(GraphicsHudLayout, KeepsTheHelpApart) {
   expect_apart(stage, hud, nullptr, width, height);
 }
 
+TEST(GraphicsHudMessage, EndsWithAWholeSentence) {
+  Stage stage(640, 360);
+  Hud hud(stage.frame);
+  const auto height = [&](const std::string& text) {
+    hud.set_message(text);
+    (void)stage.picture(true);
+    return hud.panels().at(0).height;
+  };
+  const std::string one = "a sentence that is so long that it takes more than a line of this window, which is small";
+  EXPECT_FLOAT_EQ(height(one + "\n" + one + "\n" + one + "\n" + one), height(one + "\n" + one));
+}
+
 TEST(GraphicsHudHint, IsBrokenBesideAList) {
   Stage stage(640, 360);
   Hud hud(stage.frame);

@@ -294,6 +294,8 @@ TEST(ViewMissing, TextureIsNotedAndTheRestShown) {
   EXPECT_EQ(view.json()["missing_textures"], 1);
   EXPECT_TRUE(contains(all(view.json()["notes"]), "gone.png")) << view.json()["notes"];
   EXPECT_TRUE(contains(view.result.err, "gone.png"));
+  EXPECT_TRUE(contains(all(view.shot({"--hud", "full"}).json()["hud"]), "1 image is missing; the terminal names them"))
+      << "in one line";
   EXPECT_GT(view.picture().colours(), 8u);
 }
 

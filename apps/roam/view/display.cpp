@@ -41,6 +41,19 @@ std::vector<Triangle> triangles_near(osg::Node& graph, const Body& body, const V
   return near;
 }
 
+/// A note of a scene's report as the window shows it: in one line, if it is of many files.
+std::string shown_of(const std::string& note, const DisplayReport& report) {
+  const auto says = [&](const char* words) { return note.find(words) != std::string::npos; };
+  const std::uint64_t images = report.missing_textures, outside = report.import.outside_references;
+  const std::string names = "; the terminal names them";
+  if (images > 0 && says(" that the scene refers to ") && says(" image")) {
+    return words::counted(images, "image") + (images == 1 ? " is" : " are") + " missing" + names;
+  }
+  // Images outside of the folder are missing images, too.
+  if (outside == 0 || !says(" out of the scene's folder ")) return note;
+  return outside <= images ? "" : words::counted(outside, "file") + " outside of the scene's folder left out" + names;
+}
+
 }  // namespace
 
 Display::Display(Stage& stage, SceneGraph& scene, osgRoam::Manipulator& roamer, News& news, double fov)
@@ -67,8 +80,10 @@ void Display::tell_news() {
   }
   if (!display_told_ && scene_.report()) {
     display_told_ = true;
-    for (const auto& sentence : scene_.report()->notes) news_.note(sentence);
-    for (const auto& sentence : scene_.report()->import.notes) news_.note(sentence);
+    const DisplayReport& report = *scene_.report();
+    for (const auto* notes : {&report.notes, &report.import.notes}) {
+      for (const std::string& sentence : *notes) news_.note(sentence, shown_of(sentence, report));
+    }
   }
   if (scene_.missing_pages() > pages_told_) {
     pages_told_ = scene_.missing_pages();

@@ -12,6 +12,7 @@ namespace roam::app {
 namespace {
 
 constexpr double least_seconds = 6.0;
+constexpr double first_seconds = 12.0;  // of a note with its remedy
 constexpr double letter_seconds = 0.07;  // reading time
 constexpr std::size_t most_items = 4;    // lines shown at a time
 
@@ -46,7 +47,7 @@ std::string News::without_folders(std::string sentence) const {
 /// that does not come first makes room, or else the oldest.
 void News::show(const std::string& sentence, Item item) {
   item.text = printable(without_secrets(sentence), longest_sentence);
-  item.until = now_ + std::max(least_seconds, letter_seconds * static_cast<double>(item.text.size()));
+  item.until = now_ + std::max(item.first ? first_seconds : least_seconds, letter_seconds * static_cast<double>(item.text.size()));
   const auto others = [&] {
     return std::find_if(items_.begin(), items_.end(), [](const Item& one) { return !one.first; });
   };
@@ -54,10 +55,12 @@ void News::show(const std::string& sentence, Item item) {
   items_.insert(item.first ? others() : items_.end(), std::move(item));
 }
 
-void News::note(const std::string& sentence) {
+void News::note(const std::string& sentence, const std::string& shown) {
   const auto led =
       std::find_if(items_.begin(), items_.end(), [&](const Item& one) { return one.first && one.note == sentence; });
-  if (led == items_.end() && !was_noted_before(sentence)) show(without_folders(sentence), {sentence, true});
+  if (led == items_.end() && !was_noted_before(sentence) && !shown.empty()) {
+    show(without_folders(shown), {sentence, true});
+  }
   if (std::find(notes_.begin(), notes_.end(), sentence) != notes_.end()) return;
   notes_.push_back(sentence);
   tell_on_terminal(sentence);

@@ -26,7 +26,9 @@ class News {
   void tell_as_is(const std::string& sentence, bool warning = false);
   /// Shows a warning, tells it on the terminal at once, and keeps it for the report. One of an earlier session is only
   /// kept.
-  void note(const std::string& sentence);
+  void note(const std::string& sentence) { note(sentence, sentence); }
+  /// The same with a shorter sentence for the window; empty: the window shows none.
+  void note(const std::string& sentence, const std::string& shown);
   /// The same, always shown, before all other sentences, with its remedy, which the report leaves out: "U turns it". If the sentence
   /// is shown already, it moves to this place.
   void note_first(const std::string& sentence, const std::string& remedy = {});
