@@ -1,16 +1,85 @@
-// Every vector instruction set, compiler and kind of processor gives the same bits.
+// Every vector instruction set, compiler and kind of processor gives the same bits, and right answers.
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "tests/index/instruction_sets.cpp"
+#include <hwy/foreach_target.h>
+// Must come after foreach_target.h.
+#include <hwy/highway.h>
+
+#include "index/traverse.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace roam::index::HWY_NAMESPACE {
+
+/// The library's own; null if it was built without this instruction set.
+[[gnu::weak]] Impact FirstImpact(const Index& index, const Piece& piece, double until);
+
+/// The instruction set to which calls go; 0 if the library was built without it.
+inline std::int64_t Dispatched() { return &FirstImpact != nullptr ? std::int64_t{HWY_TARGET} : 0; }
+
+}  // namespace roam::index::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
 
 #include <gtest/gtest.h>
-#include <hwy/targets.h>
 
 #include <bit>
-#include <cstdint>
 
 #include "clutter.h"
-#include "roam/walker.h"
+#include "judged_queries.h"
 #include "roam/world.h"
 
+namespace roam::index {
+HWY_EXPORT(Dispatched);
+}
+
 namespace {
+
+/// What the compiler was configured for and this processor has, by the processor's word.
+std::int64_t expected_sets() {
+  std::int64_t sets = HWY_STATIC_TARGET;
+#if defined(__x86_64__)
+  __builtin_cpu_init();
+  const auto has = [&](bool whether, std::int64_t set) { sets |= whether ? set : 0; };
+  has(__builtin_cpu_supports("ssse3"), HWY_SSSE3);
+  has(__builtin_cpu_supports("sse4.2") && __builtin_cpu_supports("aes") && __builtin_cpu_supports("pclmul"), HWY_SSE4);
+  has(__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") && __builtin_cpu_supports("bmi2"), HWY_AVX2);
+  has(__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512dq") &&
+          __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512cd"),
+      HWY_AVX3);
+#elif defined(__aarch64__)
+  sets |= HWY_NEON;
+#endif
+  return sets & HWY_TARGETS;
+}
+
+/// Calls `ask` with each instruction set. Fails if one that the processor has is not tried, or calls go elsewhere.
+template <class Ask>
+void with_each_set(const Ask& ask) {
+  std::int64_t tried = 0;
+  std::string names;
+  for (const std::int64_t set : hwy::SupportedAndGeneratedTargets()) {
+    hwy::SetSupportedTargetsForTest(set);
+    hwy::GetChosenTarget().DeInit();
+    SCOPED_TRACE(hwy::TargetName(set));
+    const std::int64_t dispatched = [] {
+      using namespace roam::index;
+      return HWY_DYNAMIC_DISPATCH(Dispatched)();
+    }();
+    EXPECT_EQ(dispatched, set) << "the library was built without it";
+    ask();
+    if (dispatched == set) tried |= set;
+    names += std::string(names.empty() ? "" : " ") + hwy::TargetName(set);
+    if (testing::Test::HasFatalFailure()) break;
+  }
+  hwy::SetSupportedTargetsForTest(0);
+  hwy::GetChosenTarget().DeInit();
+  std::cout << "tried: " << names << '\n';
+  for (std::int64_t missing = expected_sets() & ~tried; missing != 0; missing &= missing - 1) {
+    ADD_FAILURE() << hwy::TargetName(missing & -missing) << ", which this processor has, was not tried";
+  }
+}
 
 struct Answers {
   std::vector<roam::Impact> sweeps, rays;
@@ -105,13 +174,7 @@ void expect_the_same_bits(bool lossless, std::uint64_t expected) {
   const Answers best = ask(world);
   EXPECT_GT(best.way.size(), 1000U);
   EXPECT_EQ(digest(best), expected);
-  int tried = 0;
-  const auto supported = hwy::SupportedTargets();
-  for (auto left = supported; left != 0; left &= left - 1) {
-    const auto target = left & -left;
-    hwy::SetSupportedTargetsForTest(target);
-    hwy::GetChosenTarget().DeInit();
-    SCOPED_TRACE(hwy::TargetName(target));
+  with_each_set([&] {
     const Answers other = ask(world);
     for (std::size_t q = 0; q < best.sweeps.size(); ++q) {
       const auto &a = best.sweeps[q], &b = other.sweeps[q];
@@ -125,15 +188,48 @@ void expect_the_same_bits(bool lossless, std::uint64_t expected) {
     }
     ASSERT_EQ(digest(best), digest(other));
     ASSERT_EQ(best.way, other.way);
-    ++tried;
-  }
-  hwy::SetSupportedTargetsForTest(0);
-  hwy::GetChosenTarget().DeInit();
-  EXPECT_GT(tried, 0);
+  });
 }
 
 TEST(InstructionSets, GiveTheSameBits) { expect_the_same_bits(false, 18055254882522728647U); }
 
 TEST(InstructionSets, GiveTheSameBitsInALosslessWorld) { expect_the_same_bits(true, 11035967529364366896U); }
 
+/// Sweeps, rays, gaps and a walk, judged by all triangles.
+void judge_by_brute_force(const roam::Mesh& mesh, bool lossless) {
+  const roam::World world = scenes::build(mesh, lossless);
+  const double farthest = lossless ? judged::farthest_lossless : judged::farthest_off;
+  judged::NearJudge near(mesh);
+  clutter::Random random(13);
+  int hits = 0, misses = 0;
+  for (int q = 0; q < 1200; ++q) {
+    const roam::Body body{q % 3 == 0 ? 0.0 : random.between(0.0, 0.4), q % 2 == 0 ? 0.0 : random.between(0.0, 0.8)};
+    const roam::Vec3 from = random.in_box(6.0), motion = random.between(0.0, 4.0) * random.direction();
+    const roam::Impact s = world.sweep(body, from, motion);
+    judged::judge_sweep(s, body, from, motion, farthest, near);
+    judged::judge_gap(world.gap_bound(body, from, 0.1 * motion, 0.5), body, from, 0.1 * motion, 0.5, near);
+    ASSERT_FALSE(testing::Test::HasFatalFailure()) << "query " << q;
+    ++(s.hit ? hits : misses);
+  }
+  EXPECT_GT(hits, 200);
+  EXPECT_GT(misses, 200);
+  const scenes::Judge all(mesh);
+  roam::Walker walker(world, {}, roam::Mode::fly, roam::Vec3(0.0));
+  for (int i = 0; i < 200; ++i) {
+    if (i % 50 == 0) walker.place(random.in_box(5.0));
+    const roam::StepReport& step = walker.step({.velocity = 5.0 * random.direction()}, 1.0 / 60.0);
+    ASSERT_GE(scenes::margin(all, step), 0.0) << "step " << i;
+  }
+}
+
+TEST(InstructionSets, AreEachRightByBruteForce) {
+  clutter::Random random(14);
+  const roam::Mesh mesh = clutter::make(random, {.count = 800, .half = 5.0, .small = 0.05, .large = 3.0});
+  with_each_set([&] {
+    for (const bool lossless : {false, true}) judge_by_brute_force(mesh, lossless);
+  });
+}
+
 }  // namespace
+
+#endif  // HWY_ONCE
