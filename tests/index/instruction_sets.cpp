@@ -75,6 +75,7 @@ void with_each_set(const Ask& ask) {
   }
   hwy::SetSupportedTargetsForTest(0);
   hwy::GetChosenTarget().DeInit();
+  if (testing::Test::HasFatalFailure()) return;
   std::cout << "tried: " << names << '\n';
   for (std::int64_t missing = expected_sets() & ~tried; missing != 0; missing &= missing - 1) {
     ADD_FAILURE() << hwy::TargetName(missing & -missing) << ", which this processor has, was not tried";
