@@ -115,13 +115,16 @@ struct Motion {
   Vec3 motion{0.0};
 };
 
-/// Through the middle of things, in one of four shorter than 0.1 m, or none at all.
+/// Of a motion through a place: all of it, or a short part of its beginning.
+inline Gen<double> part() { return rc::gen::weightedElement<double>({{5, 1.0}, {1, 0x1p-6}, {1, 0x1p-12}, {1, 0.0}}); }
+
+/// From a place within `most` of the middle through one within half of that, and as far beyond.
 inline Gen<Motion> motion(double most) {
   return apply(
-      [](const Body& b, const Vec3& from, const Vec3& to, double part) {
-        return Motion{b, from, part * (to - from)};
+      [](const Body& b, const Vec3& from, const Vec3& by, double some) {
+        return Motion{b, from, 2.0 * some * (by - from)};
       },
-      body(), point(most), point(0.5 * most), rc::gen::sizedElement(1.0, 1.0, 0x1p-6, 1.0, 0x1p-12, 0.0));
+      body(), point(most), point(0.5 * most), part());
 }
 
 struct OneTriangle : Motion {
@@ -204,10 +207,13 @@ template <>
 struct Arbitrary<generated::OneTriangle> {
   static Gen<generated::OneTriangle> arbitrary() {
     return gen::apply(
-        [](const generated::Motion& m, const roam::Triangle& t) {
-          return generated::OneTriangle{m, t};
+        [](const roam::Body& body, const roam::Triangle& t, const roam::Vec3& past, const roam::Vec3& from, double near,
+           double part) {
+          const roam::Vec3 by = 0.5 * (t[0] + t[1]) + past;
+          return generated::OneTriangle{{body, by + near * from, -2.0 * part * near * from}, t};
         },
-        generated::motion(4.0), generated::triangle(2.0));
+        generated::body(), generated::triangle(2.0), generated::point(0.5), generated::point(3.0),
+        gen::element(1.0, 1.0, 1.0, 0x1p-3), generated::part());
   }
 };
 
