@@ -28,15 +28,18 @@ std::ostream& operator<<(std::ostream& out, const Asked& asked) {
   return out;
 }
 
-/// Scenes of 8 m, and queries that shrink to one.
+/// Scenes of 8 m, and motions past corners; both shrink to one.
 rc::Gen<Asked> asked() {
   return rc::gen::apply(
-      [](const Scene& scene, const std::vector<generated::Motion>& motions) {
+      [](const Scene& scene, std::vector<generated::Motion> motions) {
+        for (std::size_t i = 0; i < motions.size() && !scene.triangles.empty(); ++i) {
+          motions[i].from += scene.triangles[i % scene.triangles.size()][0];
+        }
         return Asked{scene, motions};
       },
       generated::scene(4.0, 40),
       rc::gen::scale(0.12,
-                     rc::gen::container<std::vector<generated::Motion>>(rc::gen::scale(8.0, generated::motion(5.0)))));
+                     rc::gen::container<std::vector<generated::Motion>>(rc::gen::scale(8.0, generated::motion(2.0)))));
 }
 
 /// The axis' least distance to all triangles over [0, t] of a motion.
