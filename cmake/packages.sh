@@ -9,11 +9,11 @@ program_packages="g++ cmake ninja-build ccache pkg-config
 device_packages="libsdl2-dev libspnav-dev"  # gamepads and SpaceMice: roam is built without those that are not there
 test_packages="libgtest-dev valgrind xvfb xdotool ffmpeg locales strace gltfpack nginx-light"
 python_packages="python3-numpy"  # what `import roam` needs, and nothing else
-# Checks of man pages, completion, packages, batch engines and the examples in other languages, and fuzzing (libFuzzer):
-# tests without them are skipped.
+# Checks of man pages, completion, packages, batch engines and the examples in other languages, fuzzing (libFuzzer) and
+# properties (RapidCheck): tests without them are skipped.
 tool_packages="dpkg-dev lintian mandoc man-db zsh fish bash-completion desktop-file-utils shared-mime-info libglib2.0-bin
   mono-mcs mkdocs mkdocs-material python3-matplotlib python3-build python3-venv python3-setuptools python3-wheel
-  slurmctld slurmd slurm-client parallel libclang-rt-dev"
+  slurmctld slurmd slurm-client parallel libclang-rt-dev librapidcheck-dev"
 bench_packages="libbullet-dev libembree-dev libfcl-dev libogre-1.12-dev"  # benchmarks do without those that are not there
 
 # missing_of PACKAGE...: those that are not installed.
