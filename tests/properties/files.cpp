@@ -157,12 +157,15 @@ rc::Gen<Value> any_value(int levels) {
 }
 
 TEST(FileProperties, JsonIsReadBack) {
-  generated::check(500, [] {
+  int nested = 0;
+  const int held = generated::check(5000, [&] {
     const Value value = *any_value(5);
     const std::string text = value.json.dump(*rc::gen::element(-1, 2));
     const bool same = roam::files::parse_json(text) == value.json;
     RC_ASSERT(same);
+    nested += value.json.is_structured() && !value.json.empty() && value.json.front().is_structured();
   });
+  EXPECT_GE(nested, held / 20);
 }
 
 }  // namespace

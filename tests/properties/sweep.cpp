@@ -1,5 +1,5 @@
-// The sweep of one triangle, judged in 113 bits; and the same scene told otherwise gets the same answer: moved, turned
-// about z, mirrored, corners reordered, split.
+// The sweep of one triangle, judged in 113 bits; and the same told otherwise gets the same answer: moved, turned about
+// z, mirrored, corners reordered, split, backwards, by halves.
 
 #include <algorithm>
 #include <glm/geometric.hpp>
