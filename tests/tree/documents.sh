@@ -7,11 +7,11 @@
 #   - a relative link leads to a file or folder, and its #anchor to a heading, by GitHub's rules for anchors;
 #   - docs/NAME.md in code, tests and CMake files exists, and so does the heading in: docs/NAME.md, "Heading";
 #   - a test that a document names, `Suite.Test` or `Suite.*`, exists;
-#   - README.md and docs have at most 33,850 words together, docs/guarantees.md 1,500;
+#   - README.md and docs have at most 34,000 words together, docs/guarantees.md 1,500;
 #   - a line has at most 120 columns, without the targets of its links, unless it is code or a table.
 set -euo pipefail
 export LC_ALL=C  # awk counts bytes then, whichever awk it is
-most_words=33850 most_promises=1500
+most_words=34000 most_promises=1500
 
 # documents: their names, one a line.
 documents() {
