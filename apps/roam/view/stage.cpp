@@ -116,9 +116,8 @@ Stage::Stage(const ViewOptions& options, const ViewPlan& plan)
   written_.push_back(options.record.string());
 }
 
-TextureQuality Stage::texture_quality() const {
-  // Software computes each sample separately: ground seen at a flat angle would take minutes a frame.
-  return context_.abilities.software ? TextureQuality{1.0f} : TextureQuality{};
+TextureQuality texture_quality(const graphics::Abilities& abilities) {
+  return abilities.software ? TextureQuality{1.0f} : TextureQuality{};
 }
 
 std::string Stage::quality_note() const {

@@ -36,6 +36,10 @@ struct Picture {
   std::string problem;  ///< why it could not be written; empty: it was
 };
 
+/// What suits a renderer. Software computes each sample separately: ground seen at a flat angle would take minutes a
+/// frame.
+[[nodiscard]] TextureQuality texture_quality(const graphics::Abilities& abilities);
+
 /// Opens a window or an off-screen buffer, and draws there. Call all members from one thread.
 class Stage {
  public:
@@ -47,7 +51,7 @@ class Stage {
   [[nodiscard]] graphics::Hud& hud() { return *hud_; }
   [[nodiscard]] graphics::Overlay& overlay() { return *overlay_; }
   [[nodiscard]] bool headless() const { return context_.headless; }
-  [[nodiscard]] TextureQuality texture_quality() const;
+  [[nodiscard]] TextureQuality texture_quality() const { return app::texture_quality(context_.abilities); }
   /// Says why drawing is not full, if that was not wished: no graphics card, or slow frames. Else empty.
   [[nodiscard]] std::string quality_note() const;
   /// What is not drawn because there is no graphics card; empty: nothing, or the person wants it so.
