@@ -20,6 +20,7 @@
 #include "draw/picture_file.h"
 #include "draw/walk_sheet.h"
 #include "measure/along.h"
+#include "measure/slope.h"
 #include "roam/error.h"
 #include "roam/path_file.h"
 #include "roam/route.h"
@@ -322,6 +323,9 @@ ExitStatus walk(WalkOptions options) {
   if (options.profile) report.profile = options.profile->file.string();
   report.waypoints = path.size();
   report.eye = walker.eye();
+  if (report.result.outcome == Outcome::fell) {
+    report.slope = measure::slope_below(scene.space(), walker.body(), walker.position());
+  }
   if (report.result.blocked_at) {
     // Unknown space has no number in the scene; the report gives the reason instead.
     const TriangleId triangle = report.result.blocked_at->triangle;

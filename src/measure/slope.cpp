@@ -56,4 +56,11 @@ Slope steepest(std::span<const Vec3> way, double over) {
   return slope;
 }
 
+std::optional<double> slope_below(const Space& space, const Body& body, const Vec3& centre) {
+  constexpr double reach = 0.05;  // m
+  const Impact below = space.sweep(body, centre, {0.0, 0.0, -reach});
+  if (!below.hit || below.unknown || below.feature != Feature::face) return std::nullopt;
+  return glm::degrees(std::acos(std::clamp(below.normal.z, 0.0, 1.0)));
+}
+
 }  // namespace roam::measure

@@ -108,6 +108,11 @@ std::string note_on_size(const WalkerSettings& body, const Box& scene) {
       across, body.height, size.x, size.y, size.z);
 }
 
+bool is_too_steep(const std::optional<double>& slope, const WalkerSettings& body) {
+  constexpr double wall = 80.0;  // degrees: the side of a crack
+  return slope && *slope > body.slope_degrees && *slope < wall;
+}
+
 const char* outcome(const EndedWalk& walk) { return walk.interrupted ? "interrupted" : to_string(walk.result.outcome); }
 
 namespace {
@@ -183,6 +188,12 @@ std::string explain(const EndedWalk& walk) {
     case Outcome::fell: {
       const Vec3 from = first(result, EventKind::fell).value_or(result.end);
       const WalkerSettings& s = walk.settings;
+      if (is_too_steep(walk.slope, s)) {
+        return fmt::format(
+            "at {} the ground is too steep to stand on: {:.0f} degrees, more than {:g}; lead the path around it, or "
+            "allow more (--slope)",
+            exactly_at(from), *walk.slope, s.slope_degrees);
+      }
       const bool disc = s.support_radius > s.radius;
       return fmt::format("at {} the ground ends, or has a crack that a {} of {:g} m does not bridge; a larger one may",
                          exactly_at(from), disc ? "support radius" : "radius", disc ? s.support_radius : s.radius);

@@ -24,6 +24,7 @@ struct EndedWalk {
   std::optional<measure::NarrowPlace> narrowest;  ///< none: nowhere were there walls on both sides
   std::string left, right;                        ///< names of the objects there; empty: without a name
   std::optional<measure::LowPlace> lowest;        ///< none: nowhere was there anything above
+  std::optional<double> slope;                    ///< degrees: of the face below a body that fell; none: not known
   std::uint64_t ducked = 0;                       ///< how often the body crouched
   double reach = 0.0;                             ///< m: how far beside the body was measured; 0: not at all
 };
@@ -36,6 +37,9 @@ struct EndedWalk {
 
 /// Whether anything is certified of how near the body came: not of a ghost, nor of one that fitted nowhere.
 [[nodiscard]] bool knows_clearance(const EndedWalk& walk);
+
+/// Whether a body fell because it slid down a face of this slope (degrees), not over an edge.
+[[nodiscard]] bool is_too_steep(const std::optional<double>& slope, const WalkerSettings& body);
 
 /// Says so where the body is larger than all of the scene, which is seldom meant; else nothing.
 [[nodiscard]] std::string note_on_size(const WalkerSettings& body, const Box& scene);

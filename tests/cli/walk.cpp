@@ -1,7 +1,9 @@
 // roam walk as a shell sees it.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
+#include <numbers>
 #include <sstream>
 
 #include "cli_scenes.h"
@@ -136,6 +138,24 @@ TEST(WalkVerb, CrossesAGapThatTheRadiusBridgesAndFallsIntoAWiderOne) {
   EXPECT_EQ(fell.result.status, 3);
   EXPECT_EQ(fell.json()["outcome"], "fell") << fell.result.out;
   EXPECT_EQ(fell.json()["violations"], 0);
+}
+
+TEST(WalkVerb, SaysThatARampIsTooSteepAndAdvisesNoLargerRadius) {
+  const auto why = [](double degrees) {
+    const double foot = -6.0 * std::tan(degrees * std::numbers::pi / 180.0);
+    std::ostringstream scene, path;
+    scene << "v -4 -4 0\nv 0 -4 0\nv 0 4 0\nv -4 4 0\nv 6 -4 " << foot << "\nv 6 4 " << foot << "\nv 16 -4 " << foot
+          << "\nv 16 4 " << foot << "\nf 1 2 3 4\nf 2 5 6 3\nf 5 7 8 6\n";
+    path << "-2 0 0.9\n12 0 " << foot + 0.9 << '\n';
+    const nlohmann::json report = Walk(scene.str(), path.str(), {"--json"}).json();
+    return report["outcome"].get<std::string>() + ": " + report.value("why", "");
+  };
+  EXPECT_TRUE(contains(why(46.0), "fell: at (")) << why(46.0);
+  EXPECT_TRUE(contains(why(46.0), "too steep to stand on: 46 degrees, more than 45; ")) << why(46.0);
+  EXPECT_FALSE(contains(why(46.0), "a larger one may")) << why(46.0);
+  EXPECT_TRUE(contains(why(44.0), "reached")) << why(44.0);
+  // Where the ground ends, the advice is as before.
+  EXPECT_TRUE(contains(why(89.0), "the ground ends, or has a crack")) << why(89.0);
 }
 
 TEST(WalkVerb, SaysThatAPathLeadsOutOfTheScene) {

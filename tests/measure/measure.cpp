@@ -213,6 +213,25 @@ TEST(MeasureSlope, IsThatOfTheSteepestMetreOfAllStretches) {
   EXPECT_NEAR(roam::measure::steepest(std::vector<Vec3>{{0, 0, 0}, {0, 0, 3}}).degrees, 90.0, 1e-9);
 }
 
+TEST(MeasureSlope, BelowABodyIsThatOfTheFaceThatItMeets) {
+  for (const double degrees : {0.0, 30.0, 46.0, 75.0}) {
+    SCOPED_TRACE(degrees);
+    const double slope = degrees * std::numbers::pi / 180.0, down = 10.0 * std::tan(slope);
+    Mesh mesh;
+    scenes::add_quad(mesh, {0, -5, 0}, {10, -5, -down}, {10, 5, -down}, {0, 5, 0});
+    const World world = scenes::build(mesh);
+    const Body body = Body::capsule(0.3, 1.8);
+    const auto below = [&](double x, double gap) {
+      const Vec3 axis = Vec3(x, 0, -x * std::tan(slope)) + 0.3 * Vec3(std::sin(slope), 0, std::cos(slope));
+      return roam::measure::slope_below(world, body, axis + Vec3(0, 0, gap + body.half_height));
+    };
+    ASSERT_TRUE(below(4.0, 0.01));
+    EXPECT_NEAR(*below(4.0, 0.01), degrees, 0.1);
+    EXPECT_FALSE(below(4.0, 0.2));                                                                    // it falls
+    EXPECT_FALSE(roam::measure::slope_below(world, body, {-0.2, 0, 0.3 + body.half_height - 0.05}));  // over the edge
+  }
+}
+
 // Each edge against each other, by positions.
 TEST(MeasureEdges, AreOpenWhereOneTriangleAloneHasThem) {
   for (std::uint64_t seed = 0; seed < 20; ++seed) {

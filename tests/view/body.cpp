@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <numbers>
 #include <sstream>
 
 #include "changing_room.h"
@@ -99,6 +100,18 @@ TEST(Hold, TellsOfAFall) {
     if (hold.told().text != told && !hold.told().text.empty()) told = hold.told().text;
   }
   EXPECT_EQ(told, "fell 4.0 m");
+}
+
+TEST(Hold, TellsOfGroundThatIsTooSteep) {
+  const double foot = 4.0 - 10.0 * std::tan(46.0 * std::numbers::pi / 180.0);
+  const World world = World::build(std::vector<Mesh>{rectangle("ledge", {-5, -5, 4}, {10, 0, 0}, {0, 10, 0}),
+                                                     rectangle("ramp", {5, -5, 4}, {10, 0, foot - 4}, {0, 10, 0})});
+  Walker walker(world, {}, Mode::walk, {4, 0, 4.95});
+  Hold hold;
+  for (int i = 0; i < 420 && !walker.report().has(EventKind::fell); ++i) {
+    hold.take(walker, {1.4, 0, 0}, walker.step({.velocity = {1.4, 0, 0}}, 1.0 / 60.0).elapsed);
+  }
+  EXPECT_EQ(hold.told().text, "fell: the ground is too steep to stand on");
 }
 
 TEST(Hold, TellsWhatASlowedBodyWaitsFor) {

@@ -9,6 +9,7 @@
 
 #include "cli/interrupt.h"
 #include "cli/tell.h"
+#include "measure/slope.h"
 #include "roam/error.h"
 #include "scenes/frame.h"
 #include "text/web_address.h"
@@ -244,6 +245,10 @@ void Arrival::fill(ViewReport& report) {
     report.paging = pager_->stats();
   }
   if (report.result && report.result->blocked_at) name_blockage(report);
+  if (placed_ && report.result && report.result->outcome == Outcome::fell) {
+    const Body body = Body::capsule(report.settings.radius, report.settings.height);
+    report.slope = measure::slope_below(*roamer_.space(), body, report.result->end);
+  }
   if (!loaded_) return;
   append(report.notes, loaded_->report.notes);
   report.meshes = std::move(loaded_->meshes);

@@ -5,8 +5,10 @@
 #include <glm/geometric.hpp>
 
 #include "measure/room.h"
+#include "measure/slope.h"
 #include "roam/opening.h"
 #include "text/printable.h"
+#include "words/walk.h"
 
 namespace roam::app {
 namespace {
@@ -71,7 +73,11 @@ void Hold::note_events(const Walker& walker) {
   for (const Event& event : walker.report().events) {
     switch (event.kind) {
       case EventKind::fell:
-        tell("fell: the ground ends, or has a crack wider than the body bridges", true);
+        tell(words::is_too_steep(measure::slope_below(walker.space(), walker.body(), walker.position()),
+                                 walker.settings())
+                 ? "fell: the ground is too steep to stand on"
+                 : "fell: the ground ends, or has a crack wider than the body bridges",
+             true);
         break;
       case EventKind::landed:
         if (const double drop = level_ - walker.feet().z; drop > walker.fall_limit()) {

@@ -150,6 +150,7 @@ std::string text_report(const ViewReport& report) {
       walk.result = *report.result;
       walk.waypoints = report.waypoints;
       walk.object = report.object;
+      walk.slope = report.slope;
       text += fmt::format("{}: {}\n", to_string(report.result->outcome), words::explain(walk));
     } else {
       text += "ended before the path did\n";

@@ -39,6 +39,7 @@ struct ViewReport {
   std::optional<RouteResult> result;  ///< of a path
   bool path_ended = false;            ///< the path has an outcome; the session did not end before
   std::string object;                 ///< name of the object that blocked the path
+  std::optional<double> slope;        ///< degrees: of the face on which the path ended by a fall; none: not known
   std::size_t waypoints = 0;          ///< number of waypoints of the path
   bool roamed = false;                ///< whether the body came into the scene
   std::optional<Pose> start;          ///< home
