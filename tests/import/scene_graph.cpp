@@ -311,6 +311,10 @@ TEST(ImportSceneGraph, PlacesFoldersRelativeToTheFirstByTheirOrigins) {
   const std::vector<std::filesystem::path> apart{first, elsewhere};
   EXPECT_THROW(static_cast<void>(import_scene(apart)), Error);
   EXPECT_TRUE(notes_contain(import_scene(broken), "holds no SRSOrigin of three numbers"));
+
+  const auto defined = scene_folder("defined", "1", "PROJCS[\"Grid A\",\n GEOGCS[\"G\", DATUM[\"D\"]]]", "1,2,3");
+  EXPECT_TRUE(notes_contain(import_scene(defined), "in 'Grid A' the scene's zero lies at (1, 2, 3)"));
+  EXPECT_TRUE(import_scene(defined).report.georeference->srs.ends_with("DATUM[\"D\"]]]"));
 }
 
 }  // namespace

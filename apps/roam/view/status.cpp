@@ -10,6 +10,7 @@
 
 #include "cli/progress.h"
 #include "text/printable.h"
+#include "text/reference_system.h"
 #include "words/measures.h"
 
 namespace roam::app {
@@ -126,7 +127,7 @@ std::string site_text(const Status& status, const Vec3& point) {
   for (int i = 0; i < 3; ++i) {
     for (int k = 0; k < 3; ++k) site[i] += rows[static_cast<std::size_t>(i)][static_cast<std::size_t>(k)] * point[k];
   }
-  return fmt::format("{:.2f}, {:.2f}, {:.2f}{}{}", site.x, site.y, site.z, srs.empty() ? "" : " ", printable(srs));
+  return fmt::format("{:.2f}, {:.2f}, {:.2f}{}{}", site.x, site.y, site.z, srs.empty() ? "" : " ", reference_name(srs));
 }
 
 std::vector<StatusText> status_lines(const Status& status) {

@@ -15,6 +15,7 @@
 #include "import/reader/osg_files.h"
 #include "import/reader/scene_graph.h"
 #include "roam/error.h"
+#include "text/reference_system.h"
 
 // The layout of ContextCapture, which most photogrammetry programs export:
 // metadata.xml and Data/Tile_*/Tile_*.osgb, each the root of a tree of pages in its own folder.
@@ -109,7 +110,7 @@ void place(const Georeference& georeference, const std::string& folder, const Re
   if (!settings.frame) {
     sink.report_georeference(georeference);
     sink.report_note(fmt::format("{}: coordinates are those of its tiles; in '{}' the scene's zero lies at {}.", folder,
-                                 georeference.srs, origin));
+                                 reference_name(georeference.srs), origin));
     return;
   }
   if (settings.frame->srs != georeference.srs) {
@@ -117,7 +118,7 @@ void place(const Georeference& georeference, const std::string& folder, const Re
         folder,
         fmt::format(
             "its tiles are in the reference system '{}', those before in '{}'; bring them into one system first.",
-            georeference.srs, settings.frame->srs));
+            reference_name(georeference.srs), reference_name(settings.frame->srs)));
   }
   const Vec3 offset = georeference.origin - settings.frame->origin;
   sink.set_offset(offset);

@@ -9,6 +9,7 @@
 
 #include "import/reader/tileset/earth.h"
 #include "roam/error.h"
+#include "text/reference_system.h"
 
 namespace roam::reader {
 namespace {
@@ -69,7 +70,7 @@ EarthPlace place_on_earth(const Json& root, const glm::dmat4& transform, const s
       throw Error(tileset,
                   fmt::format("its tiles have Earth-centred coordinates, and the scene before is in '{}'; bring "
                               "them into one system first.",
-                              settings.frame->srs));
+                              reference_name(settings.frame->srs)));
     }
     result.to_scene = frame->local(glm::dmat4(1.0));
     result.to_scene[3] -= glm::dvec4(settings.frame->origin, 0.0);
