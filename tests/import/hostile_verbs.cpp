@@ -6,6 +6,7 @@
 #include <map>
 #include <sstream>
 
+#include "environment_variable.h"
 #include "hostile_scene.h"
 #include "messages.h"
 #include "program.h"
@@ -121,6 +122,22 @@ TEST_P(ImportHostile, AsksForNoNetworkAndNoName) {
   EXPECT_EQ(asked_by("'" ROAM_PROGRAM "' " + filled_in(GetParam(), scene, folder.file("out"))),
             std::vector<std::string>());
   EXPECT_NE(asked_by("getent hosts example.invalid"), std::vector<std::string>()) << "nothing would be seen";
+}
+
+/// Libraries write what they think of a file to the standard error.
+TEST_P(ImportHostile, KeepsTheComplaintsOfLibrariesFromTheTerminal) {
+  const TestFolder folder;
+  const std::string scene = folder.write("scene.osg", hostile_group({hostile_triangle("0")}));
+  const std::string reader =
+      folder.write("reader",
+                   "#!/bin/sh\ni=0\nwhile [ $i -lt 70 ]; do echo \"Error: complaint $i\" >&2; i=$((i + 1)); done\n"
+                   "exec '" ROAM_READER_PROGRAM "' \"$@\"\n");
+  fs::permissions(reader, fs::perms::owner_all);
+  const EnvironmentVariable takes_it("ROAM_READER", reader);
+  const ProgramResult result =
+      run_program("/bin/sh", {"-c", "exec '" ROAM_PROGRAM "' " + filled_in(GetParam(), scene, folder.file("out"))});
+  EXPECT_LT(result.status, 128) << result.err;
+  EXPECT_FALSE(contains(result.err, "complaint")) << result.err;
 }
 
 INSTANTIATE_TEST_SUITE_P(Verbs, ImportHostile,
