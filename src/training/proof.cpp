@@ -173,7 +173,7 @@ class Proof {
     const double passes = path.largest ? inside_share * *path.largest : training_.radius;
     const double small = crack.radius - support_margin, body = std::min(passes, small);
     if (!(body > 0.0)) return;
-    const double support = crack.radius + support_margin;
+    const double support = std::min(crack.radius + support_margin, layout_.measure.support_max);
     std::vector<Vec3> way = stretch(path.way, crossing.crossing.at, 2.0 * crack.radius + run_up);
     if (!stands_on_floor(survey_, way.front()) || !stands_on_floor(survey_, way.back()) || !over_gap(way, small) ||
         !is_carried(way, support)) {

@@ -295,6 +295,15 @@ TEST(TrainedDisc, IsSaidToCarryWhereTheLargestJustDoes) {
   EXPECT_NEAR(t.smallest, 0.5 * gap, 1e-3) << answer(t);
   EXPECT_DOUBLE_EQ(t.support_radius, 1.0);
   EXPECT_LE(t.least_support, 1.0) << answer(t);
+  EXPECT_TRUE(t.contradictions.empty()) << answer(t);
+  bool tried = false;
+  for (const roam::TrainedPath& path : t.paths) {
+    for (const roam::Trial& trial : path.trials) {
+      EXPECT_LE(trial.support_radius, 1.0);
+      tried = tried || trial.support_radius == 1.0;
+    }
+  }
+  EXPECT_TRUE(tried);
 }
 
 TEST(TrainedDisc, IsSaidToBeForTheCrackOnThePathThatItCarriesOver) {
