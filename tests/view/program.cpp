@@ -184,6 +184,14 @@ TEST(ViewPath, WithoutGroundEndsAsItDoesForWalk) {
   EXPECT_EQ(view.json()["mode"], "walk");
 }
 
+TEST(ViewPath, ThatEndsOnARampThatIsTooSteepSaysSo) {
+  View view(
+      "v -4 -4 0\nv 0 -4 0\nv 0 4 0\nv -4 4 0\nv 6 -4 -6.213\nv 6 4 -6.213\nf 1 2 3 4\nf 2 5 6 3\n");  // 46 degrees
+  view.run({"--headless", "--path", view.folder.write("p.path", "-2 0 0.9\n5 0 -4.3\n")});
+  EXPECT_EQ(view.result.status, 3) << view.result.err;
+  EXPECT_TRUE(contains(view.result.out, "too steep to stand on: 46 degrees")) << view.result.out;
+}
+
 TEST(ViewPath, IsRecordedAndCanBeGoneAgain) {
   View view;
   const std::string path = view.folder.write("p.path", "2 0 0.3\n18 1 0.3\n");
