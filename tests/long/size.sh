@@ -54,6 +54,9 @@ walked() {
   TIMEFORMAT='%R %U %S'
   { time measured ${UNDER:-} "$roam" walk "$1" "${@:3}" --memory 64M --json > "$report" 2> "$work/said"; } \
     2> "$work/time"
+  local status=$?
+  # 3: held, or a violation, which the report has.
+  ((status == 0 || status == 3)) || { complain "$what: status $status: $(tail -1 "$work/said")"; return; }
   read -r real user system < "$work/time"
   echo "$what: $(number outcome "$report"), $(number length_m "$report") m in $(number simulated_s "$report") simulated" \
     "s, $(number steps "$report") steps; step ns median $(number median "$report"), p99 $(number p99 "$report"), max" \
