@@ -91,9 +91,7 @@ void PlanPanel::set_lines(const PlanLines& lines) {
   show_only(*lines_, {strokes(lines.below, GL_LINES, below), strokes(lines.walls, GL_LINES, wall)});
 }
 
-void PlanPanel::set_trail(const std::vector<glm::vec2>& trail) {
-  show_only(*trail_, {strokes(trail, GL_LINES, blue)});
-}
+void PlanPanel::set_trail(const std::vector<glm::vec2>& trail) { show_only(*trail_, {strokes(trail, GL_LINES, blue)}); }
 
 void PlanPanel::set_places(const std::vector<PlanPlace>& places) {
   if (places == places_) return;

@@ -51,6 +51,16 @@ void add(Sums& sums, const Triangle& t, const Box& box) {
   }
 }
 
+Sums sums_of(std::span<const Mesh> meshes) {
+  Box box;
+  for (const Mesh& mesh : meshes) box.include(box_around(mesh.vertices));
+  Sums sums;
+  for (const Mesh& mesh : meshes) {
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) add(sums, mesh.triangle(i), box);
+  }
+  return sums;
+}
+
 /// 1 if plus the axis is up, -1 if minus, 0 if unclear.
 int sign_along(const Sums& sums, std::size_t axis) {
   const double facing = sums.normal[axis] / sums.area;
@@ -72,12 +82,7 @@ bool states_up(const std::filesystem::path& path) {
 
 std::optional<UpAxis> likely_up(std::span<const Mesh> meshes) {
   const DefaultFloatingPoint guard;
-  Box box;
-  for (const Mesh& mesh : meshes) box.include(box_around(mesh.vertices));
-  Sums sums;
-  for (const Mesh& mesh : meshes) {
-    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) add(sums, mesh.triangle(i), box);
-  }
+  const Sums sums = sums_of(meshes);
   const std::size_t axis = sums.square[1] > sums.square[0] ? 1 : 0;
   const double likely = sums.square[axis], other = sums.square[1 - axis], present = sums.square[2];
   const bool clear = likely >= more * std::max(other, present) &&
@@ -87,6 +92,14 @@ std::optional<UpAxis> likely_up(std::span<const Mesh> meshes) {
   if (sign == 0) return std::nullopt;
   if (axis == 0) return sign > 0 ? UpAxis::x : UpAxis::minus_x;
   return sign > 0 ? UpAxis::y : UpAxis::minus_y;
+}
+
+bool stands_upright(std::span<const Mesh> meshes) {
+  const DefaultFloatingPoint guard;
+  const Sums sums = sums_of(meshes);
+  const auto [x, y, z] = sums.square;
+  return z >= more * std::max(x, y) && std::min(x, y) >= alike * std::max(x, y) && x + y >= curved * sums.area &&
+         sums.area > 0.0 && sign_along(sums, 2) >= 0;
 }
 
 }  // namespace roam

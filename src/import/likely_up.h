@@ -26,4 +26,7 @@ namespace roam {
 /// -z is never returned. Reads each triangle once, in about 10 ns.
 [[nodiscard]] std::optional<UpAxis> likely_up(std::span<const Mesh> meshes);
 
+/// Whether most of a surface that is read with z up is square to z, by the measures of likely_up: it stands right.
+[[nodiscard]] bool stands_upright(std::span<const Mesh> meshes);
+
 }  // namespace roam

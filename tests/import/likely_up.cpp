@@ -74,6 +74,17 @@ TEST(LikelyUp, IsTheAxisOfFloorsAndThings) {
   }
 }
 
+TEST(LikelyUp, IsNotDoubtedOfWhatStandsUpright) {
+  for (const Mesh& mesh : {room({8, 6, 2.5}), hills()}) {
+    for (const UpAxis up : {UpAxis::x, UpAxis::y, UpAxis::z, UpAxis::minus_y, UpAxis::minus_z}) {
+      Mesh turned = mesh;
+      for (Vec3& v : turned.vertices) v = in_file(up, v);
+      EXPECT_EQ(stands_upright({&turned, 1}), up == UpAxis::z) << to_string(up);
+    }
+  }
+  EXPECT_FALSE(stands_upright({}));
+}
+
 TEST(LikelyUp, IsNotSaidWithoutReason) {
   for (const UpAxis up : {UpAxis::y, UpAxis::z}) {
     EXPECT_FALSE(verdict(room({8, 6, 2.5}, false), up)) << "which end is the floor?";

@@ -74,6 +74,23 @@ TEST(ViewNews, AreShownUntilTheyAreReadAndKeptOnce) {
   EXPECT_EQ(news.shown().size(), 4u) << "no more lines than fit";
 }
 
+TEST(ViewNews, TellTheTerminalEachNoteAtOnceAndOnce) {
+  testing::internal::CaptureStderr();
+  News news({}, {"said before"});
+  news.note("careful");
+  news.note("careful");
+  news.note_first("careful", "U turns it");
+  news.note("said before");
+  news.note("7 files: a, b, c", "7 files");
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "roam: note: careful\nroam: note: 7 files: a, b, c\n");
+  EXPECT_EQ(news.notes().size(), 3u);
+  ASSERT_EQ(news.shown().size(), 2u) << "what an earlier session said is not shown again";
+  EXPECT_EQ(news.shown()[0].text, "careful; U turns it");
+  EXPECT_EQ(news.shown()[1].text, "7 files");
+  news.set_time(10.0);
+  ASSERT_EQ(news.shown().size(), 1u) << "a remedy stays longer";
+}
+
 TEST(ViewNews, ShowTheFrameBeforeWhatIsMissing) {
   News news({"/scenes/mine.dae"});
   news.note("/scenes/mine.dae states its unit.");

@@ -113,7 +113,13 @@ void Arrival::note_frame() {
   for (const std::string& note : loaded_->report.notes) {
     const bool of_unit = note.find("--unit ") != std::string::npos;
     if (of_unit && stated_unit()) news_.note_first(note, remedy("unit", "applies it"));
-    if (!of_unit && note.find("--up=") != std::string::npos) news_.note_first(note, turns);
+    if (of_unit || note.find("--up=") == std::string::npos) continue;
+    // What a file states is of no use to a person who sees the scene stand right.
+    if (loaded_->is_upright) {
+      news_.keep_for_report(note);
+    } else {
+      news_.note_first(note, turns);
+    }
   }
   if (const auto up = loaded_->likely_up) news_.note_first(words::likely_up(scene_names_, *up), turns);
   if (loaded_->doubted_ceilings) {

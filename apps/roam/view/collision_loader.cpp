@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "import/likely_up.h"
 #include "roam/error.h"
 #include "roam/wander.h"
 #include "scenes/arrivals.h"
@@ -118,6 +119,7 @@ void CollisionLoader::load_scene() {
   for (const Mesh& mesh : scene.meshes) loaded.objects.push_back(mesh.name);
   loaded.report = std::move(scene.report);
   loaded.likely_up = doubted_up(options, scene.meshes);
+  loaded.is_upright = stands_upright(scene.meshes);
   loaded.doubted_ceilings =
       doubted_ceilings(options, loaded.report, loaded.likely_up, *loaded.world, floor_samples(scene.meshes));
   loaded.identity = identity_of(scene.meshes);

@@ -30,6 +30,7 @@ struct Collision {
   SceneIdentity identity;            ///< of the scene or the store
   ImportReport report;
   std::optional<UpAxis> likely_up;         ///< see doubted_up
+  bool is_upright = false;                 ///< see stands_upright
   std::optional<double> doubted_ceilings;  ///< see there
   std::optional<StartPlace> start;         ///< set if the wish has no position
 };

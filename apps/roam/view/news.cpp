@@ -12,7 +12,7 @@ namespace roam::app {
 namespace {
 
 constexpr double least_seconds = 6.0;
-constexpr double first_seconds = 12.0;  // of a note with its remedy
+constexpr double first_seconds = 12.0;   // of a note with its remedy
 constexpr double letter_seconds = 0.07;  // reading time
 constexpr std::size_t most_items = 4;    // lines shown at a time
 
@@ -47,7 +47,8 @@ std::string News::without_folders(std::string sentence) const {
 /// that does not come first makes room, or else the oldest.
 void News::show(const std::string& sentence, Item item) {
   item.text = printable(without_secrets(sentence), longest_sentence);
-  item.until = now_ + std::max(item.first ? first_seconds : least_seconds, letter_seconds * static_cast<double>(item.text.size()));
+  item.until = now_ + std::max(item.first ? first_seconds : least_seconds,
+                               letter_seconds * static_cast<double>(item.text.size()));
   const auto others = [&] {
     return std::find_if(items_.begin(), items_.end(), [](const Item& one) { return !one.first; });
   };
@@ -87,6 +88,12 @@ void News::note_first(const std::string& sentence, const std::string& remedy) {
     tell_on_terminal(sentence);
   }
   notes_.insert(notes_.begin() + first_notes_++, sentence);
+}
+
+void News::keep_for_report(const std::string& sentence) {
+  note(sentence, {});
+  std::erase_if(items_, [&](const Item& one) { return one.note == sentence; });
+  before_.push_back(sentence);
 }
 
 void News::written(const std::filesystem::path& file) {

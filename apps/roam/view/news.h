@@ -29,9 +29,11 @@ class News {
   void note(const std::string& sentence) { note(sentence, sentence); }
   /// The same with a shorter sentence for the window; empty: the window shows none.
   void note(const std::string& sentence, const std::string& shown);
-  /// The same, always shown, before all other sentences, with its remedy, which the report leaves out: "U turns it". If the sentence
-  /// is shown already, it moves to this place.
+  /// The same, always shown, before all other sentences, with its remedy, which the report leaves out: "U turns it". If
+  /// the sentence is shown already, it moves to this place.
   void note_first(const std::string& sentence, const std::string& remedy = {});
+  /// Keeps a note for the report, and shows it no longer, nor later.
+  void keep_for_report(const std::string& sentence);
   /// Shows that a file was written, with its absolute path, and keeps its name for the report.
   void written(const std::filesystem::path& file);
 

@@ -78,7 +78,7 @@ struct ViewPlan {
   int film_rate = 30;          ///< pictures a second
   std::vector<Waypoint> path;  ///< of --path; make_plan leaves it empty
   std::optional<Pose> at;
-  std::string note;  ///< a sentence for the person; may be empty
+  std::string note;                ///< a sentence for the person; may be empty
   std::vector<std::string> noted;  ///< in earlier sessions
 };
 
