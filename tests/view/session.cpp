@@ -255,6 +255,32 @@ TEST(Session, TakesEachPressOfAFrame) {
   EXPECT_TRUE(contains(hud, "bookmark 2") && contains(hud, "Name of the bookmark")) << hud;
 }
 
+TEST(Session, ShowsNothingOfTheLoadingWithTheBody) {
+  Driven d(room_obj(), {10, 1, 0.95, 0});
+  EXPECT_FALSE(contains(d.session->stage().hud().text(), "oading")) << "it would be in a film";
+}
+
+TEST(Session, ReplacesABookmarkOfTheSameNameIfItIsSaidTwice) {
+  Driven d(room_obj(), {10, 1, 0.95, 0});
+  d.tap('b');
+  d.tap('b');
+  d.session->run("name_bookmark");
+  d.tap('1');
+  d.tap(osgGA::GUIEventAdapter::KEY_Return);
+  EXPECT_TRUE(contains(d.hud(), "Enter replaces it. Name: 1_")) << d.hud();
+  d.tap(osgGA::GUIEventAdapter::KEY_Escape);
+  d.tap(osgGA::GUIEventAdapter::KEY_Tab);
+  EXPECT_TRUE(contains(d.hud(), "of 2)")) << "nothing has changed: " << d.hud();
+  d.tap(osgGA::GUIEventAdapter::KEY_Tab);
+  ASSERT_TRUE(contains(d.hud(), "bookmark 2 (2 of 2)")) << d.hud();
+  d.session->run("name_bookmark");
+  d.tap('1');
+  d.tap(osgGA::GUIEventAdapter::KEY_Return);
+  d.tap(osgGA::GUIEventAdapter::KEY_Return);
+  d.tap(osgGA::GUIEventAdapter::KEY_Tab);
+  EXPECT_TRUE(contains(d.hud(), "bookmark 1 (1 of 1)")) << d.hud();
+}
+
 TEST(Session, NamesABookmarkByTyping) {
   Driven d(room_obj(), {10, 1, 0.95, 0});
   d.session->run("name_bookmark");

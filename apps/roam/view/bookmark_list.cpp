@@ -17,15 +17,26 @@ graphics::HudList BookmarkList::head() {
   rows_.clear();
   for (std::size_t i = 0; i < names.size(); ++i) rows_.push_back({printable(names[i]), std::to_string(i)});
   const std::string key = key_of(roamer_.controls(), "bookmark");
-  return {fmt::format("Bookmarks: {}", names.size()), (key.empty() ? key : key + ": ") + "keep this place", {}};
+  const char* const deletes = names.empty() ? "" : "   right click: deletes";
+  return {
+      fmt::format("Bookmarks: {}{}", names.size(), deletes), (key.empty() ? key : key + ": ") + "keep this place", {}};
 }
 
 void BookmarkList::click(const std::string& part) {
   if (part == graphics::Hud::list_search) return records_.add_bookmark();
+  if (const std::string name = name_of(part); !name.empty()) records_.go_to_bookmark(name);
+}
+
+void BookmarkList::click_right(const std::string& part) {
+  if (const std::string name = name_of(part); !name.empty()) records_.remove_bookmark(name);
+}
+
+/// Of a row; empty: none.
+std::string BookmarkList::name_of(const std::string& part) const {
   const std::vector<std::string> names = records_.bookmark_names();
   std::size_t row = names.size();
   std::from_chars(part.data(), part.data() + part.size(), row);
-  if (row < names.size()) records_.go_to_bookmark(names[row]);
+  return row < names.size() ? names[row] : std::string();
 }
 
 }  // namespace roam::app

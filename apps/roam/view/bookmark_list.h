@@ -10,7 +10,8 @@
 
 namespace roam::app {
 
-/// A click on a bookmark leads the body there; one on the field above keeps a new one.
+/// A click on a bookmark leads the body there; one with the right button deletes it; one on the field
+/// above keeps a new one.
 class BookmarkList : public ListPanel {
  public:
   BookmarkList(Stage& stage, const osgRoam::Manipulator& roamer, Records& records)
@@ -23,10 +24,12 @@ class BookmarkList : public ListPanel {
   ~BookmarkList() override = default;
   [[nodiscard]] graphics::HudList head() override;
   void click(const std::string& part) override;
+  void click_right(const std::string& part) override;
 
  private:
   const osgRoam::Manipulator& roamer_;
   Records& records_;
+  [[nodiscard]] std::string name_of(const std::string& part) const;
 };
 
 }  // namespace roam::app

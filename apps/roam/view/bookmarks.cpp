@@ -191,4 +191,18 @@ void Bookmarks::rename(const std::string& name) {
   find(name);
 }
 
+bool Bookmarks::is_taken(const std::string& name) const {
+  const auto is_other = [&](const Bookmark& b) { return b.name == name && &b != present(); };
+  return std::any_of(bookmarks_.begin(), bookmarks_.end(), is_other);
+}
+
+void Bookmarks::remove(const std::string& name) {
+  const std::string before = present_ ? bookmarks_[*present_].name : name;
+  change([&](std::vector<Bookmark>& bookmarks) {
+    std::erase_if(bookmarks, [&](const Bookmark& b) { return b.name == name; });
+  });
+  present_.reset();
+  if (before != name) find(before);
+}
+
 }  // namespace roam::app

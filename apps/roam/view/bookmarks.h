@@ -25,7 +25,8 @@ struct Bookmark {
 ///       "bookmarks": [{"name": "shaft", "position": [1, 2, 3], "yaw": 90, "pitch": 0}]}]
 ///
 /// Absolute paths identify a scene, together with its frame, which its positions are of. An empty "up" is the axis that
-/// is up without --up. Only add() and rename() write the file, as a whole: a reader sees the old or the new one.
+/// is up without --up. Only add(), rename() and remove() write the file, as a whole: a reader sees the old or the new
+/// one.
 class Bookmarks {
  public:
   /// Reads the file; a missing file has no bookmarks. `usual`: the frame without options. Throws roam::Error if the
@@ -53,6 +54,10 @@ class Bookmarks {
   /// Gives the present bookmark another name, and writes the file. Throws roam::Error if another has that name, or if
   /// the file cannot be written; nothing changes then.
   void rename(const std::string& name);
+  /// Whether another bookmark than the present one has that name.
+  [[nodiscard]] bool is_taken(const std::string& name) const;
+  /// Deletes the bookmark of that name, and writes the file. Throws roam::Error if that fails; nothing changes then.
+  void remove(const std::string& name);
 
  private:
   void change(const std::function<void(std::vector<Bookmark>&)>& edit);

@@ -42,7 +42,11 @@ bool ListPanel::handle(const Adapter& event, osgGA::GUIActionAdapter& /*action*/
     case Adapter::DOUBLECLICK:
       if (!here || event.getButton() == 0) return here;
       is_down_ = true;
-      click(hud.list_at(x, y));
+      if (event.getButton() == Adapter::RIGHT_MOUSE_BUTTON) {
+        click_right(hud.list_at(x, y));
+      } else {
+        click(hud.list_at(x, y));
+      }
       return true;
     case Adapter::DRAG:
       return is_down_;

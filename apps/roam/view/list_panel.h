@@ -38,6 +38,12 @@ class ListPanel : public osgGA::GUIEventHandler {
   /// A click on a row, its arrow, or Hud::list_search, by name.
   virtual void click(const std::string& part) = 0;
 
+  /// The same with the right button.
+  virtual void click_right(const std::string& part) { click(part); }
+  /// Whether the person types for the list.
+  [[nodiscard]] bool takes_keys() const { return shown_ && !roamer_.mouseGrab() && !stage_.hud().help_shown(); }
+  void hint(const std::string& text) { stage_.hint(text, 4.0); }
+
   std::vector<graphics::ListRow> rows_;  ///< all of them
 
  private:

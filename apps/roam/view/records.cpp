@@ -71,13 +71,33 @@ void Records::ask_name(Prompt& prompt) {
   }
   // The number that stands for a name is none to begin with.
   const bool is_number = present->name.find_first_not_of("0123456789") == std::string::npos;
-  prompt.ask("Name of the bookmark", is_number ? "" : present->name, [this](const std::string& text) {
+  ask_name(prompt, "Name of the bookmark", is_number ? "" : present->name, {});
+}
+
+/// `replaced`: the name of another bookmark, which the same answer replaces.
+void Records::ask_name(Prompt& prompt, const std::string& question, const std::string& text,
+                       const std::string& replaced) {
+  prompt.ask(question, text, [this, &prompt, replaced](const std::string& typed) {
+    const std::string name = typed;  // the prompt's, which another question changes
     try {
-      name_bookmark(text);
+      if (bookmarks_->is_taken(name)) {
+        if (name != replaced) {
+          ask_name(prompt, "Another bookmark has this name, Enter replaces it. Name", name, name);
+          return;
+        }
+        bookmarks_->remove(name);
+      }
+      name_bookmark(name);
     } catch (const Error& error) {
       news_.note(error.what());
     }
   });
+}
+
+void Records::remove_bookmark(const std::string& name) {
+  if (!bookmarks_) throw Error(*problem_);
+  bookmarks_->remove(name);
+  news_.tell("bookmark " + name + " is deleted");
 }
 
 std::vector<std::string> Records::bookmark_names() const {

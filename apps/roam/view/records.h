@@ -36,11 +36,13 @@ class Records {
   void add_bookmark();
   /// Gives the bookmark that was kept or visited last another name. Throws roam::Error on failure.
   void name_bookmark(const std::string& name);
-  /// The same with a name that the person types. Errors become news.
+  /// The same with a name that the person types, who may replace another bookmark of that name. Errors become news.
   void ask_name(Prompt& prompt);
   /// All bookmarks, seen from above.
   [[nodiscard]] std::vector<graphics::PlanPlace> places() const;
   [[nodiscard]] std::vector<std::string> bookmark_names() const;
+  /// Throws roam::Error on failure.
+  void remove_bookmark(const std::string& name);
   /// Puts the body at the bookmark of that name, if there is one.
   void go_to_bookmark(const std::string& name);
   /// Puts the body at the next bookmark, or the previous one; at first, at the first or the last.
@@ -61,6 +63,7 @@ class Records {
 
  private:
   void go_to_present();
+  void ask_name(Prompt& prompt, const std::string& question, const std::string& text, const std::string& replaced);
 
   osgRoam::Manipulator& roamer_;
   News& news_;
