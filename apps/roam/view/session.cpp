@@ -91,7 +91,8 @@ Session::Session(const ViewOptions& options, const ViewPlan& plan, const ViewSet
   stage_.viewer().setKeyEventSetsDone(0);
   show_keys();
   stage_.hold_film(options_.turntable.has_value());
-  if (!stage_.headless() && plan_.path.empty() && !options_.turntable) stage_.hint(first_hint(roamer_->controls()));
+  const bool led = stage_.headless() || !plan_.path.empty() || options_.turntable;
+  if (!led && options_.record.empty()) stage_.hint(first_hint(roamer_->controls()));
 }
 
 Session::~Session() {
@@ -152,6 +153,7 @@ void Session::enter() {
   bookmark_list_->add_to(commands_, *layers_);
   tools_->add_to(commands_);
   arrival_.enter();
+  display_.hurry();  // no film begins with the loading
   show_keys();
   stage_.end_hint(hint_seconds);
   if (const std::string note = stage_.plainness(); !note.empty()) news_.note(note);

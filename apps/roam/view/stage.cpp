@@ -55,7 +55,9 @@ graphics::Context open(const ViewOptions& options, const ViewPlan& plan) {
     height = scaled(height);
   }
   if (options.headless) return graphics::open_headless(width, height);
-  return graphics::open_window("roam: " + options.scene.names(), width, height);
+  // A mark in the picture would be in the film.
+  const std::string film = options.record.empty() ? "" : "recording " + options.record.filename().string() + ": ";
+  return graphics::open_window("roam: " + film + options.scene.names(), width, height);
 }
 
 graphics::Quality quality(const std::string& name, const graphics::Context& context) {
