@@ -62,6 +62,7 @@ struct ListRow {
   bool is_open = false;
   int depth = 0;  ///< steps to the right
   Box box = Box::none;
+  bool ends_with_ellipsis = false;  ///< where it is too long, it is shortened at its end
   bool operator==(const ListRow&) const = default;
 };
 

@@ -80,7 +80,8 @@ Clickable make_list(const Page& page, const HudList& list, const std::string& fo
       }
       x += side + std::round(0.5f * letter);
     }
-    group->addChild(make_text(shorten_name(row.text, look, right - x), look, x, y + rise));
+    const auto& cut = row.ends_with_ellipsis ? shorten : shorten_name;
+    group->addChild(make_text(cut(row.text, look, right - x), look, x, y + rise));
     if (!row.name.empty()) made.targets.push_back({whole, row.name});
   }
   return made;

@@ -2,6 +2,7 @@
 #include "view/layers.h"
 
 #include <algorithm>
+#include <glm/geometric.hpp>
 #include <osg/Geometry>
 #include <osg/NodeVisitor>
 #include <sstream>
@@ -52,16 +53,16 @@ class Layered : public view_stores::Driven {
     ADD_FAILURE() << text << " is not to be seen";
   }
   /// Clicks the part of the list with this name.
-  void click_part(const std::string& name) {
+  void click_part(const std::string& name, unsigned button = 1) {
     run(0.1);
     session->stage().draw();
     constexpr double x = 0.9;
     for (double y = 1.0; y > -1.0; y -= 0.005) {
-      if (session->stage().hud().list_at(x, y) == name) return press_at(x, y - 0.01);
+      if (session->stage().hud().list_at(x, y) == name) return press_at(x, y - 0.01, button);
     }
     ADD_FAILURE() << name << " is not to be seen";
   }
-  void press_at(double x, double y) {
+  void press_at(double x, double y, unsigned button = 1) {
     const osgGA::GUIEventAdapter& now = *events().getCurrentEventState();
     const bool upwards = now.getMouseYOrientation() == osgGA::GUIEventAdapter::Y_INCREASING_UPWARDS;
     const auto place = [](double share, float least, float most) {
@@ -69,16 +70,16 @@ class Layered : public view_stores::Driven {
     };
     const float across = place(x, now.getXmin(), now.getXmax());
     const float up = place(upwards ? y : -y, now.getYmin(), now.getYmax());
-    events().mouseButtonPress(across, up, 1);
-    events().mouseButtonRelease(across, up, 1);
+    events().mouseButtonPress(across, up, button);
+    events().mouseButtonRelease(across, up, button);
     run(1.0 / 60.0);
   }
   void show_list() { session->run("layers"); }
   /// Walks ahead for some seconds.
   void walk(double seconds) {
-    press('w');
+    press(osgGA::GUIEventAdapter::KEY_Up);  // letters are for the list
     run(seconds);
-    release('w');
+    release(osgGA::GUIEventAdapter::KEY_Up);
     run(0.5);
   }
   /// The triangles that are drawn.
@@ -267,6 +268,54 @@ TEST(Layers, AreSearched) {
   EXPECT_FALSE(contains(d.hud(), "Objects: ")) << d.hud();
 }
 
+TEST(Layers, AreSearchedByTyping) {
+  Layered d;
+  const Vec3 before = d.place();
+  d.show_list();
+  for (const char c : std::string("wri")) d.tap(c);
+  EXPECT_FALSE(contains(d.hud(), "right")) << d.hud();
+  EXPECT_TRUE(contains(d.hud(), "show all")) << d.hud();
+  for (int i = 0; i < 2; ++i) d.tap(osgGA::GUIEventAdapter::KEY_BackSpace);
+  d.tap(osgGA::GUIEventAdapter::KEY_BackSpace);
+  for (const char c : std::string("ri")) d.tap(c);
+  EXPECT_TRUE(contains(d.hud(), "[x] right")) << "at each letter: " << d.hud();
+  EXPECT_FALSE(contains(d.hud(), "left")) << d.hud();
+  d.run(0.5);
+  EXPECT_LT(glm::distance(d.place(), before), 1e-6) << "the letters move nobody";
+  d.tap(osgGA::GUIEventAdapter::KEY_Escape);
+  EXPECT_FALSE(contains(d.hud(), "Objects: ")) << d.hud();
+  d.press('w');
+  d.run(1.0);
+  EXPECT_GT(glm::distance(d.place(), before), 0.5) << "without the list they do";
+}
+
+TEST(Layers, AreNamedWithoutTheIdentifiersOfIfc) {
+  std::string obj = room_obj();
+  for (const char* name :
+       {"Roof_0YvctVUKr0kugbFTf53O9L", "Wall_1YvctVUKr0kugbFTf53O9L", "Wall_2YvctVUKr0kugbFTf53O9L"}) {
+    obj += std::string("o ") + name + "\nf 1 2 3\n";
+  }
+  view_stores::Driven d;
+  d.write_scene(obj);
+  d.options.size = "640x360";
+  d.options.at = {10, 0, 0.95, 0};
+  d.begin();
+  d.session->run("layers");
+  EXPECT_TRUE(contains(d.hud(), "[x] Roof\n")) << d.hud();
+  EXPECT_TRUE(contains(d.hud(), "[x] Wall_1YvctVUKr0kugbFTf53O9L\n")) << "it is not the only wall: " << d.hud();
+}
+
+TEST(Layers, OfSeveralScenesAreBelowTheirFiles) {
+  view_stores::Driven d;
+  d.write_scene();
+  d.options.scene.scenes.emplace_back(d.folder.write("shelf.obj", "v 1 0 0\nv 2 0 0\nv 2 1 0\no shelf\nf 1 2 3\n"));
+  d.options.size = "640x360";
+  d.options.at = {10, 0, 0.95, 0};
+  d.begin();
+  d.session->run("layers");
+  EXPECT_TRUE(contains(d.hud(), "[x] scene.obj (6)\n[x] shelf.obj (1)\n")) << d.hud();
+}
+
 TEST(Layers, AreScrolled) {
   std::string obj = room_obj();
   for (int i = 0; i < 100; ++i) obj += "o shelf_" + std::to_string(100 + i) + "\nf 1 2 3\n";
@@ -302,6 +351,9 @@ TEST(BookmarkList, LeadsToWhatIsClicked) {
   ASSERT_GT(d.place().x, 12.0);
   d.click_part("0");
   EXPECT_NEAR(d.place().x, 10.0, 1e-3);
+  EXPECT_TRUE(contains(d.hud(), "right click: deletes")) << d.hud();
+  d.click_part("0", 3);
+  EXPECT_TRUE(contains(d.hud(), "bookmark 1 is deleted") && contains(d.hud(), "Bookmarks: 0")) << d.hud();
   d.show_list();
   EXPECT_TRUE(contains(d.hud(), "Objects: 6")) << d.hud();
   EXPECT_FALSE(contains(d.hud(), "Bookmarks: ")) << "one list at a time";

@@ -8,6 +8,17 @@
 #include "view/store_triangles.h"
 
 namespace roam::app {
+namespace {
+
+/// Of several scenes, each one's objects are a group with the name of its file. The names in pages are not known yet.
+void put_below_file(DisplayPart& part, const std::vector<std::filesystem::path>& scenes) {
+  if (scenes.size() < 2 || part.source >= scenes.size() || !part.pages.empty()) return;
+  const std::filesystem::path& file = scenes[part.source];
+  const std::string group = (file.has_filename() ? file : file.parent_path()).filename().string();
+  for (std::string& name : part.objects) name.insert(0, group + DisplayPart::name_separator);
+}
+
+}  // namespace
 
 DisplayLoader::DisplayLoader(const SceneOptions& scene, const TextureQuality& quality,
                              std::shared_ptr<SceneObjects> objects, const PageSettings& pages)
@@ -50,7 +61,10 @@ void DisplayLoader::load_scene() {
     loading_.with_state([&](LoadState& state) { state.share = std::min(share, 1.0); });
     return loading_.wanted();
   };
-  finish(read_display(scene_.scenes, options, [this](DisplayPart&& part) { return receive(part); }));
+  finish(read_display(scene_.scenes, options, [this](DisplayPart&& part) {
+    put_below_file(part, scene_.scenes);
+    return receive(part);
+  }));
 }
 
 void DisplayLoader::load_store() {

@@ -11,19 +11,17 @@
 #include "view/commands.h"
 #include "view/hidden_space.h"
 #include "view/list_panel.h"
-#include "view/prompt.h"
 #include "view/scene_graph.h"
 
 namespace roam::app {
 
-/// A list with boxes for the mouse, which scrolls and can be searched. What is hidden is not drawn, and clicks do not
-/// find it; HiddenSpace decides whether the body meets it.
+/// A list with boxes for the mouse, which scrolls. What is typed searches it. What is hidden is not drawn, and clicks
+/// do not find it; HiddenSpace decides whether the body meets it.
 ///
 /// Call all members from the thread that draws, between two frames.
 class Layers : public ListPanel {
  public:
-  Layers(Stage& stage, SceneGraph& scene, HiddenSpace& hidden, const osgRoam::Manipulator& roamer, Prompt& prompt,
-         News& news);
+  Layers(Stage& stage, SceneGraph& scene, HiddenSpace& hidden, const osgRoam::Manipulator& roamer, News& news);
 
   /// Adds "layers", which shows or hides the list in place of `other`.
   void add_to(Commands& commands, ListPanel& other);
@@ -32,6 +30,9 @@ class Layers : public ListPanel {
   /// Notes for the report, before it is made, the patterns that have matched no name.
   void finish() { note_vain_patterns(true); }
 
+  using ListPanel::handle;
+  bool handle(const osgGA::GUIEventAdapter& event, osgGA::GUIActionAdapter& action) override;
+
  protected:
   ~Layers() override = default;
   [[nodiscard]] graphics::HudList head() override;
@@ -39,11 +40,11 @@ class Layers : public ListPanel {
 
  private:
   void note_vain_patterns(bool at_end);
-  void search();
+  void end_search();
+  bool type(int key);
 
   SceneGraph& scene_;
   HiddenSpace& hidden_;
-  Prompt& prompt_;
   News& news_;
   bool patterns_told_ = false;
 

@@ -11,8 +11,10 @@ using Adapter = osgGA::GUIEventAdapter;
 
 constexpr std::size_t longest = 60;  // bytes
 
-/// Appends the character of a key, as X numbers them: Latin-1, or Unicode. Other keys have none.
-void append(std::string& text, int key) {
+}  // namespace
+
+// X numbers keys by Latin-1, or Unicode.
+void append_character(std::string& text, int key) {
   constexpr int unicode_keys = 0x01000000;
   const int c = key >= unicode_keys ? key - unicode_keys : key;
   const bool printable = (c >= 0x20 && c <= 0x7e) || (c >= 0xa0 && c <= 0xff) || (key != c && c <= 0xffff);
@@ -30,13 +32,10 @@ void append(std::string& text, int key) {
   }
 }
 
-/// Removes the last character.
-void shorten(std::string& text) {
+void remove_character(std::string& text) {
   while (!text.empty() && (static_cast<unsigned char>(text.back()) & 0xc0) == 0x80) text.pop_back();
   if (!text.empty()) text.pop_back();
 }
-
-}  // namespace
 
 void Prompt::ask(std::string question, std::string text, Answer answer) {
   question_ = std::move(question);
@@ -70,9 +69,9 @@ void Prompt::press(int key) {
     return;
   }
   if (key == Adapter::KEY_BackSpace) {
-    shorten(text_);
+    remove_character(text_);
   } else if (text_.size() < longest) {
-    append(text_, key);
+    append_character(text_, key);
   }
   show();
 }

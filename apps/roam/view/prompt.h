@@ -10,6 +10,11 @@
 
 namespace roam::app {
 
+/// Appends the character of a key, as UTF-8. Other keys have none.
+void append_character(std::string& text, int key);
+/// Removes the last character.
+void remove_character(std::string& text);
+
 /// While it asks, all keys are text: Enter answers, Escape does not. Add it to the viewer before other handlers. Call
 /// all members from the thread that draws, between two frames.
 class Prompt : public osgGA::GUIEventHandler {

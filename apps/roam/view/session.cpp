@@ -61,7 +61,7 @@ Session::Session(const ViewOptions& options, const ViewPlan& plan, const ViewSet
       display_(stage_, scene_, *roamer_, news_, plan_.fov),
       prompt_(new Prompt(stage_)),
       hidden_(scene_, arrival_, *roamer_, news_, plan_.path.empty() && !options.verify),
-      layers_(new Layers(stage_, scene_, hidden_, *roamer_, *prompt_, news_)),
+      layers_(new Layers(stage_, scene_, hidden_, *roamer_, news_)),
       bookmark_list_(new BookmarkList(stage_, *roamer_, records_)),
       tools_(new Tools(stage_, scene_, *roamer_, hidden_, what_, options.program, plan_.section)),
       controllers_(stage_, *roamer_, *prompt_, plan_.sensitivity),
