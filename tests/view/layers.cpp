@@ -313,6 +313,7 @@ TEST(Layers, OfSeveralScenesAreBelowTheirFiles) {
   d.options.at = {10, 0, 0.95, 0};
   d.begin();
   d.session->run("layers");
+  ASSERT_TRUE(d.until([&] { return d.session->scene().report().has_value(); }));
   EXPECT_TRUE(contains(d.hud(), "[x] scene.obj (6)\n[x] shelf.obj (1)\n")) << d.hud();
 }
 

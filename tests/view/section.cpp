@@ -33,7 +33,7 @@ TEST(Section, HidesAClickedSurfaceAndWhatIsBeforeIt) {
   d.tap('x');
   EXPECT_TRUE(contains(d.hud(), "All is shown again")) << d.hud();
   d.tap('t');
-  d.click(0, -0.9);
+  d.click(0.3, -0.9);
   ASSERT_TRUE(d.until([&] { return contains(d.hud(), ", floor, slope 0"); })) << d.hud();
   EXPECT_TRUE(json_report(d.session->finish())["section"].empty());
 }

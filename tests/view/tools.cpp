@@ -103,10 +103,6 @@ TEST(Section, LeavesTheHeightButHidesTheObjectAhead) {
   d.click(0, -0.9);
   d.run(0.5);
   EXPECT_TRUE(contains(d.hud(), "on the floor")) << "hidden, but the body stands on it: " << d.hud();
-  EXPECT_FALSE(contains(d.hud(), "ahead")) << d.hud();
-  d.events().mouseScroll(osgGA::GUIEventAdapter::SCROLL_DOWN);
-  d.events().mouseScroll(osgGA::GUIEventAdapter::SCROLL_DOWN);
-  d.run(0.5);
   EXPECT_FALSE(contains(d.hud(), "ahead")) << "the foot of the wall is seen, but not before the eye: " << d.hud();
 }
 
