@@ -9,6 +9,7 @@
 #include <cmath>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <numbers>
 #include <optional>
 #include <set>
 #include <sstream>
@@ -190,10 +191,47 @@ std::pair<std::string, std::string> names_at(const ProbeOptions& o, const Survey
   return scene.names_at(limit->point, limit->direction, limit->size);
 }
 
+/// Between different objects there is a gap, no door.
+void tell_gaps(const ProbeOptions& o, const Surveyed& scene, ProbeAnswer& answer) {
+  for (std::optional<ProbeLimit>* limit : {&answer.limit, &answer.other}) {
+    if (!*limit || !(*limit)->has_head) continue;
+    const auto [left, right] = names_at(o, scene, answer, *limit);
+    (*limit)->has_head = left == right;
+  }
+}
+
+/// What is below the feet: an object is above the floor if most of what is around it is lower.
+words::Ground ground_at(const Surveyed& scene, const Vec3& feet) {
+  constexpr double up = 0.05, below = 2.0;  // m: where the floor is looked for
+  constexpr double least = 0.15;            // m: the floor around is at least this much lower
+  constexpr int directions = 12;
+  const auto floor_at = [&](const Vec3& place) {
+    return scene.survey.floor().ray(place + Vec3(0.0, 0.0, up), {0.0, 0.0, -up - below});
+  };
+  std::vector<double> down;
+  for (const double away : {1.5, 2.5}) {
+    for (int k = 0; k < directions; ++k) {
+      const double angle = 2.0 * std::numbers::pi * k / directions;
+      const Impact around = floor_at(feet + away * Vec3(std::cos(angle), std::sin(angle), 0.0));
+      if (around.hit) down.push_back(feet.z - around.point.z);
+    }
+  }
+  if (down.size() < directions) return {};
+  const auto middle = down.begin() + static_cast<std::ptrdiff_t>(down.size() / 2);
+  std::nth_element(down.begin(), middle, down.end());
+  if (*middle < least) return {};
+  const Impact stand = scene.survey.world().ray(feet + Vec3(0.0, 0.0, up), {0.0, 0.0, -up - least});
+  return {stand.hit ? scene.name(stand.triangle) : std::string(), *middle};
+}
+
 words::ProbeDetails details_of(const ProbeOptions& o, const Surveyed& scene, const ProbeAnswer& answer) {
   words::ProbeDetails details;
   std::tie(details.left, details.right) = names_at(o, scene, answer, answer.limit);
   std::tie(details.other_left, details.other_right) = names_at(o, scene, answer, answer.other);
+  if (o.question.mode == Mode::walk) {
+    details.start = ground_at(scene, answer.start);
+    details.target = ground_at(scene, answer.target);
+  }
   if (!answer.passage.found) return details;
   if (o.question.mode == Mode::walk) details.slope = measure::steepest(answer.passage.way);
   if (!o.narrower) return details;
@@ -260,6 +298,7 @@ ExitStatus probe(ProbeOptions o) {
     }
     o.question.progress = {};
   }
+  for (ProbeAnswer& answer : answers) tell_gaps(o, scene, answer);
   const ProbeAnswer& first = answers.front();
   Unwritten unwritten;
   if (o.path && first.wide_enough) unwritten.attempt([&] { write_path(o, scene.survey, first); });

@@ -94,6 +94,8 @@ struct ProbeLimit {
   double width = 0.0;    ///< for a height: width for a body that passes; 0: unknown or not narrow
   double along = 0.0;    ///< length of the way up to there
   bool too_low = false;  ///< for an end: `size` is a headroom
+  /// For a door: both sides are of one object and reach up to what is above. Otherwise, it is a gap between things.
+  bool has_head = false;
 };
 
 /// "door", "lintel", "gap", "edge", "end" (start and target), "height", "step" or "apart".

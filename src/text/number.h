@@ -15,4 +15,14 @@ namespace roam {
   return {digits.data(), written.ptr};
 }
 
+/// With that many decimals: "0.30". Never "-0.00".
+[[nodiscard]] inline std::string fixed_text(double value, int decimals) {
+  std::array<char, 400> digits;
+  const auto written =
+      std::to_chars(digits.data(), digits.data() + digits.size(), value, std::chars_format::fixed, decimals);
+  std::string text(digits.data(), written.ptr);
+  if (text.find_first_not_of("-0.") == std::string::npos && text.starts_with('-')) text.erase(0, 1);
+  return text;
+}
+
 }  // namespace roam

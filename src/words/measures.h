@@ -10,17 +10,18 @@
 
 #include "roam/math.h"
 #include "roam/walker_settings.h"
+#include "text/number.h"
 
 namespace roam::words {
 
 /// "(1.00, 2.00, 3.00)".
 [[nodiscard]] inline std::string at(const Vec3& place) {
-  return fmt::format("({:.2f}, {:.2f}, {:.2f})", place.x, place.y, place.z);
+  return fmt::format("({}, {}, {})", fixed_text(place.x, 2), fixed_text(place.y, 2), fixed_text(place.z, 2));
 }
 
 /// The same to the millimetre.
 [[nodiscard]] inline std::string exactly_at(const Vec3& place) {
-  return fmt::format("({:.3f}, {:.3f}, {:.3f})", place.x, place.y, place.z);
+  return fmt::format("({}, {}, {})", fixed_text(place.x, 3), fixed_text(place.y, 3), fixed_text(place.z, 3));
 }
 
 /// "0.520 m"; in millimetres where metres would show little of it.

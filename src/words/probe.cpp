@@ -8,6 +8,7 @@
 
 #include "math/floating_point.h"
 #include "math/level_distance.h"
+#include "text/number.h"
 #include "words/lines.h"
 #include "words/measures.h"
 
@@ -26,6 +27,8 @@ bool is_end(Kind kind) { return kind == Kind::start || kind == Kind::target; }
 
 const char* end_name(Kind kind) { return kind == Kind::start ? "start" : "target"; }
 
+const char* end_letter(Kind kind) { return kind == Kind::start ? "A" : "B"; }
+
 bool is_shut(const ProbeAnswer& answer) {
   const Passage& p = answer.passage;
   return !p.found && p.complete && answer.proven && p.bound <= answer.narrowest;
@@ -43,17 +46,18 @@ std::string text_of(const ProbeLimit& limit) {
   switch (limit.kind) {
     case Kind::door:
     case Kind::gap:
-      return fmt::format("{} {} {}", to_string(limit.kind), metres(limit.size), extent(limit));
+      return fmt::format("{} {} {}", limit.kind == Kind::door && limit.has_head ? "door" : "gap", metres(limit.size),
+                         extent(limit));
     case Kind::lintel:
       return fmt::format("lintel, {} wide", metres(limit.size));
     case Kind::start:
     case Kind::target:
-      return fmt::format("{} {} {}", end_name(limit.kind), metres(limit.size),
+      return fmt::format("{}: {} {}", end_letter(limit.kind), metres(limit.size),
                          limit.too_low ? "below what is above it" : "from a wall");
     case Kind::height:
       return fmt::format("headroom {}", metres(limit.size));
     case Kind::edge:
-      return fmt::format("edge of the floor, {} from a wall", metres(limit.size));
+      return fmt::format("floor only {} wide", metres(limit.size));
     case Kind::step:
       return fmt::format("step of {}", metres(limit.size));
     case Kind::apart:
@@ -76,8 +80,14 @@ std::vector<ProbeMark> marks_of(const ProbeAnswer& answer) {
 namespace {
 
 /// Metres. An end that was moved farther than this is mentioned, with both positions.
-constexpr double moved_aside = 0.05;
+constexpr double moved_aside = 0.005;
 constexpr double tall = 2.0;  ///< m: eyes are at most this far above the feet
+
+/// ""SofaC_01", 0.79 m above the floor".
+std::string standing_on(const Ground& ground) {
+  const std::string above = fixed_text(ground.above, 2) + " m above the floor";
+  return ground.object.empty() ? above : fmt::format("on {}, {}", quoted(ground.object), above);
+}
 
 /// No way was found for any size. For Kind::apart, `limit` is where the two sides come nearest.
 std::string no_way(const ProbeAnswer& answer) {
@@ -128,28 +138,32 @@ std::string walked_to(const ProbeQuestion& question, const ProbeAnswer& answer) 
 
 const char* shortfall(const ProbeLimit& limit) {
   if (limit.kind == Kind::height || limit.too_low || std::abs(limit.direction.z) > 0.7) return "too low";
-  return limit.kind == Kind::step                         ? "too high"
-         : is_end(limit.kind) || limit.kind == Kind::edge ? "too near"
-                                                          : "too narrow";
+  return limit.kind == Kind::step ? "too high" : is_end(limit.kind) ? "too near" : "too narrow";
+}
+
+/// "the body at (1.00, 2.00, 3.00) is 0.318 m from "a"".
+std::string end_words(const ProbeLimit& limit, const std::string& name) {
+  return fmt::format("the {} at {} is {} {} {}", limit.too_low ? "floor" : "body", at(limit.feet), metres(limit.size),
+                     limit.too_low ? "below" : "from", name.empty() ? "the next surface" : quoted(name));
 }
 
 /// "door 0.750 m wide between "a" and "b" at (1.00, 2.00, 3.00)".
 std::string obstacle(const ProbeLimit& limit, const std::string& left, const std::string& right) {
-  std::string text = text_of(limit);
-  if (is_end(limit.kind)) {
-    const std::string& name = left.empty() ? right : left;
-    return fmt::format("{} is {} {} {}, at {}", limit.kind == Kind::start ? "A" : "B", metres(limit.size),
-                       limit.too_low ? "below" : "from", name.empty() ? "the next surface" : quoted(name),
-                       at(limit.feet));
+  const std::string& name = left.empty() ? right : left;
+  if (is_end(limit.kind)) return end_words(limit, name);
+  if (limit.kind == Kind::edge) {
+    return fmt::format("floor only {} wide beside {} at {}", metres(limit.size), name.empty() ? "a wall" : quoted(name),
+                       at(limit.point));
   }
   const std::string objects = between(left, right);
-  return fmt::format("{}{} at {}", text, objects.empty() ? "" : " " + objects, at(limit.point));
+  return fmt::format("{}{} at {}", text_of(limit), objects.empty() ? "" : " " + objects, at(limit.point));
 }
 
 /// ": 0.150 m too narrow".
 std::string short_by(const ProbeLimit& limit) {
   const double missing = std::abs(limit.needed - limit.size);
-  return fmt::format(": {} {}", missing < 1e-3 ? "less than 1 mm" : metres(missing), shortfall(limit));
+  return fmt::format("{} {} {}", is_end(limit.kind) ? "," : ":", missing < 1e-3 ? "less than 1 mm" : metres(missing),
+                     shortfall(limit));
 }
 
 std::string stop_line(const ProbeQuestion& question, const ProbeAnswer& answer, const ProbeDetails& details) {
@@ -177,6 +191,7 @@ std::string stop_line(const ProbeQuestion& question, const ProbeAnswer& answer, 
     return fmt::format("no way leaves more than {}", metres(2.0 * answer.passage.radius));
   if (!answer.limit || answer.limit->kind == Kind::apart) return no_way(answer);
   std::string text = obstacle(*answer.limit, details.left, details.right);
+  if (is_end(answer.limit->kind)) text = fmt::format("no room at {}: {}", end_letter(answer.limit->kind), text);
   if (answer.limit->kind == Kind::step) {
     text += fmt::format("; the body steps {}", metres(answer.limit->needed));
   } else {
@@ -209,20 +224,21 @@ std::string narrowest_line(const ProbeAnswer& answer, const ProbeDetails& detail
   if (!answer.limit) return fmt::format("nothing leaves less than {}", metres_down(2.0 * answer.passage.radius));
   const ProbeLimit& limit = *answer.limit;
   std::string text = obstacle(limit, details.left, details.right);
-  if (!is_end(limit.kind)) text += fmt::format(", {:.1f} m on the way", limit.along);
+  text = is_end(limit.kind) ? fmt::format("at {}: {}", end_letter(limit.kind), text)
+                            : fmt::format("{}, {:.1f} m on the way", text, limit.along);
   if (limit.kind == Kind::door || limit.kind == Kind::gap)
     text += ": " + spare_words(0.5 * (limit.size - limit.needed));
   return text;
 }
 
-std::string end_line(const Vec3& asked, const Vec3& stands, Mode mode) {
-  const std::string place = at(stands);
-  if (mode == Mode::fly)
-    return glm::distance(asked, stands) > moved_aside ? place + ", moved: there is no room at " + at(asked) : place;
-  const double aside = level_distance(stands, asked), down = asked.z - stands.z;
-  if (aside > moved_aside) return fmt::format("on the floor at {}, moved: there is no room at {}", place, at(asked));
-  if (down > tall) return fmt::format("on the floor at {}, {:.2f} m below {}", place, down, at(asked));
-  return "on the floor at " + place;
+/// "(1.00, 2.00, 0.00), moved by 0.30 m: there is no room at (1.00, 2.30, 0.05)".
+std::string end_line(const Vec3& asked, const Vec3& stands, Mode mode, const Ground& ground) {
+  std::string text = at(stands);
+  if (mode == Mode::walk) text = (ground.above > 0.0 ? standing_on(ground) + ", at " : "on the floor at ") + text;
+  const double aside = mode == Mode::walk ? level_distance(stands, asked) : glm::distance(stands, asked);
+  if (aside > moved_aside) return fmt::format("{}, moved by {:.2f} m: there is no room at {}", text, aside, at(asked));
+  const double down = asked.z - stands.z;
+  return down > tall ? fmt::format("{}, {:.2f} m below {}", text, down, at(asked)) : text;
 }
 
 }  // namespace
@@ -268,8 +284,8 @@ Lines report(const ProbeQuestion& question, const ProbeAnswer& answer, const Pro
       lines.add("", text);
     }
   }
-  lines.add("A", end_line(question.from, answer.start, question.mode));
-  lines.add("B", end_line(question.to, answer.target, question.mode));
+  lines.add("A", end_line(question.from, answer.start, question.mode, details.start));
+  lines.add("B", end_line(question.to, answer.target, question.mode, details.target));
   lines.add("certainty", certainty(question, answer));
   return lines;
 }

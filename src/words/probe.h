@@ -13,6 +13,12 @@
 
 namespace roam::words {
 
+/// What an end stands on.
+struct Ground {
+  std::string object;  ///< empty: unknown
+  double above = 0.0;  ///< m: of the floor around; 0: it is that floor
+};
+
 /// What a report says besides the answer. Names are empty if unknown.
 struct ProbeDetails {
   /// A place narrower than wanted, and the names of the objects on both sides.
@@ -22,6 +28,7 @@ struct ProbeDetails {
   };
   std::string left, right;              ///< names of the objects at both ends of the measured distance
   std::string other_left, other_right;  ///< likewise for ProbeAnswer::other
+  Ground start, target;                 ///< walking
   std::optional<measure::Slope> slope;  ///< of the way, walking
   double narrower = 0.0;                ///< m: `narrow` lists the places narrower than this; 0: none are wanted
   std::vector<Narrow> narrow;
@@ -43,8 +50,9 @@ struct ProbeMark {
 
 /// True if the start or the target is the decisive place.
 [[nodiscard]] bool is_end(ProbeLimit::Kind kind);
-/// "start" or "target".
+/// "start" or "target", and "A" or "B".
 [[nodiscard]] const char* end_name(ProbeLimit::Kind kind);
+[[nodiscard]] const char* end_letter(ProbeLimit::Kind kind);
 
 /// True if it is certified that no body of the sizes searched for can pass.
 [[nodiscard]] bool is_shut(const ProbeAnswer& answer);

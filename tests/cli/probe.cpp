@@ -255,35 +255,40 @@ TEST(ProbeVerb, RefusesWhatCannotBeMeant) {
 
 TEST(ProbeVerb, TellsAnEndBesideAWallFromADoor) {
   Probe probe(0.84);
+  // A wall 0.5 m from the one at y = 2, from x = 1 to 3.
+  probe.folder.write("room.obj", door_obj(0.84) + "v 1 1.5 0\nv 3 1.5 0\nv 3 1.5 2\nv 1 1.5 2\nf -4 -3 -2 -1\n");
   const auto ask = [&](const char* from, const char* radius) {
     probe.result = run_program(ROAM_PROGRAM, {"probe", probe.scene, "--from", from, "--to", "18,0,1", "--radius",
                                               radius, "--height", "1.8", "--json"});
     return probe.json();
   };
-  const Json no = ask("2,1.75,1", "0.3");
+  const Json no = ask("2,1.85,1", "0.3");
   EXPECT_EQ(probe.result.status, 3) << probe.result.err;
   const Json& end = no["opening"];
   EXPECT_EQ(end["kind"], "end");
   EXPECT_EQ(end["end"], "start");
-  EXPECT_NEAR(end["distance_m"].get<double>(), 0.25, 1e-3);
-  EXPECT_NEAR(end["missing_m"].get<double>(), 0.05, 1e-3);
+  EXPECT_NEAR(end["distance_m"].get<double>(), 0.15, 1e-3);
+  EXPECT_NEAR(end["missing_m"].get<double>(), 0.15, 1e-3);
   EXPECT_FALSE(end.contains("width_m"));
   EXPECT_NEAR(end["direction"][1].get<double>(), 1.0, 1e-6);
-  EXPECT_LE(end["room"][1].get<double>(), 1.7);
-  EXPECT_GT(end["room"][1].get<double>(), 1.6);
-  EXPECT_TRUE(contains(no["answer"], "Why: A is 0.250 m from ")) << no["answer"];
+  EXPECT_TRUE(contains(no["answer"], "Why: no room at A: the body at (2.00, 1.85, 0.00) is 0.150 m from "))
+      << no["answer"];
+  EXPECT_TRUE(contains(no["answer"], ", 0.150 m too near; the nearest place with room is ")) << no["answer"];
   EXPECT_FALSE(contains(no["answer"], "door")) << no["answer"];
-  const Json yes = ask("2,1.75,1", "0.2");
+  const Json yes = ask("5,1.75,1", "0.2");
   EXPECT_EQ(probe.result.status, 0) << probe.result.err;
   EXPECT_EQ(yes["opening"]["kind"], "end");
-  EXPECT_TRUE(contains(yes["answer"], "Narrowest: A is 0.250 m from ")) << yes["answer"];
+  EXPECT_TRUE(contains(yes["answer"], "Narrowest: at A: the body at (5.00, 1.75, 0.00) is 0.250 m from "))
+      << yes["answer"];
   // In the doorway, half way through: the door decides, not the end.
   const Json door = ask("10,0,1", "0.5");
   EXPECT_EQ(door["opening"]["kind"], "door") << door["answer"];
   EXPECT_NEAR(door["opening"]["width_m"].get<double>(), 0.84, 1e-3);
-  // Closed in by the wall beside it, before any door: it is the start all the same.
-  const Json closed = ask("2,1.93,1", "0.3");
-  EXPECT_EQ(closed["opening"]["kind"], "end") << closed["answer"];
+  // Beside one wall it is only moved.
+  const Json moved = ask("5,1.93,1", "0.3");
+  EXPECT_EQ(moved["passable"], true) << moved["answer"];
+  EXPECT_TRUE(contains(moved["answer"], ", moved by 0.25 m: there is no room at (5.00, 1.93, 1.00)"))
+      << moved["answer"];
 }
 
 TEST(ProbeVerb, TellsAWallBesideTheEndOfTheFloorFromADoor) {
@@ -300,7 +305,7 @@ TEST(ProbeVerb, TellsAWallBesideTheEndOfTheFloorFromADoor) {
   EXPECT_EQ(report["opening"]["kind"], "edge") << report["answer"];
   EXPECT_FALSE(report["opening"].contains("width_m"));
   EXPECT_GE(report["opening"]["distance_m"].get<double>(), 0.25 - 1e-3);  // where the walker may stand, or farther out
-  EXPECT_TRUE(contains(report["answer"], "m from a wall")) << report["answer"];
+  EXPECT_TRUE(contains(report["answer"], "floor only 0.")) << report["answer"];
   EXPECT_TRUE(contains(report["answer"], "NO: ")) << report["answer"];
 }
 
@@ -398,7 +403,8 @@ TEST(ProbeVerb, SaysThatAnEndIsTooLow) {
   const Json report = Json::parse(result.out, nullptr, false);
   EXPECT_EQ(report["opening"]["kind"], "end");
   EXPECT_NEAR(report["opening"]["height_m"].get<double>(), 3.0, 1e-3);
-  EXPECT_TRUE(contains(report["answer"], "Why: A is 3.000 m below ")) << report["answer"];
+  EXPECT_TRUE(contains(report["answer"], "Why: no room at A: the floor at (2.00, 0.00, 0.00) is 3.000 m below "))
+      << report["answer"];
 }
 
 TEST(ProbeVerb, NamesAPlaceWhereNobodyFits) {

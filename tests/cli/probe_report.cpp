@@ -106,7 +106,7 @@ TEST(ProbeReport, SaysWhereAnEndWasMovedTo) {
   // On the outer wall, where nobody has room.
   const ProgramResult result = ask(scene, "2,1.99,1", {"--radius", "0.2", "--height", "1.8", "--json"});
   const Json report = Json::parse(result.out, nullptr, false);
-  EXPECT_TRUE(contains(report["answer"], "moved: there is no room at (2.00, 1.99, ")) << report["answer"];
+  EXPECT_TRUE(contains(report["answer"], "m: there is no room at (2.00, 1.99, ")) << report["answer"];
   EXPECT_LT(report["start"][1].get<double>(), 1.99);
   EXPECT_GE(report["start"][1].get<double>(), -0.01);
 }

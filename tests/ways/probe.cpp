@@ -15,6 +15,7 @@
 #include "messages.h"
 #include "probed_room.h"
 #include "walker_scenes.h"
+#include "words/measures.h"
 #include "words/probe.h"
 
 namespace {
@@ -86,16 +87,67 @@ TEST(Probe, CallsASphereUnderSomethingLowALintel) {
   EXPECT_NEAR(answer.missing, 0.1, 2e-3);
 }
 
+/// room(0.84) with a cupboard along the wall at y = 2 and 0.5 m from it, from x = 16 to 19.
+Mesh room_with_cupboard() {
+  Mesh m = room(0.84);
+  add_box(m, {16.0, 1.0, 0.0}, {19.0, 1.5, 2.0});
+  return m;
+}
+
 TEST(Probe, TellsWhichEndIsInTheWayAndWhereThereIsRoom) {
   ProbeQuestion question = across;
-  question.to = {18.0, 1.75, 1.0};
-  const ProbeAnswer answer = probe(survey_of(room(0.84)), question, {.radius = 0.3, .height = 1.8});
+  question.to = {17.5, 1.85, 1.0};
+  const ProbeAnswer answer = probe(survey_of(room_with_cupboard()), question, {.radius = 0.3, .height = 1.8});
+  EXPECT_FALSE(answer.passable);
   ASSERT_TRUE(answer.limit && answer.room);
   EXPECT_EQ(answer.limit->kind, Kind::target);
-  EXPECT_NEAR(answer.limit->size, 0.25, 1e-3);
-  EXPECT_NEAR(answer.missing, 0.05, 1e-3);
-  EXPECT_LE(answer.room->y, 1.7);
-  EXPECT_LT(glm::distance(*answer.room, answer.target), 0.2);
+  EXPECT_NEAR(answer.limit->size, 0.15, 1e-3);
+  EXPECT_NEAR(answer.missing, 0.15, 1e-3);
+  EXPECT_GT(glm::distance(*answer.room, answer.target), 0.5);
+}
+
+TEST(Probe, MovesAnEndBesideAWallByAtMostTheRadiusAndALittle) {
+  const Survey survey = survey_of(room(0.84));
+  // Near the wall at y = 2, and nearer to it: both go to the nearest place with room.
+  for (const double beside : {1.69, 1.75, 1.9, 1.93, 1.99}) {
+    ProbeQuestion question = across;
+    question.from = {2.0, beside, 1.0};
+    question.to = {18.0, -beside, 1.0};
+    const ProbeAnswer answer = probe(survey, question, {.radius = 0.3, .height = 1.8});
+    EXPECT_TRUE(answer.passable) << beside;
+    const double least = std::max(0.0, beside - 1.7);
+    for (const auto& [given, place] : {std::pair(question.from, answer.start), std::pair(question.to, answer.target)}) {
+      EXPECT_GE(std::hypot(place.x - given.x, place.y - given.y), least - 1e-3) << beside;
+      EXPECT_LE(std::hypot(place.x - given.x, place.y - given.y), least + 0.1) << beside;
+    }
+  }
+}
+
+TEST(Probe, LeavesAnEndInADoorThatIsTooNarrow) {
+  ProbeQuestion question = across;
+  question.from = {10.0, 0.05, 1.0};
+  const ProbeAnswer answer = probe(survey_of(room(0.5)), question, {.radius = 0.3, .height = 1.8});
+  EXPECT_FALSE(answer.passable);
+  EXPECT_EQ(answer.start.x, 10.0);
+}
+
+TEST(Probe, CallsADoorWhatReachesUpToAHeadAndOtherwiseAGap) {
+  const ProbeAnswer door = probe(survey_of(room(0.5)), across, {.radius = 0.3, .height = 1.8});
+  EXPECT_TRUE(contains(words::report(across, door).text(), "stopped by  door 0.500 m wide at "));
+  Mesh m;  // two cupboards, lower than the room
+  add_box(m, {0.0, -2.0, 0.0}, {20.0, 2.0, 3.0});
+  add_box(m, {10.0, -2.0, 0.0}, {11.0, -0.25, 2.0});
+  add_box(m, {10.0, 0.25, 0.0}, {11.0, 2.0, 2.0});
+  const ProbeAnswer gap = probe(survey_of(m), across, {.radius = 0.3, .height = 1.8});
+  ASSERT_TRUE(gap.limit);
+  EXPECT_EQ(gap.limit->kind, Kind::door) << "as in the report for programs";
+  EXPECT_TRUE(contains(words::report(across, gap).text(), "stopped by  gap 0.500 m wide at "))
+      << words::report(across, gap).text();
+}
+
+TEST(Probe, SaysNoMinusOfZero) {
+  EXPECT_EQ(words::at({-0.001, -0.006, 0.0}), "(0.00, -0.01, 0.00)");
+  EXPECT_EQ(words::exactly_at({-0.0, -0.0004, 1e6}), "(0.000, 0.000, 1000000.000)");
 }
 
 TEST(Probe, MeasuresAFallAsAStepUp) {

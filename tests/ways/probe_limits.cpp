@@ -113,7 +113,7 @@ TEST(ProbeLimits, DoNotComeFromAnEndThatWasMovedToAPlaceWithoutRoom) {
   EXPECT_TRUE(answer.passable);
   EXPECT_GT(std::abs(answer.start.y), 0.3);
   const std::string text = words::report(question, answer).sentences();
-  EXPECT_TRUE(contains(text, "moved: there is no room at (2.65, 0.01, 0.50)")) << text;
+  EXPECT_TRUE(contains(text, ", moved by 0.30 m: there is no room at (2.65, 0.01, 0.50)")) << text;
 }
 
 }  // namespace

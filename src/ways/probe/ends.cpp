@@ -12,6 +12,7 @@
 #include "math/largest.h"
 #include "math/level_distance.h"
 #include "roam/sweep.h"
+#include "text/number.h"
 #include "ways/lattice/walk_place.h"
 #include "ways/probe/parts.h"
 
@@ -21,8 +22,10 @@ namespace {
 /// Metres.
 constexpr double ring = 0.05;         ///< between one circle of tried places and the next
 constexpr double in_sight = 3.0;      ///< how far to search for room in sight
+constexpr double beside_end = 0.2;    ///< more than the body's radius: how far an end moves that is too near to a wall
 constexpr double around_floor = 1.5;  ///< how far to search for room around a floor's nearest point
 constexpr double same_floor = 0.5;    ///< nearer points of floors are tried once
+constexpr double spare = 1e-3;        ///< more than the radius: room at an end that is moved
 constexpr int ring_places = 24;
 constexpr std::size_t most_candidates = 100'000;  ///< candidates kept during the search
 constexpr std::size_t most_floors = 48;           ///< points of floors that are tried
@@ -64,15 +67,38 @@ std::vector<Vec3> nearest_floors(const Survey& survey, const Vec3& place) {
   return points;
 }
 
-std::string text_of(const Vec3& p) { return fmt::format("({:.2f}, {:.2f}, {:.2f})", p.x, p.y, p.z); }
+std::string text_of(const Vec3& p) {
+  return fmt::format("({}, {}, {})", fixed_text(p.x, 2), fixed_text(p.y, 2), fixed_text(p.z, 2));
+}
 
-/// The nearest place where a body of `radius` has room, at most `reach` m away. `seen`: it must be in sight.
-std::optional<Vec3> room_around(const ProbeSearch& search, const Vec3& place, double radius, double reach, bool seen) {
+/// Whether bodies of `radius` get from one of these places to all others, straight or by way of others.
+bool are_joined(const ProbeSearch& search, const std::vector<Vec3>& places, double radius) {
+  std::vector<Vec3> left(places.begin() + 1, places.end()), reached{places.front()};
+  for (std::size_t i = 0; i < reached.size(); ++i) {
+    const Vec3 from = reached[i];
+    const auto joined = std::partition(left.begin(), left.end(), [&](const Vec3& to) {
+      return !goes_straight(search.survey, search.measure(), from, to, radius);
+    });
+    reached.insert(reached.end(), joined, left.end());
+    left.erase(joined, left.end());
+  }
+  return left.empty();
+}
+
+/// What joins a place with one near it: nothing, a sight line, or a straight way for the narrowest body. With the
+/// last, the nearest places must not be apart for the body itself, as on both sides of a door that is too narrow.
+enum class Join : std::uint8_t { none, sight, way };
+
+/// The nearest place where a body of `radius` has room, at most `reach` m away.
+std::optional<Vec3> room_around(const ProbeSearch& search, const Vec3& place, double radius, double reach, Join join) {
   Measure measure = search.measure();
-  measure.widest = std::max(radius, 2.0 * measure.narrowest);
+  // An end is moved to a place with a little more room: a way is certified to less than a millimetre.
+  const double least = join == Join::way ? radius + spare : radius;
+  measure.widest = std::max(join == Join::way ? radius + ring : radius, 2.0 * measure.narrowest);
   const int layers = measure.mode == Mode::walk ? 0 : 1;
   for (double away = 0.0; away <= reach; away += ring) {
-    std::optional<Vec3> best;
+    std::vector<Vec3> found;
+    std::size_t best = 0;
     double widest = 0.0;
     for (int layer = -layers; layer <= layers; ++layer) {
       for (int k = 0; k < (away > 0.0 ? ring_places : 1); ++k) {
@@ -82,13 +108,18 @@ std::optional<Vec3> room_around(const ProbeSearch& search, const Vec3& place, do
         if (!there) continue;
         const double clearance = clearance_at(search.survey, measure, *there);
         const Vec3 eye = eye_of(measure, place);
-        if (clearance < radius || clearance <= widest) continue;
-        if (seen && search.survey.world().first_impact({0.0, 0.0}, eye, eye_of(measure, *there) - eye).hit) continue;
-        best = there;
-        widest = clearance;
+        if (clearance < least || (clearance <= widest && join != Join::way)) continue;
+        const Vec3 view = eye_of(measure, *there) - eye;
+        if (join == Join::sight && search.survey.world().first_impact({0.0, 0.0}, eye, view).hit) continue;
+        if (join == Join::way && !goes_straight(search.survey, measure, place, *there, measure.narrowest)) continue;
+        if (clearance > widest) best = found.size();
+        widest = std::max(widest, clearance);
+        found.push_back(*there);
       }
     }
-    if (best) return best;
+    if (found.empty()) continue;
+    if (join == Join::way && !are_joined(search, found, radius)) return std::nullopt;
+    return found[best];
   }
   return std::nullopt;
 }
@@ -113,7 +144,7 @@ std::optional<Vec3> nearest_from_afar(const ProbeSearch& search, const Vec3& giv
   for (const Vec3& floor : nearest_floors(search.survey, given)) {
     if (is_off && (found.front() || tried++ == most_from_off)) break;
     const double above = measure.mode == Mode::walk ? 0.0 : radius + ring;
-    const auto room = room_around(search, floor + Vec3(0.0, 0.0, above), radius, around_floor, false);
+    const auto room = room_around(search, floor + Vec3(0.0, 0.0, above), radius, around_floor, Join::none);
     if (!room) continue;
     const Vec3 view = eye_of(measure, *room) - given;
     const bool hidden =
@@ -137,14 +168,18 @@ bool is_moved(const Vec3& place, const Vec3& given, Mode mode) {
 std::optional<Vec3> stand_for(const ProbeSearch& search, const Vec3& given, double radius) {
   Measure measure = search.measure();
   const auto place = free_end(search.survey, measure, given);
-  if (!place || !is_moved(*place, given, measure.mode)) return place;
+  if (!place) return place;
+  if (!is_moved(*place, given, measure.mode)) {
+    const auto beside = room_around(search, *place, radius, radius + beside_end, Join::way);
+    return beside ? beside : place;
+  }
   measure.narrowest = radius;
   const auto roomy = free_end(search.survey, measure, given);
   return roomy ? roomy : place;
 }
 
 std::optional<Vec3> nearest_room(const ProbeSearch& search, const Vec3& place, double radius) {
-  const auto room = room_around(search, place, radius, in_sight, true);
+  const auto room = room_around(search, place, radius, in_sight, Join::sight);
   return room ? room : nearest_from_afar(search, place, radius);
 }
 

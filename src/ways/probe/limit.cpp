@@ -119,6 +119,18 @@ double width_at(const ProbeSearch& search, const std::vector<Vec3>& way, const P
   return widest < measure.widest ? 2.0 * widest : 0.0;
 }
 
+/// Whether both sides of a door reach up to what is above it. Those of a gap between pieces of furniture do not.
+bool has_head(const ProbeSearch& search, const ProbeLimit& door) {
+  constexpr double below = 0.05, beyond = 0.15;  // m: of the head and of the sides, where the sides are looked for
+  const Space& world = search.survey.world();
+  const double most = std::min(world.bounds().upper.z - door.point.z + 1.0, Space::motion_limit);
+  const FirstImpact head = world.first_impact({0.0, 0.0}, door.point, {0.0, 0.0, most});
+  if (!head.hit) return false;
+  const Vec3 under = door.point + Vec3(0.0, 0.0, std::max(0.0, head.time * most - below));
+  const Vec3 side = (0.5 * door.size + beyond) * door.direction;
+  return world.first_impact({0.0, 0.0}, under, side).hit && world.first_impact({0.0, 0.0}, under, -side).hit;
+}
+
 }  // namespace
 
 std::optional<ProbeLimit> limit_of(const ProbeSearch& search, const Passage& passage, const ProbeEnds& ends,
@@ -147,6 +159,7 @@ std::optional<ProbeLimit> limit_of(const ProbeSearch& search, const Passage& pas
     limit.size = 0.5 * opening.width;
     limit.needed = radius;
   }
+  limit.has_head = limit.kind == ProbeLimit::Kind::door && has_head(search, limit);
   return limit;
 }
 

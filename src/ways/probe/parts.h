@@ -34,8 +34,8 @@ struct ProbeSearch {
 /// Whether a body stands aside of the point that was given for it.
 [[nodiscard]] bool is_moved(const Vec3& place, const Vec3& given, Mode mode);
 
-/// The standing place for `given`; none if no body of options.narrowest fits there or near. A place aside has room for
-/// `radius` if there is one.
+/// The standing place for `given`; none if no body of options.narrowest fits there or near. It has room for `radius` if
+/// there is such a place: near `given` by a straight way, or in sight if options.narrowest does not fit at `given`.
 [[nodiscard]] std::optional<Vec3> stand_for(const ProbeSearch& search, const Vec3& given, double radius);
 
 /// The nearest place found where a body of `radius` has room: in sight and at most 3 m away, else on the nearest
