@@ -53,7 +53,7 @@ std::string text_of(const ProbeLimit& limit) {
     case Kind::start:
     case Kind::target:
       return fmt::format("{}: {} {}", end_letter(limit.kind), metres(limit.size),
-                         limit.too_low ? "below what is above it" : "from a wall");
+                         limit.too_low ? "below what is above it" : "free beside it");
     case Kind::height:
       return fmt::format("headroom {}", metres(limit.size));
     case Kind::edge:
