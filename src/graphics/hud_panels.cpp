@@ -359,13 +359,31 @@ osg::ref_ptr<osg::Node> make_labels(const Page& page, const std::vector<HudLabel
   std::vector<Rectangle> placed;
   for (const HudLabel& label : labels) {
     const float pad = std::round(0.4f * page.margin), width = width_of(label.text, look);
-    Rectangle panel{std::round(label.x - 0.5f * width - pad), std::round(label.y + pad), width + 2 * pad, page.line};
-    // Over the labels that it would hide: each is passed once.
-    for (std::size_t i = 0; i < placed.size(); ++i) {
-      const auto hidden =
-          std::find_if(placed.begin(), placed.end(), [&](const Rectangle& other) { return overlap(panel, other); });
-      if (hidden == placed.end()) break;
-      panel.y = hidden->y + hidden->height + 1.0f;
+    const auto covers_point = [&](const Rectangle& r) {
+      return label.x >= r.x && label.x <= r.x + r.width && label.y >= r.y && label.y <= r.y + r.height;
+    };
+    if (std::any_of(above.begin(), above.end(), covers_point)) continue;
+    const Rectangle over{std::round(label.x - 0.5f * width - pad), std::round(label.y + pad), width + 2 * pad,
+                         page.line};
+    Rectangle panel = over;
+    const auto is_free = [&](const Rectangle& at) {
+      const auto overlaps = [&](const Rectangle& other) { return overlap(at, other); };
+      return std::none_of(placed.begin(), placed.end(), overlaps) && std::none_of(above.begin(), above.end(), overlaps);
+    };
+    // Above its point, below it, on its right or left; else above all labels that it would hide: each is passed once.
+    const Rectangle ways[] = {over,
+                              {over.x, std::round(label.y - pad) - over.height, over.width, over.height},
+                              {std::round(label.x + pad), over.y - pad, over.width, over.height},
+                              {std::round(label.x - pad) - over.width, over.y - pad, over.width, over.height}};
+    if (const auto found = std::find_if(std::begin(ways), std::end(ways), is_free); found != std::end(ways)) {
+      panel = *found;
+    } else {
+      for (std::size_t i = 0; i < placed.size(); ++i) {
+        const auto hidden =
+            std::find_if(placed.begin(), placed.end(), [&](const Rectangle& other) { return overlap(panel, other); });
+        if (hidden == placed.end()) break;
+        panel.y = hidden->y + hidden->height + 1.0f;
+      }
     }
     // The panels let a little of what is behind them through, which would make letters of both hard to read.
     if (std::any_of(above.begin(), above.end(), [&](const Rectangle& part) { return overlap(panel, part); })) continue;

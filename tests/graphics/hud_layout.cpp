@@ -181,6 +181,19 @@ TEST_P(GraphicsHudLayout, HidesLabelsThatLieBehindAPart) {
   EXPECT_EQ(differing(*listed, *stage.picture(true)), 0);
 }
 
+TEST_P(GraphicsHudLayout, PutsALabelBelowItsPointWhereAPartIsAbove) {
+  const auto [width, height] = GetParam();
+  Stage stage(width, height);
+  Hud hud(stage.frame);
+  hud.set_message("here");
+  (void)stage.picture(true);
+  ASSERT_EQ(hud.panels().size(), 1u);
+  const Rectangle part = hud.panels().front();
+  const auto without = stage.picture(true);
+  hud.set_labels({{"A", part.x + 0.5f * part.width, part.y - 2.0f}});
+  EXPECT_GT(differing(*without, *stage.picture(true)), 50);
+}
+
 INSTANTIATE_TEST_SUITE_P(Windows, GraphicsHudLayout,
                          testing::Values(std::pair(640, 1000), std::pair(420, 760), std::pair(640, 360),
                                          std::pair(1280, 720), std::pair(3840, 2160)),
