@@ -18,6 +18,8 @@ const osg::Vec4 body_color(0.35f, 0.80f, 1.0f, 0.9f);
 const osg::Vec4 held_color(1.0f, 0.66f, 0.20f, 0.95f);
 const osg::Vec4 contact_color(1.0f, 0.25f, 0.30f, 1.0f);
 const osg::Vec4 measure_color(0.95f, 0.15f, 0.75f, 1.0f);
+const osg::Vec4 way_color(0.10f, 0.85f, 0.35f, 1.0f);
+const osg::Vec4 barred_color(1.0f, 0.45f, 0.10f, 1.0f);
 const osg::Vec4 triangle_color(1.0f, 0.72f, 0.20f, 0.95f);
 const osg::Vec4 face_color(1.0f, 0.72f, 0.20f, 0.28f);
 const osg::Vec4 box_color(0.25f, 0.55f, 1.0f, 1.0f);
@@ -204,6 +206,8 @@ void Overlay::set_marks(const Marks& marks) {
   for (const ContactMark& contact : marks.contacts) draw_contact(contact, lines);
   for (const std::array<Vec3, 3>& triangle : marks.triangles) draw_triangle(triangle, lines, faces);
   for (const auto& [from, to] : marks.lines) lines.line(from, to, measure_color);
+  for (const auto& [from, to] : marks.way) lines.line(from, to, way_color);
+  for (const auto& [from, to] : marks.barred) lines.line(from, to, barred_color);
   for (const Vec3& point : marks.points) draw_cross(point, measure_color, lines);
   if (marks.box) {
     draw_edges(marks.box->box, lines);

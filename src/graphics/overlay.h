@@ -56,6 +56,8 @@ struct Marks {
   std::vector<ContactMark> contacts{};
   std::vector<std::array<Vec3, 3>> triangles{};  ///< corners, metres, scene minus origin
   std::vector<std::array<Vec3, 2>> lines{};      ///< measured lengths: ends, metres, scene minus origin
+  std::vector<std::array<Vec3, 2>> way{};        ///< a way that a body goes: likewise
+  std::vector<std::array<Vec3, 2>> barred{};     ///< a way beyond what stops the body: likewise
   std::vector<Vec3> points{};                    ///< measured points, metres, scene minus origin
   std::vector<LabelMark> labels{};
   std::optional<BoxMark> box{};

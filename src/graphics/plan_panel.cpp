@@ -23,6 +23,7 @@ const osg::Vec4 wall(0.13f, 0.15f, 0.20f, 1.0f);
 const osg::Vec4 below(0.66f, 0.70f, 0.76f, 1.0f);
 const osg::Vec4 blue(0.10f, 0.38f, 0.72f, 1.0f);
 const osg::Vec4 green(0.08f, 0.47f, 0.25f, 1.0f);
+const osg::Vec4 orange(0.85f, 0.33f, 0.05f, 1.0f);
 const osg::Vec4 ink(0.11f, 0.13f, 0.17f, 1.0f);
 
 constexpr float small_share = 0.34f, large_share = 0.86f;  ///< of the picture's height
@@ -65,6 +66,7 @@ PlanPanel::PlanPanel(Frame& frame)
       body_(new osg::MatrixTransform),
       lines_(new osg::Group),
       trail_(new osg::Group),
+      way_(new osg::Group),
       names_(new osg::Group) {
   group_->setName("plan");
   osg::StateSet& state = *group_->getOrCreateStateSet();
@@ -73,6 +75,7 @@ PlanPanel::PlanPanel(Frame& frame)
   state.setMode(GL_DEPTH_TEST, osg::StateAttribute::OFF | osg::StateAttribute::OVERRIDE);
   map_->addChild(lines_);
   map_->addChild(trail_);
+  map_->addChild(way_);
   map_->getOrCreateStateSet()->setMode(GL_LINE_SMOOTH, osg::StateAttribute::ON);
   for (osg::Node* node : {static_cast<osg::Node*>(sheet_.get()), static_cast<osg::Node*>(map_.get()),
                           static_cast<osg::Node*>(names_.get()), static_cast<osg::Node*>(legend_.get()),
@@ -92,6 +95,10 @@ void PlanPanel::set_lines(const PlanLines& lines) {
 }
 
 void PlanPanel::set_trail(const std::vector<glm::vec2>& trail) { show_only(*trail_, {strokes(trail, GL_LINES, blue)}); }
+
+void PlanPanel::set_way(const std::vector<glm::vec2>& open, const std::vector<glm::vec2>& barred) {
+  show_only(*way_, {strokes(open, GL_LINE_STRIP, green), strokes(barred, GL_LINE_STRIP, orange)});
+}
 
 void PlanPanel::set_places(const std::vector<PlanPlace>& places) {
   if (places == places_) return;
@@ -172,7 +179,7 @@ void PlanPanel::lay_out() {
                                                   static_cast<int>(r.width), static_cast<int>(r.height)));
   const float line = std::max(1.2f, 0.1f * static_cast<float>(page.letter));
   map_state.setAttribute(new osg::LineWidth(line));
-  trail_->getOrCreateStateSet()->setAttribute(new osg::LineWidth(2.0f * line));
+  for (const auto& wide : {trail_, way_}) wide->getOrCreateStateSet()->setAttribute(new osg::LineWidth(2.0f * line));
   // The body: an arrow along its gaze, whose size does not depend on the scale.
   const float arm = 0.75f * static_cast<float>(page.letter);
   body_->removeChildren(0, body_->getNumChildren());

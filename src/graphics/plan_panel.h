@@ -59,6 +59,8 @@ class PlanPanel {
   void set_lines(const PlanLines& lines);
   /// Points in pairs, metres from the base of the lines.
   void set_trail(const std::vector<glm::vec2>& trail);
+  /// A way, and its part beyond what stops the body; metres, from the base of the lines.
+  void set_way(const std::vector<glm::vec2>& open, const std::vector<glm::vec2>& barred);
   void set_places(const std::vector<PlanPlace>& places);
   void set_view(const PlanView& view);
   /// The metres at a point of the picture, x and y in [-1, 1]; none outside of the panel.
@@ -79,7 +81,7 @@ class PlanPanel {
   PlanSize laid_size_ = PlanSize::none;
   osg::ref_ptr<osg::Group> parent_, group_, sheet_, legend_, coming_;
   osg::ref_ptr<osg::MatrixTransform> map_, body_;
-  osg::ref_ptr<osg::Group> lines_, trail_, names_;
+  osg::ref_ptr<osg::Group> lines_, trail_, way_, names_;
   std::vector<PlanPlace> places_;
   std::vector<osg::ref_ptr<Text>> texts_;  ///< of the places
 };

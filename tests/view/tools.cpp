@@ -312,14 +312,19 @@ TEST(Tools, DrawThePlanBesideThePictureOnly) {
 TEST(Probing, FindsAWayBetweenMeasuredPoints) {
   Tooled d;
   d.tap('i');
-  EXPECT_TRUE(contains(d.hud(), "First measure from A to B: T, then two clicks")) << d.hud();
+  EXPECT_TRUE(contains(d.hud(), "First press T and click where to go, or A and B; then I")) << d.hud();
   d.tap('t');
+  d.tap('i');
+  EXPECT_TRUE(contains(d.hud(), "First click where to go, or A and B; then I")) << "T is on: " << d.hud();
   d.click(-0.5, -0.9);
   d.tap('i');
   ASSERT_TRUE(d.until([&] { return contains(d.hud(), "probe: YES: a body 0.60 m wide"); }))
       << "from the body: " << d.hud();
   EXPECT_TRUE(contains(d.hud(), "A: the body's place")) << d.hud();
   EXPECT_TRUE(contains(d.hud(), "narrowest: ")) << d.hud();
+  EXPECT_TRUE(contains(d.hud(), "way: ") && contains(d.hud(), " m long")) << d.hud();
+  EXPECT_TRUE(contains(d.hud(), "at A: on the floor at (10.00, 0.00, 0.00)\n")) << d.hud();
+  EXPECT_TRUE(contains(d.hud(), "at B: not moved: on the floor at ")) << d.hud();
   d.click(0.3, -0.9);
   EXPECT_FALSE(contains(d.hud(), "YES")) << "that was of another question: " << d.hud();
   d.tap('i');
@@ -371,6 +376,7 @@ TEST(Probing, StandsInFrontOfAClickedWall) {
   const ViewReport report = d.session->finish();
   ASSERT_EQ(report.probes.size(), 1u);
   EXPECT_NEAR(report.probes[0].to.x, 20.0 - 0.35, 1e-2);
+  EXPECT_TRUE(contains(d.hud(), "at B: moved 0.35 m from the click: on the floor at ")) << d.hud();
 }
 
 TEST(Probing, ShowsTheWordsOfTheAnswerWhereABodyIsStopped) {
@@ -388,6 +394,13 @@ TEST(Probing, ShowsTheWordsOfTheAnswerWhereABodyIsStopped) {
   EXPECT_FALSE(contains(d.hud(), "certainty")) << d.hud();
   d.run(0.1);
   EXPECT_TRUE(contains(d.hud() + "\n", "\ndoor 0.500 m wide\n")) << "at its place: " << d.hud();
+  const ViewReport report = d.session->finish();
+  ASSERT_EQ(report.probes.size(), 1u);
+  const ProbedWay way = way_of(report.probes[0]);
+  ASSERT_TRUE(way.open.size() >= 2 && way.barred.size() >= 2);
+  EXPECT_NEAR(way.open.back().x, 15.0, 0.05) << "up to the door, and beyond it";
+  EXPECT_EQ(way.open.back(), way.barred.front());
+  EXPECT_EQ(way.barred.back(), report.probes[0].target);
 }
 
 TEST(Probing, SaysWhyThereIsNoWay) {

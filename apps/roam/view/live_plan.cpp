@@ -150,6 +150,7 @@ void LivePlan::receive() {
   }
   panel_.set_lines(*shown_);
   trail_shown_ = 0;  // it has another base
+  is_way_new_ = true;
 }
 
 void LivePlan::follow() {
@@ -173,6 +174,12 @@ std::vector<Vec3> LivePlan::trail() const {
   return pairs;
 }
 
+void LivePlan::set_way(const ProbedWay& way) {
+  if (way.open == way_.open && way.barred == way_.barred) return;
+  way_ = way;
+  is_way_new_ = true;
+}
+
 void LivePlan::update(bool visible, HiddenSpace::Met met, const std::vector<graphics::PlanPlace>& places) {
   if (roamer_.walker() == nullptr) return;
   follow();
@@ -193,6 +200,14 @@ void LivePlan::update(bool visible, HiddenSpace::Met met, const std::vector<grap
     for (const Vec3& p : this->trail()) trail.emplace_back(seen_from_above(p) - shown_->base);
     panel_.set_trail(trail);
     trail_shown_ = trail_.size();
+  }
+  if (shown_ && std::exchange(is_way_new_, false)) {
+    const auto flat = [&](const std::vector<Vec3>& way) {
+      std::vector<glm::vec2> points;
+      for (const Vec3& p : way) points.emplace_back(seen_from_above(p) - shown_->base);
+      return points;
+    };
+    panel_.set_way(flat(way_.open), flat(way_.barred));
   }
   panel_.set_places(places);
   view.size = size_;

@@ -13,6 +13,7 @@
 #include "graphics/plan_panel.h"
 #include "osgRoam/Manipulator.h"
 #include "view/hidden_space.h"
+#include "view/probing.h"
 
 namespace roam::app {
 
@@ -35,6 +36,8 @@ class LivePlan {
   void jump() { has_jumped_ = true; }
   /// The trail: pairs of points, metres in the scene.
   [[nodiscard]] std::vector<Vec3> trail() const;
+  /// A way that is shown; empty: none.
+  void set_way(const ProbedWay& way);
   /// Call it in each frame. `visible` false: nothing is shown or cut. `met`: the walls.
   void update(bool visible, HiddenSpace::Met met, const std::vector<graphics::PlanPlace>& places);
   /// The metres at a point of the picture, x and y in [-1, 1]; none outside of the plan.
@@ -80,6 +83,8 @@ class LivePlan {
   std::vector<TrailPoint> trail_;
   bool has_jumped_ = false;
   std::size_t trail_shown_ = 0;
+  ProbedWay way_;
+  bool is_way_new_ = false;
 };
 
 }  // namespace roam::app

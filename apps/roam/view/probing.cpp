@@ -4,11 +4,14 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <glm/geometric.hpp>
 #include <iterator>
 #include <nlohmann/json.hpp>
 #include <string_view>
 #include <utility>
 
+#include "math/level_distance.h"
 #include "view/roam_child.h"
 
 namespace roam::app {
@@ -44,7 +47,14 @@ ProbeReply reply_of(const Json& json) {
   ProbeReply reply;
   reply.from = point_of(json.at("from"));
   reply.to = point_of(json.at("to"));
+  reply.start = point_of(json.at("start"));
+  reply.target = point_of(json.at("target"));
   reply.passable = json.at("passable");
+  if (!reply.passable && json.at("walked").is_object()) {
+    reply.stopped_at = point_of(json.at("walked").at("at"));
+  } else if (!reply.passable && json.at("opening").is_object()) {
+    reply.stopped_at = point_of(json.at("opening").at("point"));
+  }
   for (const Json& point : json.at("way")) reply.way.push_back(point_of(point));
   for (const Json& mark : json.at("marks")) reply.marks.emplace_back(point_of(mark.at("point")), mark.at("text"));
   reply.text = json.at("text").get<std::vector<std::string>>();
@@ -69,14 +79,79 @@ std::vector<StatusText> rows_of(const std::vector<std::string>& lines) {
   return rows;
 }
 
-/// Whether the window shows a row: the answer, the places that decide, and an end that was moved.
+/// Whether the window shows a row: the answer, the way, the places that decide, and the ends.
 bool decides(const StatusText& row) {
-  constexpr std::array<std::string_view, 4> others{"way", "widest way", "narrower", "certainty"};
-  if (row.label == "A" || row.label == "B") return row.value.find(", moved: ") != std::string::npos;
+  constexpr std::array<std::string_view, 3> others{"widest way", "narrower", "certainty"};
   return std::find(others.begin(), others.end(), row.label) == others.end();
 }
 
+/// The verb's error of an end without room, which it names as its options.
+std::string told_error(const std::string& text) {
+  for (const auto& [option, end] : {std::pair("--from (", "A ("), std::pair("--to (", "B (")}) {
+    const std::string_view begin = option;
+    if (text.starts_with(begin)) return fmt::format("NO: no room at {}{}", end, text.substr(begin.size()));
+  }
+  return text;
+}
+
+/// Says of an end how far its place is from the clicked point, which the verb does not know.
+StatusText told_from_click(const StatusText& row, const Vec3& place, const std::optional<Vec3>& click, bool flies) {
+  constexpr double moved = 0.005;  // m
+  StatusText told = row;
+  told.label = "at " + row.label;
+  if (!click) return told;
+  told.value.resize(std::min(told.value.find(", moved by "), told.value.size()));
+  const double aside = flies ? glm::distance(place, *click) : level_distance(place, *click);
+  told.value = (aside < moved ? "not moved: " : fmt::format("moved {:.2f} m from the click: ", aside)) + told.value;
+  return told;
+}
+
+/// A dash of each two, along the way, at most 1000.
+std::vector<std::array<Vec3, 2>> dashes(const std::vector<Vec3>& way, const Vec3& offset) {
+  double length = 0.0, gone = 0.0;
+  for (std::size_t i = 0; i + 1 < way.size(); ++i) length += glm::distance(way[i], way[i + 1]);
+  const double dash = std::max(0.1, length / 2000.0);  // m
+  std::vector<std::array<Vec3, 2>> all;
+  for (std::size_t i = 0; i + 1 < way.size(); ++i) {
+    const double piece = glm::distance(way[i], way[i + 1]);
+    const auto at = [&](double along) {
+      return way[i] + offset + std::clamp((along - gone) / piece, 0.0, 1.0) * (way[i + 1] - way[i]);
+    };
+    for (double k = std::floor(0.5 * gone / dash); piece > 0.0 && 2.0 * k * dash < gone + piece; k += 1.0) {
+      if ((2.0 * k + 1.0) * dash > gone) all.push_back({at(2.0 * k * dash), at((2.0 * k + 1.0) * dash)});
+    }
+    gone += piece;
+  }
+  return all;
+}
+
 }  // namespace
+
+ProbedWay way_of(const ProbeReply& reply) {
+  ProbedWay parts;
+  if (reply.passable || !reply.stopped_at) {
+    (reply.passable ? parts.open : parts.barred) = reply.way;
+    return parts;
+  }
+  const Vec3 stop = *reply.stopped_at;
+  std::size_t piece = 0;
+  Vec3 nearest = reply.way.empty() ? stop : reply.way.front();
+  for (std::size_t i = 0; i + 1 < reply.way.size(); ++i) {
+    const Vec3 from = reply.way[i], along = reply.way[i + 1] - from;
+    const double square = glm::dot(along, along);
+    const Vec3 at = from + (square > 0.0 ? std::clamp(glm::dot(stop - from, along) / square, 0.0, 1.0) : 0.0) * along;
+    if (glm::distance(at, stop) >= glm::distance(nearest, stop)) continue;
+    nearest = at;
+    piece = i;
+  }
+  if (reply.way.size() < 2) return parts;
+  const auto cut = reply.way.begin() + static_cast<std::ptrdiff_t>(piece) + 1;
+  parts.open.assign(reply.way.begin(), cut);
+  parts.open.push_back(nearest);
+  parts.barred.push_back(nearest);
+  parts.barred.insert(parts.barred.end(), cut, reply.way.end());
+  return parts;
+}
 
 struct Probing::Search {
   Search(std::filesystem::path program, std::vector<std::string> arguments)
@@ -106,8 +181,10 @@ Probing::Probing(std::filesystem::path program, SceneAndStore what, const osgRoa
 
 Probing::~Probing() = default;
 
-void Probing::ask(const Vec3& from, const Vec3& to, const std::vector<std::string>& ignored) {
+void Probing::ask(const Vec3& from, const Vec3& to, const std::vector<std::string>& ignored, const Clicked& clicked) {
   search_.reset();
+  clicked_ = clicked;
+  flies_ = roamer_.mode() == Mode::fly;
   search_ =
       std::make_unique<Search>(program_, arguments_of(what_, roamer_.settings(), roamer_.mode(), from, to, ignored));
 }
@@ -125,6 +202,11 @@ void Probing::receive() {
   search_->received = true;
 }
 
+const ProbeReply* Probing::shown() {
+  receive();
+  return search_ && search_->received ? &replies_.back() : nullptr;
+}
+
 const std::vector<ProbeReply>& Probing::replies() {
   receive();
   return replies_;
@@ -135,28 +217,33 @@ void Probing::fill(Status& status) {
   if (!search_) return;
   const LoadState state = search_->loading.state();
   if (state.phase == LoadState::Phase::failed) {
-    status.tool.push_back({"probe", state.error.what(), true});
+    status.tool.push_back({"probe", told_error(state.error.what()), true});
   } else if (!search_->received) {
     status.tool.push_back({"probe", "searching"});
   } else {
-    constexpr std::size_t most_rows = 6;
-    std::vector<StatusText> rows = rows_of(replies_.back().text);
+    constexpr std::size_t most_rows = 7;
+    const ProbeReply& reply = replies_.back();
+    std::vector<StatusText> rows = rows_of(reply.text);
     std::erase_if(rows, [](const StatusText& row) { return !decides(row); });
+    for (StatusText& row : rows) {
+      if (row.label == "A") row = told_from_click(row, reply.start, clicked_.from, flies_);
+      if (row.label == "B") row = told_from_click(row, reply.target, clicked_.to, flies_);
+    }
     rows.resize(std::min(rows.size(), most_rows));
-    if (!rows.empty()) rows.front().warning = !replies_.back().passable;
+    if (!rows.empty()) rows.front().warning = !reply.passable;
     std::move(rows.begin(), rows.end(), std::back_inserter(status.tool));
   }
 }
 
 void Probing::add_to(graphics::Marks& marks, const Vec3& origin) {
-  receive();
-  if (!search_ || !search_->received) return;
-  const ProbeReply& reply = replies_.back();
-  const Vec3 above_floor(0.0, 0.0, 0.05);
-  for (std::size_t i = 0; i + 1 < reply.way.size(); ++i) {
-    marks.lines.push_back({reply.way[i] - origin + above_floor, reply.way[i + 1] - origin + above_floor});
-  }
-  for (const auto& [place, text] : reply.marks) {
+  const ProbeReply* const reply = shown();
+  if (reply == nullptr) return;
+  const Vec3 above_floor = Vec3(0.0, 0.0, 0.05) - origin;
+  const ProbedWay way = way_of(*reply);
+  for (std::size_t i = 0; i + 1 < way.open.size(); ++i)
+    marks.way.push_back({way.open[i] + above_floor, way.open[i + 1] + above_floor});
+  marks.barred = dashes(way.barred, above_floor);
+  for (const auto& [place, text] : reply->marks) {
     marks.points.push_back(place - origin);
     marks.labels.push_back({place - origin, text});
   }

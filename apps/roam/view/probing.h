@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -20,12 +21,25 @@ namespace roam::app {
 /// What `roam probe` answers; docs/probing.md.
 struct ProbeReply {
   Vec3 from{0.0}, to{0.0};
+  Vec3 start{0.0}, target{0.0};  ///< the body's places for both: the feet, in flight the centre
   bool passable = false;
-  std::vector<Vec3> way;  ///< metres; the feet, in flight the centre; empty: no way
+  std::vector<Vec3> way;           ///< metres; likewise; empty: no way
+  std::optional<Vec3> stopped_at;  ///< if the way is not passable: the place of it that stops the body
   /// Marked places, with the words of the pictures of `roam probe`: the place that decides, steps down.
   std::vector<std::pair<Vec3, std::string>> marks;
   std::vector<std::string> text;  ///< lines for people
 };
+
+/// The clicked points of a question; none: the body's place.
+struct Clicked {
+  std::optional<Vec3> from, to;
+};
+
+/// A way, up to what stops the body and beyond.
+struct ProbedWay {
+  std::vector<Vec3> open, barred;
+};
+[[nodiscard]] ProbedWay way_of(const ProbeReply& reply);
 
 /// Runs `roam probe` as a child, one question at a time, with the scene and the body of the session. Call all members
 /// from the thread that draws, between two frames.
@@ -36,13 +50,15 @@ class Probing {
   ~Probing();  ///< ends the child
 
   /// Begins to search a way. Ends an earlier search.
-  void ask(const Vec3& from, const Vec3& to, const std::vector<std::string>& ignored = {});
+  void ask(const Vec3& from, const Vec3& to, const std::vector<std::string>& ignored = {}, const Clicked& clicked = {});
   /// Shows nothing any more, and ends the search. The report keeps the answers. Returns whether it ended a search.
   bool clear();
 
   void fill(Status& status);
   /// Adds the way. The graph is the scene minus `origin`.
   void add_to(graphics::Marks& marks, const Vec3& origin);
+  /// The answer that is shown; null: none.
+  [[nodiscard]] const ProbeReply* shown();
   /// All answers of the session.
   [[nodiscard]] const std::vector<ProbeReply>& replies();
 
@@ -54,6 +70,8 @@ class Probing {
   SceneAndStore what_;
   const osgRoam::Manipulator& roamer_;
   std::unique_ptr<Search> search_;  ///< null: nothing is shown
+  Clicked clicked_;                 ///< of the search
+  bool flies_ = false;              ///< likewise
   std::vector<ProbeReply> replies_;
 };
 

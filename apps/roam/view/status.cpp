@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "cli/progress.h"
+#include "text/number.h"
 #include "text/printable.h"
 #include "text/reference_system.h"
 #include "words/measures.h"
@@ -138,7 +139,7 @@ std::vector<StatusText> status_lines(const Status& status) {
     const auto add = [&](const char* label, std::string value) {
       if (!value.empty()) lines.push_back({label, std::move(value), false, false, true});
     };
-    add("feet", fmt::format("{:.2f}, {:.2f}, {:.2f}", p.x, p.y, p.z));
+    add("feet", fmt::format("{}, {}, {}", fixed_text(p.x, 2), fixed_text(p.y, 2), fixed_text(p.z, 2)));
     add("site", site_text(status, p));
     add("height", height_text(status));
     add("heading", heading_text(status.yaw, status.pitch));

@@ -70,8 +70,9 @@ void Tools::probe() {
   constexpr double seconds = 4.0;
   const Measurement* const points = tool_ == Tool::measure ? measuring_.shown() : nullptr;
   if (points == nullptr) {
-    const std::string key = key_of(roamer_.controls(), "measure");
-    stage_.hint(fmt::format("First measure from A to B: {}, then two clicks", key), seconds);
+    const std::string key = key_of(roamer_.controls(), "measure"), again = key_of(roamer_.controls(), "probe");
+    const std::string begin = tool_ == Tool::measure ? "First click" : fmt::format("First press {} and click", key);
+    stage_.hint(fmt::format("{} where to go, or A and B; then {}", begin, again), seconds);
     return;
   }
   const std::vector<std::string> passed = hidden_.passed();
@@ -84,11 +85,12 @@ void Tools::probe() {
   }
   const Vec3 a = beside(points->a, roamer_.settings().radius);
   if (points->b) {
-    probing_.ask(a, beside(*points->b, roamer_.settings().radius), passed);
+    probing_.ask(a, beside(*points->b, roamer_.settings().radius), passed, {points->a.point, points->b->point});
   } else {
     const Walker& walker = *roamer_.walker();
     measuring_.probe_from_body();
-    probing_.ask(roamer_.mode() == Mode::fly ? walker.position() : walker.feet(), a, passed);
+    probing_.ask(roamer_.mode() == Mode::fly ? walker.position() : walker.feet(), a, passed,
+                 {std::nullopt, points->a.point});
   }
 }
 
@@ -148,10 +150,29 @@ Box Tools::room_around() const {
 void Tools::update(bool has_body, bool has_plan, const std::vector<graphics::PlanPlace>& places) {
   section_.show(scene_.group(), scene_.origin());
   const bool is_plan_seen = has_plan && stage_.hud().detail() != graphics::Detail::off;
-  if (has_body) plan_.update(is_plan_seen, hidden_.met(), places);
+  if (has_body) {
+    std::vector<graphics::PlanPlace> all = places;
+    if (tool_ == Tool::measure) add_ends_to(all);
+    const ProbeReply* const reply = probing_.shown();
+    plan_.set_way(reply != nullptr ? way_of(*reply) : ProbedWay{});
+    plan_.update(is_plan_seen, hidden_.met(), all);
+  }
   if (const std::string problem = plan_.take_problem(); !problem.empty())
     stage_.hint("The plan is not drawn: " + printable(problem), 8.0);
   stage_.hud().set_plan(plan_.place());
+}
+
+/// A and B, where the answer has them or where they were clicked.
+void Tools::add_ends_to(std::vector<graphics::PlanPlace>& places) {
+  const auto add = [&](const Vec3& at, const char* name) { places.push_back({{at.x, at.y}, name}); };
+  const Measurement* const points = measuring_.shown();
+  if (const ProbeReply* const reply = probing_.shown()) {
+    add(reply->start, "A");
+    add(reply->target, "B");
+  } else if (points != nullptr) {
+    add(points->a.point, "A");
+    if (points->b) add(points->b->point, "B");
+  }
 }
 
 CameraView Tools::camera() const {

@@ -76,6 +76,7 @@ class Tools : public osgGA::GUIEventHandler {
   [[nodiscard]] Box room_around() const;
   void cut(Pick pick);
   bool drag(const osgGA::GUIEventAdapter& event);
+  void add_ends_to(std::vector<graphics::PlanPlace>& places);
   void resize_box(const Point& at, double notches);
 
   Stage& stage_;
