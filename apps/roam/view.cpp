@@ -115,7 +115,6 @@ ExitStatus view(ViewOptions options) {
   while (const std::optional<NextSession> next = run_session(options, plan, settings, report, cancelled)) {
     append(notes, report.notes);
     append(noted, report.noted);
-    if (!next->note.empty()) notes.push_back(next->note);
     const std::string note = go_on(options, *next, given);
     plan = make_plan(options, settings, std::nullopt, profile_for(options, std::nullopt));
     plan.note = note;

@@ -105,7 +105,6 @@ Frame::Frame(osgViewer::Viewer& viewer, const Context& context, const FrameSetti
   camera_->setClearColor(background);
   camera_->setClearDepth(pipeline_->reversed_depth() ? 0.0 : 1.0);
   pipeline_->attach(*camera_);
-  camera_->getStats()->collectStats("scene", true);  // for draw_calls()
   project();
 
   root_ = new osg::Group;
@@ -135,6 +134,8 @@ Quality Frame::quality() const { return pipeline_->quality(); }
 Quality Frame::next_quality() const { return pipeline_->next_quality(); }
 bool Frame::edges() const { return pipeline_->edges(); }
 bool Frame::reversed_depth() const { return pipeline_->reversed_depth(); }
+
+void Frame::count_draw_calls() { camera_->getStats()->collectStats("scene", true); }
 
 int Frame::draw_calls() const {
   const osg::Stats& stats = *camera_->getStats();

@@ -107,8 +107,10 @@ class Frame {
 
   /// Whether the depth is reversed. If not, it is an ordinary 24-bit depth, with which distant surfaces flicker.
   [[nodiscard]] bool reversed_depth() const;
-  /// The draw calls of the last frame: the primitive sets of shadow maps, scene and head-up display, and one a pass of
-  /// the effects. They are known only if the thread that calls viewer.frame() also draws.
+  /// Counts the draw calls of each frame from now on, which visits all that is drawn.
+  void count_draw_calls();
+  /// The draw calls of the last frame, if they are counted: the primitive sets of shadow maps, scene and head-up
+  /// display, and one a pass of the effects. They are known only if the thread that calls viewer.frame() also draws.
   [[nodiscard]] int draw_calls() const;
 
   /// One line: renderer, depth, samples, and missing abilities.

@@ -71,7 +71,7 @@ TEST(Hold, TellsWhyTheBodyIsCrouched) {
     hold.take(walker, wish, walker.step({.velocity = wish, .crouch = crouch}, 1.0 / 60.0).elapsed);
   };
   step({}, false);
-  EXPECT_EQ(hold.told().text, "crouched: Table_3 is 1.30 m above the floor, and the body 1.80 m high");
+  EXPECT_EQ(hold.told().text, "crouched under Table_3: the headroom is 1.30 m, and the body 1.80 m high");
   EXPECT_FALSE(hold.told().warning);
   for (int i = 0; i < 120; ++i) step({1.4, 0, 0}, true);
   ASSERT_TRUE(walker.crouched());

@@ -218,7 +218,7 @@ TEST(OpenSection, LetsTheBodyThroughWhatIsHiddenWhole) {
 
 TEST(OpenSection, LeavesWhatIsSeenInPartSolid) {
   Tooled d(with_section({"z<1.5", "box -1 -3 -1, 25 3 5"}, true));
-  EXPECT_TRUE(contains(d.hud(), "section: a box and a plane, 26.00 x 6.00 x 6.00 m, z = 1.50 m; the")) << d.hud();
+  EXPECT_TRUE(contains(d.hud(), "section: a box of 26.00 x 6.00 x 6.00 m and a plane at z = 1.50 m; the")) << d.hud();
   EXPECT_NEAR(flies_to(d), 19.7, 0.02) << "half of the wall is seen";
   // The ceiling is hidden whole.
   d.session->roamer().setPose({10, 0, 1.5}, 0.0, 0.0);

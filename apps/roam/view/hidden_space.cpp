@@ -25,15 +25,14 @@ std::shared_ptr<Filtered> filter_of(std::shared_ptr<Kept> space) {
   return {both, &both->filtered};
 }
 
-/// "a box and 2 planes, 8.00 x 5.20 x 2.50 m, z = 2.40 m": sizes of the box, place of the last plane
+/// "a box of 8.00 x 5.20 x 2.50 m and 2 planes, the last at z = 2.40 m"
 std::string text_of(const SectionShape& section) {
   const std::size_t planes = section.planes.size();
-  std::string text = section.box ? "a box" : "";
-  if (planes > 0) text += fmt::format("{}{}", text.empty() ? "" : " and ", planes == 1 ? "a plane" : "");
-  if (planes > 1) text += fmt::format("{} planes", planes);
-  if (section.box) text += ", " + place_of(*section.box);
-  if (planes > 0) text += ", " + place_of(section.planes.back());
-  return text;
+  std::string text = section.box ? "a box of " + size_text(*section.box) : "";
+  if (planes == 0) return text;
+  if (section.box) text += " and ";
+  text += planes == 1 ? "a plane at " : fmt::format("{} planes, the last at ", planes);
+  return text + place_text(section.planes.back());
 }
 
 }  // namespace

@@ -132,8 +132,8 @@ void Hold::look_above(const Walker& walker) {
   const measure::Free above = room.headroom(walker.body(), walker.position());
   if (!above.bounded || above.distance >= settings.height) return;
   const std::string object = walker.space().object_name(above.triangle);
-  above_ = fmt::format("crouched: {} is {:.2f} m above the floor, and the body {:.2f} m high",
-                       object.empty() ? "what is above" : printable(object), above.distance, settings.height);
+  above_ = fmt::format("crouched{}: the headroom is {:.2f} m, and the body {:.2f} m high",
+                       object.empty() ? std::string() : " under " + printable(object), above.distance, settings.height);
 }
 
 Told Hold::told(const std::string& coming) const {

@@ -232,6 +232,10 @@ std::string LivePlan::go(double x, double y) {
     return {};
   }
   if (unknown) return "That place is not loaded yet";
+  if (walker.mode() != Mode::walk && !heights.empty()) {  // it need not stand there
+    roamer_.goTo(Vec3(at->x, at->y, heights.front()), {0.0, 0.0, 1.0});
+    return {};
+  }
   return heights.empty() ? "There is no floor there" : "There is no floor with room for the body there";
 }
 

@@ -64,7 +64,7 @@ class Measuring {
   bool from_body_ = false;
 };
 
-/// "A 12.345, 5.600, 1.200, Door_12, slope 90°", and of two points also "; B ...; 2.100 m: ...".
+/// "A 12.345, 5.600, 1.200, Door_12, wall facing 135° (SE)", and of two points also "; B ...; 2.100 m: ...".
 [[nodiscard]] std::string text_of(const Measurement& measurement);
 
 /// "1.20 m wide, 2.45 m high": free space across the gaze and above the feet. Needs a walker.

@@ -64,7 +64,7 @@ std::vector<HalfSpace> SectionShape::hidden() const {
   return all;
 }
 
-std::string place_of(const HalfSpace& plane) {
+std::string place_text(const HalfSpace& plane) {
   constexpr double straight = 0.9999;
   for (int axis = 0; axis < 3; ++axis) {
     if (std::abs(plane.normal[axis]) < straight) continue;
@@ -74,7 +74,7 @@ std::string place_of(const HalfSpace& plane) {
   return fmt::format("{:.2f} m along ({:.2f}, {:.2f}, {:.2f})", plane.distance, n.x, n.y, n.z);
 }
 
-std::string place_of(const Box& box) {
+std::string size_text(const Box& box) {
   const Vec3 size = box.size();
   return fmt::format("{:.2f} x {:.2f} x {:.2f} m", size.x, size.y, size.z);
 }

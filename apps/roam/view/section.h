@@ -24,9 +24,9 @@ struct SectionShape {
 };
 
 /// "z = 2.40 m"; of a slanting plane "12.30 m along (0.50, 0.00, 0.87)".
-[[nodiscard]] std::string place_of(const HalfSpace& plane);
+[[nodiscard]] std::string place_text(const HalfSpace& plane);
 /// "8.00 x 5.20 x 2.50 m"
-[[nodiscard]] std::string place_of(const Box& box);
+[[nodiscard]] std::string size_text(const Box& box);
 
 /// Adds a section of the option --section: "z<2.5" hides everything above, "box 0 0 0, 10 10 3" everything outside the
 /// box between these corners. Throws UsageError for any other text, a second box, a box without volume, or too many

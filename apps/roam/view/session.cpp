@@ -67,9 +67,11 @@ Session::Session(const ViewOptions& options, const ViewPlan& plan, const ViewSet
       controllers_(stage_, *roamer_, *prompt_, plan_.sensitivity),
       building_(what_, options.program, *roamer_, news_),
       rereading_(what_, options_, arrival_, *roamer_, display_, news_) {
-  for (const std::string& note : {plan_.note, link_beside(what_)}) {
-    if (!note.empty()) news_.note(note);
+  if (!plan_.note.empty()) {  // shown each time that it is true again
+    news_.tell(plan_.note, true);
+    news_.note(plan_.note, {});
   }
+  if (const std::string note = link_beside(what_); !note.empty()) news_.note(note);
   stage_.add_to(commands_);
   display_.add_to(commands_);
   layers_->add_to(commands_, *bookmark_list_);
@@ -277,9 +279,11 @@ void Session::show(bool at_once) {
   if (roaming() && !roamer_leads()) status.camera = cameras_->present();
   if (!options_.origin.empty()) {
     status.georeference = Georeference{{}, {options_.origin[0], options_.origin[1], options_.origin[2]}};
-  } else if (const auto frame = frame_of(what_.scene); frame && scene_.report()) {
-    status.georeference = scene_.report()->import.georeference;
-    status.georeferenced = *frame;
+  } else if (scene_.report() && scene_.report()->import.georeference) {
+    if (const auto frame = frame_of(what_.scene)) {
+      status.georeference = scene_.report()->import.georeference;
+      status.georeferenced = *frame;
+    }
   }
   arrival_.fill(status);
   building_.fill(status);
@@ -296,7 +300,9 @@ void Session::tell_results() {
   const auto& measured = tools_->measurements();
   std::string text;
   std::size_t measurements = measurements_told_, files = written_told_;
-  for (; measurements < measured.size() && measured[measurements].b; ++measurements) {
+  // The last one may get its second point.
+  for (; measurements < measured.size() && (measured[measurements].b || measurements + 1 < measured.size());
+       ++measurements) {
     text += measured_line(measured[measurements]);
   }
   for (; files < news_.files().size(); ++files) text += written_line(news_.files()[files]);

@@ -103,6 +103,7 @@ Stage::Stage(const ViewOptions& options, const ViewPlan& plan)
   frame_.emplace(*viewer_, context_, settings);
   is_plain_by_itself_ = plan.quality == "auto" && settings.quality == graphics::Quality::plain;
   if (plan.quality == "auto" && !context_.headless && options.record.empty()) thrift_.emplace();
+  if (options.json) frame_->count_draw_calls();
   frame_->set_edges(plan.edges);
   frame_->space()->addChild(graphics::make_sky());
   hud_.emplace(*frame_);
@@ -176,7 +177,7 @@ void Stage::add_to(Commands& commands) {
         hint(fmt::format("Writing {} x {} ...", enlarged_size()[0], enlarged_size()[1]));
         return;
       }
-      still_wanted_ = !with_display;
+      (with_display ? picture_wanted_ : still_wanted_) = true;
       pictures_.emplace_back(*frame_, "roam.png", with_display, files::Naming::numbered);
     });
   }
@@ -286,7 +287,7 @@ void Stage::draw() {
   times_.add(ns);
   draw_calls_.add(frame_->draw_calls());
   if (thrift_ && runs_) draw_less_if_slow(begin, ns * 1e-6);
-  still_wanted_ = false;
+  still_wanted_ = picture_wanted_ = false;
   if (enlarged_in_ > 0 && --enlarged_in_ == 0) take_enlarged();
 }
 
@@ -377,7 +378,7 @@ void Stage::say_what_is_finished() {
   std::string what;
   if (film_) what = written_.front();
   for (const graphics::Screenshot& picture : pictures_) {
-    if (!picture.done()) what = picture.path().string();
+    if (!picture.done()) what = "a picture";
   }
   if (what.empty() || headless()) return;
   tell("finishing " + what + " ...");
@@ -389,8 +390,9 @@ void Stage::say_what_is_finished() {
 }
 
 void Stage::finish() {
-  if (!pictures_.empty() || enlarged_in_ > 0) {  // asked for in the last frame, which was not drawn
-    enlarged_in_ = std::min(enlarged_in_, 1);
+  if (is_still_next() || picture_wanted_) {  // asked for in the last frame, which was not drawn
+    enlarged_in_ = interrupted() ? 0 : std::min(enlarged_in_, 1);
+    if (is_still_next()) overlay_->set_marks({});
     hold_film(true);
     draw();
   }

@@ -122,7 +122,7 @@ class Stage {
   std::vector<Picture> failed_;              ///< pictures that could not be drawn
   std::optional<std::array<int, 2>> large_;  ///< pixels, of a picture larger than the window
   double picture_scale_ = 1.0;
-  bool still_wanted_ = false;
+  bool still_wanted_ = false, picture_wanted_ = false;  ///< of the next frame, the second with the display
   int enlarged_in_ = 0;  ///< frames, so that the window says it before; 0: none is wanted
   HudMode hud_mode_ = HudMode::plain;
   std::string hint_;
@@ -134,9 +134,9 @@ class Stage {
   bool runs_ = false;
   Histogram times_;  ///< ns
   Histogram draw_calls_;
-  std::optional<Thrift> thrift_;  ///< none: the quality is as wished
+  std::optional<Thrift> thrift_;     ///< none: the quality is as wished
   bool is_plain_by_itself_ = false;  ///< for lack of a graphics card
-  std::string drawn_less_;        ///< why
+  std::string drawn_less_;           ///< why
   double last_ms_ = 0.0;
   bool fullscreen_ = false;
   int width_ = 0, height_ = 0;  ///< pixels, of the window before full screen

@@ -128,7 +128,8 @@ std::string site_text(const Status& status, const Vec3& point) {
   for (int i = 0; i < 3; ++i) {
     for (int k = 0; k < 3; ++k) site[i] += rows[static_cast<std::size_t>(i)][static_cast<std::size_t>(k)] * point[k];
   }
-  return fmt::format("{:.2f}, {:.2f}, {:.2f}{}{}", site.x, site.y, site.z, srs.empty() ? "" : " ", reference_name(srs));
+  return fmt::format("{}, {}, {}{}{}", fixed_text(site.x, 2), fixed_text(site.y, 2), fixed_text(site.z, 2),
+                     srs.empty() ? "" : " ", reference_name(srs));
 }
 
 std::vector<StatusText> status_lines(const Status& status) {

@@ -243,7 +243,7 @@ void Tools::cut(Pick pick) {
   }
   section_.cut(pick);
   stage_.hint(fmt::format("Cut{} at {}: the wheel moves it", is_floor ? " below the eye," : "",
-                          place_of(section_.shape().planes.back())),
+                          place_text(section_.shape().planes.back())),
               seconds);
 }
 
