@@ -267,7 +267,7 @@ TEST(Session, ReplacesABookmarkOfTheSameNameIfItIsSaidTwice) {
   d.session->run("name_bookmark");
   d.tap('1');
   d.tap(osgGA::GUIEventAdapter::KEY_Return);
-  EXPECT_TRUE(contains(d.hud(), "Enter replaces it. Name: 1_")) << d.hud();
+  EXPECT_TRUE(contains(d.hud(), "of this name. Name: 1_")) << d.hud();
   d.tap(osgGA::GUIEventAdapter::KEY_Escape);
   d.tap(osgGA::GUIEventAdapter::KEY_Tab);
   EXPECT_TRUE(contains(d.hud(), "of 2)")) << "nothing has changed: " << d.hud();

@@ -312,7 +312,7 @@ TEST(Tools, DrawThePlanBesideThePictureOnly) {
 TEST(Probing, FindsAWayBetweenMeasuredPoints) {
   Tooled d;
   d.tap('i');
-  EXPECT_TRUE(contains(d.hud(), "First press T and click where to go, or A and B; then I")) << d.hud();
+  EXPECT_TRUE(contains(d.hud(), "First press T and click where to go, or start and end; then press I")) << d.hud();
   d.tap('t');
   d.tap('i');
   EXPECT_TRUE(contains(d.hud(), "First click where to go, or A and B; then I")) << "T is on: " << d.hud();

@@ -82,7 +82,7 @@ void Records::ask_name(Prompt& prompt, const std::string& question, const std::s
     try {
       if (bookmarks_->is_taken(name)) {
         if (name != replaced) {
-          ask_name(prompt, "Another bookmark has this name, Enter replaces it. Name", name, name);
+          ask_name(prompt, "Enter replaces the other bookmark of this name. Name", name, name);
           return;
         }
         bookmarks_->remove(name);

@@ -72,7 +72,7 @@ void Tools::probe() {
   if (points == nullptr) {
     const std::string key = key_of(roamer_.controls(), "measure"), again = key_of(roamer_.controls(), "probe");
     const std::string begin = tool_ == Tool::measure ? "First click" : fmt::format("First press {} and click", key);
-    stage_.hint(fmt::format("{} where to go, or A and B; then {}", begin, again), seconds);
+    stage_.hint(fmt::format("{} where to go, or start and end; then press {}", begin, again), seconds);
     return;
   }
   const std::vector<std::string> passed = hidden_.passed();
