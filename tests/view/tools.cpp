@@ -315,7 +315,7 @@ TEST(Probing, FindsAWayBetweenMeasuredPoints) {
   EXPECT_TRUE(contains(d.hud(), "First press T and click where to go, or start and end; then press I")) << d.hud();
   d.tap('t');
   d.tap('i');
-  EXPECT_TRUE(contains(d.hud(), "First click where to go, or A and B; then I")) << "T is on: " << d.hud();
+  EXPECT_TRUE(contains(d.hud(), "First click where to go, or start and end; then press I")) << "T is on: " << d.hud();
   d.click(-0.5, -0.9);
   d.tap('i');
   ASSERT_TRUE(d.until([&] { return contains(d.hud(), "probe: YES: a body 0.60 m wide"); }))
