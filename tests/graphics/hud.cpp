@@ -73,9 +73,9 @@ TEST(GraphicsHud, LongValuesAreBrokenIntoLines) {
   const Region broken = panel(1280, 720, {{"Note", note}});
   EXPECT_EQ(high(broken), high(two));
   EXPECT_LT(broken.right, 0.5 * 1280);
-  // Lines below follow, and no value has more than three.
+  // Lines below follow, and no value has more than five.
   EXPECT_EQ(high(panel(1280, 720, {{"Note", note}, {"Mode", "walk"}})), high(two) + line);
-  EXPECT_EQ(high(panel(1280, 720, {{"Note", note + note + note + note}})), high(two) + line);
+  EXPECT_EQ(high(panel(1280, 720, {{"Note", note + note + note + note}})), high(two) + 3 * line);
   // Where there is no room for all of it, there are fewer.
   std::vector<graphics::StatusLine> many;
   for (int i = 0; i < 6; ++i) many.push_back({"Note", note + note});
