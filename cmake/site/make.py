@@ -23,7 +23,8 @@ NAVIGATION = {
     "Trust it": ["guarantees", "algorithm", "proofs", "benchmarks", "format", "paper"],
 }
 # Documents beside README.md, and the sections that they end.
-OTHERS = {"SECURITY.md": "Trust it", "CONTRIBUTING.md": "Change it", "CHANGELOG.md": "Change it"}
+OTHERS = {"SECURITY.md": "Trust it", "tests/long/results.md": "Trust it", "CONTRIBUTING.md": "Change it",
+          "CHANGELOG.md": "Change it"}
 
 CONFIGURATION = """
 site_name: roam

@@ -48,9 +48,9 @@ with_stand_ins() {
     s#--unit in --from [^ ]+ --to [^ ]+#--from 1,2,1 --to 8,3,1#; s#--radius R\b#--radius 0.3#
     s#--triangles (600k|2M|100M)#--triangles 50k#; s#--gallery 500000#--gallery 20000#; s#--least 100k#--least 20k#
     s#--quality Q\b#--quality light#; s#--size [0-9]+x[0-9]+#--size 160x120#
-    s#--turntable 12#--turntable 1#; s#--fps [0-9]+#--fps 3#; s#--patience (10|30)\b#--patience 0.5#
+    s#--turntable 12#--turntable 1#; s#--fps [0-9]+#--fps 10#; s#--patience (10|30)\b#--patience 0.5#
     s#--queries 10000#--queries 100#; s#(roam bench engines) --picture\$#\1#; s# +# #g; s# \$##" <<< "$1")
-  [[ $command != *--record* || $command == *--fps* ]] || command+=" --fps 3"
+  [[ $command != *--record* || $command == *--fps* ]] || command+=" --fps 10"
   case $command in
     "roam make gallery -o gallery.ply") command+=" --triangles 50k" ;;
     "roam bench scale") command+=" --least 20k --triangles 50k" ;;

@@ -43,7 +43,7 @@ TEST(Section, IsMovedByTheWheel) {
   d.tap('x');
   d.click(0, -0.9);
   EXPECT_TRUE(contains(d.hud(), "Cut below the eye, at z = 1.")) << d.hud();
-  EXPECT_TRUE(contains(d.hud(), "section: a plane, z = 1.")) << d.hud();
+  EXPECT_TRUE(contains(d.hud(), "section: a plane at z = 1.")) << d.hud();
   d.events().mouseScroll(osgGA::GUIEventAdapter::SCROLL_UP);
   d.events().mouseScroll(osgGA::GUIEventAdapter::SCROLL_UP);
   d.run(0.1);
@@ -112,7 +112,7 @@ TEST(SectionBox, BeginsAroundTheRoomAndEndsWithItsKey) {
   Tooled d;
   tap_box(d);
   EXPECT_TRUE(contains(d.hud(), "Box: drag its points")) << d.hud();
-  EXPECT_TRUE(contains(d.hud(), "section: a box, 16.20 x 4.20 x 3.20 m; the body meets")) << d.hud();
+  EXPECT_TRUE(contains(d.hud(), "section: a box of 16.20 x 4.20 x 3.20 m; the body meets")) << d.hud();
   ASSERT_TRUE(box_of(d));
   EXPECT_NEAR(box_of(d)->center().x, 10.0, 0.01) << "8 m to either side";
   EXPECT_NEAR(box_of(d)->lower.z, -0.1, 0.01) << "the floor is in it";
@@ -205,8 +205,8 @@ double flies_to(Tooled& d) {
 
 TEST(OpenSection, LetsTheBodyThroughWhatIsHiddenWhole) {
   Tooled shut(with_section({"x<15"}, false)), open(with_section({"x<15"}, true));
-  EXPECT_TRUE(contains(shut.hud(), "section: a plane, x = 15.00 m; the body meets what is hidden")) << shut.hud();
-  EXPECT_TRUE(contains(open.hud(), "section: a plane, x = 15.00 m; the body passes")) << open.hud();
+  EXPECT_TRUE(contains(shut.hud(), "section: a plane at x = 15.00 m; the body meets what is hidden")) << shut.hud();
+  EXPECT_TRUE(contains(open.hud(), "section: a plane at x = 15.00 m; the body passes")) << open.hud();
   EXPECT_NEAR(flies_to(shut), 19.7, 0.02) << "the wall at 20 m";
   EXPECT_GT(flies_to(open), 20.3);
   const ViewReport report = open.session->finish();
@@ -253,7 +253,7 @@ TEST(OpenSection, IsSwitchedByAKeyAndFollowsTheBox) {
 
 TEST(OpenSection, OfAStoreLetsTheBodyThroughToo) {
   Tooled d(with_section({"x<15", "z<1.5"}, true), true);
-  EXPECT_TRUE(contains(d.hud(), "section: 2 planes, z = 1.50 m; the body passes through what")) << d.hud();
+  EXPECT_TRUE(contains(d.hud(), "section: 2 planes, the last at z = 1.50 m; the body passes through what")) << d.hud();
   EXPECT_FALSE(contains(d.notes(), "With a store"));
   EXPECT_GT(flies_to(d), 20.3);
   // A part of the wall behind is still drawn.
