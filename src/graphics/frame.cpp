@@ -6,6 +6,7 @@
 #include <osg/Depth>
 #include <osg/StateSet>
 #include <osg/Stats>
+#include <osg/observer_ptr>
 
 #include "graphics/pipeline.h"
 #include "text/number.h"
@@ -35,10 +36,12 @@ void check_vertical_fov(double degrees) {
 /// Keeps a flat camera the size of the picture.
 class FollowPicture : public osg::NodeCallback {
  public:
-  explicit FollowPicture(osg::ref_ptr<osg::Camera> picture) : picture_(std::move(picture)) {}
+  explicit FollowPicture(osg::Camera& picture) : picture_(&picture) {}
   void operator()(osg::Node* node, osg::NodeVisitor* visitor) override {
     osg::Camera& flat = *node->asCamera();
-    const osg::Viewport& now = *picture_->getViewport();
+    osg::ref_ptr<osg::Camera> picture;
+    if (!picture_.lock(picture)) return;
+    const osg::Viewport& now = *picture->getViewport();
     if (flat.getViewport()->width() != now.width() || flat.getViewport()->height() != now.height()) {
       // Replaced, not changed, because another thread may be drawing with the old viewport.
       flat.setViewport(new osg::Viewport(0, 0, now.width(), now.height()));
@@ -48,7 +51,7 @@ class FollowPicture : public osg::NodeCallback {
   }
 
  private:
-  osg::ref_ptr<osg::Camera> picture_;
+  osg::observer_ptr<osg::Camera> picture_;  // which owns this
 };
 
 osg::ref_ptr<osg::Group> make_space(bool reversed_depth) {
@@ -75,7 +78,7 @@ osg::ref_ptr<osg::Camera> make_flat(osg::Camera& picture) {
   flat->setViewMatrix(osg::Matrix::identity());
   flat->setViewport(new osg::Viewport(0, 0, picture.getViewport()->width(), picture.getViewport()->height()));
   flat->setProjectionMatrixAsOrtho2D(0, picture.getViewport()->width(), 0, picture.getViewport()->height());
-  flat->addUpdateCallback(new FollowPicture(&picture));
+  flat->addUpdateCallback(new FollowPicture(picture));
   osg::StateSet& state = *flat->getOrCreateStateSet();
   state.setMode(GL_DEPTH_TEST, osg::StateAttribute::OFF);
   state.setMode(GL_BLEND, osg::StateAttribute::ON);

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <future>
 #include <osg/MatrixTransform>
+#include <osg/observer_ptr>
 #include <thread>
 
 #include "graphics_stage.h"
@@ -23,6 +24,25 @@ int count_red(const osg::Image& image) {
     for (int x = 0; x < image.s(); ++x) count += reddish(at(image, x, y));
   }
   return count;
+}
+
+TEST(GraphicsFrame, KeepsNothingInMemoryWhenItIsGone) {
+  osg::observer_ptr<osg::Camera> camera;
+  osg::observer_ptr<osg::Group> scene;
+  osg::observer_ptr<osg::Node> wall;
+  {
+    Stage stage;
+    const osg::ref_ptr<osg::Node> added = paint(quad({0, 1, 0}, x_axis, z_axis), red);
+    stage.add(added);
+    (void)stage.picture();
+    camera = stage.viewer.getCamera();
+    scene = stage.frame.root();
+    wall = added;
+    ASSERT_TRUE(camera.valid() && scene.valid() && wall.valid());
+  }
+  EXPECT_FALSE(camera.valid());
+  EXPECT_FALSE(scene.valid());
+  EXPECT_FALSE(wall.valid());
 }
 
 TEST(GraphicsFrame, AWallBeforeTheNoseIsNotCut) {
