@@ -200,7 +200,7 @@ void tell_gaps(const ProbeOptions& o, const Surveyed& scene, ProbeAnswer& answer
   }
 }
 
-/// What is below the feet: an object is above the floor if most of what is around it is lower.
+/// The ground below the feet. It is an object above the floor if most of its surroundings are lower.
 words::Ground ground_at(const Surveyed& scene, const Vec3& feet) {
   constexpr double up = 0.05, below = 2.0;  // m: where the floor is looked for
   constexpr double least = 0.15;            // m: the floor around is at least this much lower

@@ -41,7 +41,7 @@ bool is_heading(const HelpLine& line) { return line.effect.empty(); }
 /// Above every heading, except at the top of a column.
 constexpr float heading_space = 0.6f;  // lines
 
-/// Of the footer, with the space above it.
+/// The footer's height, with the space above it.
 constexpr float footer_height = 1.0f + heading_space;  // lines
 
 /// Height of a column, in lines.

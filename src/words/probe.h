@@ -13,7 +13,7 @@
 
 namespace roam::words {
 
-/// What an end stands on.
+/// The ground on which an end stands.
 struct Ground {
   std::string object;  ///< empty: unknown
   double above = 0.0;  ///< m: of the floor around; 0: it is that floor

@@ -36,7 +36,7 @@ HWY_EXPORT(Dispatched);
 
 namespace {
 
-/// What the compiler was configured for and this processor has, by the processor's word.
+/// The instruction sets that the compiler was configured for and this processor says that it has.
 std::int64_t expected_sets() {
   std::int64_t sets = HWY_STATIC_TARGET;
 #if defined(__x86_64__)

@@ -115,7 +115,7 @@ struct Motion {
   Vec3 motion{0.0};
 };
 
-/// Of a motion through a place: all of it, or a short part of its beginning.
+/// A motion through a place: all of it, or a short part of its beginning.
 inline Gen<double> part() { return rc::gen::weightedElement<double>({{5, 1.0}, {1, 0x1p-6}, {1, 0x1p-12}, {1, 0.0}}); }
 
 /// From a place within `most` of the middle through one within half of that, and as far beyond.

@@ -1,4 +1,4 @@
-// What is written is read back: paths, rows of `roam sweep`, JSON.
+// Paths, rows of `roam sweep` and JSON are read back as they were written.
 
 #include <charconv>
 #include <cstring>

@@ -100,6 +100,14 @@ class Layered : public view_stores::Driven {
   }
 };
 
+/// Begins with the list of the scene's objects.
+void list_layers(view_stores::Driven& d) {
+  d.options.size = "640x360";
+  d.options.at = {10, 0, 0.95, 0};
+  d.begin();
+  d.session->run("layers");
+}
+
 TEST(Layers, AreHiddenAndShownByTheMouse) {
   Layered d;
   const std::uint64_t all = d.drawn();
@@ -297,10 +305,7 @@ TEST(Layers, AreNamedWithoutTheIdentifiersOfIfc) {
   }
   view_stores::Driven d;
   d.write_scene(obj);
-  d.options.size = "640x360";
-  d.options.at = {10, 0, 0.95, 0};
-  d.begin();
-  d.session->run("layers");
+  list_layers(d);
   EXPECT_TRUE(contains(d.hud(), "[x] Roof\n")) << d.hud();
   EXPECT_TRUE(contains(d.hud(), "[x] Wall_1YvctVUKr0kugbFTf53O9L\n")) << "it is not the only wall: " << d.hud();
 }
@@ -309,10 +314,7 @@ TEST(Layers, OfSeveralScenesAreBelowTheirFiles) {
   view_stores::Driven d;
   d.write_scene();
   d.options.scene.scenes.emplace_back(d.folder.write("shelf.obj", "v 1 0 0\nv 2 0 0\nv 2 1 0\no shelf\nf 1 2 3\n"));
-  d.options.size = "640x360";
-  d.options.at = {10, 0, 0.95, 0};
-  d.begin();
-  d.session->run("layers");
+  list_layers(d);
   ASSERT_TRUE(d.until([&] { return d.session->scene().report().has_value(); }));
   EXPECT_TRUE(contains(d.hud(), "[x] scene.obj (6)\n[x] shelf.obj (1)\n")) << d.hud();
 }
@@ -322,10 +324,7 @@ TEST(Layers, AreScrolled) {
   for (int i = 0; i < 100; ++i) obj += "o shelf_" + std::to_string(100 + i) + "\nf 1 2 3\n";
   view_stores::Driven d;
   d.write_scene(obj);
-  d.options.size = "640x360";
-  d.options.at = {10, 0, 0.95, 0};
-  d.begin();
-  d.session->run("layers");
+  list_layers(d);
   EXPECT_TRUE(contains(d.hud(), "floor")) << d.hud();
   EXPECT_FALSE(contains(d.hud(), "shelf_199")) << d.hud();
   EXPECT_TRUE(contains(d.hud(), "wheel: ")) << d.hud();

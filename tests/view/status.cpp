@@ -136,7 +136,7 @@ TEST(Status, SaysWhereTheFeetAreOnTheEarth) {
   EXPECT_EQ(there(UpAxis::y, LengthUnit::ft), "512001.25, 5403003.00, 398.00 EPSG:32632");
   EXPECT_EQ(there(UpAxis::x, LengthUnit::ft), "512003.25, 5403002.00, 399.00 EPSG:32632");
   status.georeferenced = {};
-  // Of a definition of many lines, only the name.
+  // A definition of many lines is shown by its name alone.
   status.georeference->srs = "PROJCS[\"ETRS89 / UTM zone 32N\",\n  GEOGCS[\"ETRS89\",\n    DATUM[\"D\"]]]";
   EXPECT_EQ(status_lines(status)[2].value, "512001.25, 5403002.00, 403.46 ETRS89 / UTM zone 32N");
   // The option --origin names no reference system.

@@ -114,7 +114,7 @@ void Arrival::note_frame() {
     const bool of_unit = note.find("--unit ") != std::string::npos;
     if (of_unit && stated_unit()) news_.note_first(note, remedy("unit", "applies it"));
     if (of_unit || note.find("--up=") == std::string::npos) continue;
-    // What a file states is of no use to a person who sees the scene stand right.
+    // A person who sees the scene upright needs no note of the file's axis.
     if (loaded_->is_upright) {
       news_.keep_for_report(note);
     } else {

@@ -31,7 +31,7 @@ void BookmarkList::click_right(const std::string& part) {
   if (const std::string name = name_of(part); !name.empty()) records_.remove_bookmark(name);
 }
 
-/// Of a row; empty: none.
+/// The name of a row's bookmark; empty if there is none.
 std::string BookmarkList::name_of(const std::string& part) const {
   const std::vector<std::string> names = records_.bookmark_names();
   std::size_t row = names.size();

@@ -10,7 +10,8 @@
 namespace roam::app {
 namespace {
 
-/// Of several scenes, each one's objects are a group with the name of its file. The names in pages are not known yet.
+/// If there are several scenes, puts a scene's objects into a group with its file's name. Pages, whose names come
+/// later, get no group.
 void put_below_file(DisplayPart& part, const std::vector<std::filesystem::path>& scenes) {
   if (scenes.size() < 2 || part.source >= scenes.size() || !part.pages.empty()) return;
   const std::filesystem::path& file = scenes[part.source];

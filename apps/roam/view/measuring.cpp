@@ -8,6 +8,7 @@
 #include <glm/trigonometric.hpp>
 
 #include "measure/room.h"
+#include "text/number.h"
 #include "text/printable.h"
 
 namespace roam::app {
@@ -15,9 +16,10 @@ namespace {
 
 /// "12.345, 5.600, 1.200, Door_12, wall facing 135° (SE)"
 std::string point_text(const Pick& pick) {
-  const Vec3 p = glm::round(1e3 * pick.point) / 1e3 + 0.0;  // without "-0.000"
+  const Vec3& p = pick.point;
   const std::string object = pick.object.empty() ? std::string() : printable(pick.object) + ", ";
-  return fmt::format("{:.3f}, {:.3f}, {:.3f}, {}{}", p.x, p.y, p.z, object, surface_text(pick.normal));
+  return fmt::format("{}, {}, {}, {}{}", fixed_text(p.x, 3), fixed_text(p.y, 3), fixed_text(p.z, 3), object,
+                     surface_text(pick.normal));
 }
 
 std::string span_text(const Span& span) {

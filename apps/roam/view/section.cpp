@@ -11,6 +11,7 @@
 
 #include "cli/exit_status.h"
 #include "roam/space.h"
+#include "text/number.h"
 
 namespace roam::app {
 namespace {
@@ -68,7 +69,7 @@ std::string place_text(const HalfSpace& plane) {
   constexpr double straight = 0.9999;
   for (int axis = 0; axis < 3; ++axis) {
     if (std::abs(plane.normal[axis]) < straight) continue;
-    return fmt::format("{} = {:.2f} m", "xyz"[axis], plane.distance / plane.normal[axis] + 0.0);
+    return fmt::format("{} = {} m", "xyz"[axis], fixed_text(plane.distance / plane.normal[axis], 2));
   }
   const Vec3& n = plane.normal;
   return fmt::format("{:.2f} m along ({:.2f}, {:.2f}, {:.2f})", plane.distance, n.x, n.y, n.z);

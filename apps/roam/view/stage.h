@@ -36,8 +36,8 @@ struct Picture {
   std::string problem;  ///< why it could not be written; empty: it was
 };
 
-/// What suits a renderer. Software computes each sample separately: ground seen at a flat angle would take minutes a
-/// frame.
+/// The quality of textures for a renderer. Software computes each sample separately: ground seen at a flat angle would
+/// take minutes a frame.
 [[nodiscard]] TextureQuality texture_quality(const graphics::Abilities& abilities);
 
 /// Opens a window or an off-screen buffer, and draws there. Call all members from one thread.
@@ -54,7 +54,7 @@ class Stage {
   [[nodiscard]] TextureQuality texture_quality() const { return app::texture_quality(context_.abilities); }
   /// Says why drawing is not full, if that was not wished: no graphics card, or slow frames. Else empty.
   [[nodiscard]] std::string quality_note() const;
-  /// What is not drawn because there is no graphics card; empty: nothing, or the person wants it so.
+  /// A note on the effects that are off because there is no graphics card; empty if none are, or the person chose it.
   [[nodiscard]] std::string plainness() const;
 
   /// Shows the lines and the message; does nothing if they are shown already.

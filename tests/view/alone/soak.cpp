@@ -248,7 +248,7 @@ class Sessions {
   [[nodiscard]] int count() const { return count_; }
   [[nodiscard]] std::uint64_t steps() const { return steps_; }
   [[nodiscard]] double length() const { return length_; }
-  /// Of the axis's clearance over the radius, which `Y` makes smaller in places; 0: none was certified.
+  /// The least clearance of the axis minus the radius, which `Y` makes smaller in places; 0: none was certified.
   [[nodiscard]] double least_gap() const { return least_gap_; }
 
  private:
