@@ -104,8 +104,14 @@ void Server::run() noexcept {
       collect();
       drop_ended();
     } catch (const std::exception&) {
-      const Answer none{no_memory};
-      for (Job* job : waiting_) end(*job, none);
+      std::vector<Job*> coming;
+      {
+        const std::lock_guard lock(mutex_);
+        coming.swap(coming_);
+      }
+      for (const std::vector<Job*>* lost : {&waiting_, &coming}) {
+        for (Job* job : *lost) end(*job, {no_memory});
+      }
       waiting_.clear();
     }
     curl.multi_poll(multi_, nullptr, 0, pause(), nullptr);
