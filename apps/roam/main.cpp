@@ -46,6 +46,7 @@ std::string version() {
 }  // namespace
 
 int main(int argc, char** argv) {
+  roam::app::end_plainly_without_memory();
   CLI::App program{description, "roam"};
   program.footer(help);
   program

@@ -64,6 +64,7 @@ constexpr std::uint64_t longest_matrix = 1 << 20;
 std::vector<ProbedSize> read_sizes(const std::filesystem::path& file, bool spheres) {
   const std::string text = read_input(file, longest_matrix);
   std::istringstream in{std::string(without_byte_order_mark(text))};
+  in.exceptions(std::ios::badbit);  // else sizes would be missing where memory runs out
   std::vector<ProbedSize> sizes;
   std::string line;
   for (int number = 1; std::getline(in, line); ++number) {

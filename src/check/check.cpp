@@ -56,6 +56,7 @@ Certificate read_certificate(std::string_view text) {
   if (text.substr(body.size()) != checksum_line(body)) throw std::invalid_argument("its checksum is wrong");
   std::istringstream in{std::string(body)};
   in.imbue(std::locale::classic());
+  in.exceptions(std::ios::badbit);  // else the text would just end where memory runs out
   std::string line, scene, way, word;
   if (!std::getline(in, line) || line != first_line) throw std::invalid_argument("it is no certificate of version 1");
   in >> scene >> all.scene.triangles >> std::hex >> all.scene.hash >> std::dec >> way >> count;
@@ -140,9 +141,8 @@ Checker::Checker(const Certificate& certificate) : certificate_(certificate), re
 void Checker::search(std::size_t node, const Triangle& triangle, const Box& box) {
   const int below = std::bit_width(tree_.size() / 2) - std::bit_width(node);
   if ((node << below) - tree_.size() / 2 >= refused_) return;  // the first wrong segment is named
-  for (int k = 0; k < 3; ++k) {
+  for (int k = 0; k < 3; ++k)
     if (box.upper[k] < tree_[node].lower[k] || box.lower[k] > tree_[node].upper[k]) return;
-  }
   if (node < tree_.size() / 2) {
     search(2 * node, triangle, box);
     return search(2 * node + 1, triangle, box);

@@ -1,10 +1,14 @@
 #include "cli/command_line.h"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cerrno>
 #include <cstdio>
+#include <cstdlib>
+#include <cstring>
 #include <exception>
 #include <new>
 #include <nlohmann/json.hpp>
@@ -82,6 +86,25 @@ ExitStatus run(CLI::App& program, const Run& chosen, const Arguments& arguments)
   return chosen();
 }
 
+constexpr const char* out_of_memory = "out of memory; take a smaller scene or a machine with more memory";
+
+const std::terminate_handler abort_with_message = std::get_terminate();
+
+/// For std::set_terminate. Allocates nothing.
+void end_after_exception() {
+  try {
+    if (const std::exception_ptr uncaught = std::current_exception()) std::rethrow_exception(uncaught);
+  } catch (const std::bad_alloc&) {
+    for (const char* const part :
+         std::initializer_list<const char*>{program_invocation_short_name, ": ", out_of_memory, "\n"}) {
+      if (::write(STDERR_FILENO, part, std::strlen(part)) < 0) break;
+    }
+    std::_Exit(failed);
+  } catch (...) {
+  }
+  abort_with_message();
+}
+
 /// The running exception as an error for the user.
 Error running_error() {
   try {
@@ -89,7 +112,7 @@ Error running_error() {
   } catch (const Stopped& stopped) {
     return Error(stopped.what());
   } catch (const std::bad_alloc&) {
-    return Error("out of memory; take a smaller scene or a machine with more memory");
+    return Error(out_of_memory);
   } catch (const std::exception& other) {
     // Ctrl-C also reaches the reader's process; its end is then no error of the file.
     if (interrupted()) return Error("cancelled");
@@ -114,6 +137,8 @@ int run_and_tell(CLI::App& program, const Run& chosen, const Arguments& argument
 }
 
 }  // namespace
+
+void end_plainly_without_memory() { std::set_terminate(end_after_exception); }
 
 int run_command_line(CLI::App& program, Run& chosen, int argc, char** argv) {
   catch_signals();

@@ -29,6 +29,14 @@ std::string describe(double radius, double height) {
                                : fmt::format("a sphere of radius {:g} m", radius);
 }
 
+/// A stream that throws std::bad_alloc, instead of ending where memory runs out.
+std::istringstream stream_of(const std::string& text) {
+  std::istringstream in(text);
+  in.imbue(std::locale::classic());
+  in.exceptions(std::ios::badbit);
+  return in;
+}
+
 /// A line of a path file that begins with a mark.
 struct MarkedLine {
   std::string text;   ///< all of it
@@ -38,7 +46,7 @@ struct MarkedLine {
 
 std::vector<MarkedLine> marked_lines(const std::string& text, const std::string& name_of_file, std::string_view mark) {
   std::vector<MarkedLine> lines;
-  std::istringstream in(text);
+  std::istringstream in = stream_of(text);
   std::string line;
   for (int number = 1; std::getline(in, line); ++number) {
     if (line.starts_with(mark)) {
@@ -51,8 +59,7 @@ std::vector<MarkedLine> marked_lines(const std::string& text, const std::string&
 std::optional<RecordedBody> recorded_body(const std::string& text, const std::string& name_of_file) {
   std::optional<RecordedBody> body;
   for (const MarkedLine& line : marked_lines(text, name_of_file, mode_mark)) {
-    std::istringstream words(line.words);
-    words.imbue(std::locale::classic());
+    std::istringstream words = stream_of(line.words);
     std::string word;
     words >> word;
     const std::optional<Mode> mode = parse_mode(word);
@@ -95,7 +102,7 @@ std::optional<SceneFrame> recorded_frame(const std::string& text, const std::str
     const auto refuse = [&](const std::string& why) {
       throw Error(line.place, fmt::format("'{}' {}; correct or remove the line", excerpt(line.text), why));
     };
-    std::istringstream words(line.words);
+    std::istringstream words = stream_of(line.words);
     std::string up, axis, unit, length, more;
     words >> up >> axis >> unit >> length;
     SceneFrame read;
