@@ -27,6 +27,16 @@ function(roam_unity)
   endif()
 endfunction()
 
+# roam_in_sandbox(TARGET...): code that runs in the sandbox of roam-reader. It forbids the system calls by which a sanitizer
+# finds the types of objects.
+function(roam_in_sandbox)
+  if(CMAKE_CXX_FLAGS MATCHES "-fsanitize=")
+    foreach(target IN LISTS ARGN)
+      target_compile_options(${target} PRIVATE -fno-sanitize=vptr)
+    endforeach()
+  endif()
+endfunction()
+
 # Link sanitizers.cpp into every program of a build with a sanitizer.
 if(CMAKE_CXX_FLAGS MATCHES "-fsanitize=[a-z,]*(thread|address)")
   add_library(roam_sanitizer OBJECT ${CMAKE_CURRENT_LIST_DIR}/sanitizers.cpp)

@@ -148,7 +148,7 @@ struct Gamepads::Spacenav {
       ready = false;
       last = {};
     }
-    constexpr std::chrono::seconds pause(1);
+    constexpr std::chrono::seconds pause(10);  // libspnav loses 48 bytes at each try without the daemon
     if (!ready && std::chrono::steady_clock::now() - tried_at >= pause) open();
     constexpr double range = 350.0;  // of the daemon's numbers
     spnav_event event;
