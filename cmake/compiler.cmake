@@ -27,14 +27,12 @@ function(roam_unity)
   endif()
 endfunction()
 
-# roam_in_sandbox(TARGET...): code that runs in the sandbox of roam-reader. It forbids the system calls by which a sanitizer
-# finds the types of objects.
+# roam_in_sandbox(TARGET...): their code runs in the sandbox of roam-reader. The sandbox forbids the system calls by which
+# a sanitizer checks the types of objects (vptr).
 function(roam_in_sandbox)
-  if(CMAKE_CXX_FLAGS MATCHES "-fsanitize=")
-    foreach(target IN LISTS ARGN)
-      target_compile_options(${target} PRIVATE -fno-sanitize=vptr)
-    endforeach()
-  endif()
+  foreach(target IN LISTS ARGN)
+    target_compile_options(${target} PRIVATE -fno-sanitize=vptr)
+  endforeach()
 endfunction()
 
 # Link sanitizers.cpp into every program of a build with a sanitizer.

@@ -34,9 +34,9 @@ extern "C" int dlclose(void*) { return 0; }
 extern "C" const char* __lsan_default_suppressions();
 extern "C" const char* __lsan_default_suppressions() {
   return
-      // A pattern has its values by their offsets, so the values of each font that is kept seem to be lost.
+      // It keeps offsets instead of pointers, so the values of each font seem lost.
       "leak:libfontconfig.so\n"
-      // It loses a beginning of a list whenever its daemon is not there.
+      // spnav_open() loses the head of a list when there is no daemon.
       "leak:libspnav.so\n";
 }
 

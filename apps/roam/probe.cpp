@@ -36,6 +36,7 @@
 #include "scenes/recorded_body.h"
 #include "scenes/surveyed.h"
 #include "text/byte_order_mark.h"
+#include "text/stream_of.h"
 #include "verbs.h"
 #include "words/probe.h"
 
@@ -63,8 +64,7 @@ constexpr std::uint64_t longest_matrix = 1 << 20;
 /// Sizes in lines, with comments behind #.
 std::vector<ProbedSize> read_sizes(const std::filesystem::path& file, bool spheres) {
   const std::string text = read_input(file, longest_matrix);
-  std::istringstream in{std::string(without_byte_order_mark(text))};
-  in.exceptions(std::ios::badbit);  // else sizes would be missing where memory runs out
+  std::istringstream in = stream_of(std::string(without_byte_order_mark(text)));
   std::vector<ProbedSize> sizes;
   std::string line;
   for (int number = 1; std::getline(in, line); ++number) {

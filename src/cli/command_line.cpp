@@ -5,13 +5,12 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <cerrno>
 #include <cstdio>
 #include <cstdlib>
-#include <cstring>
 #include <exception>
 #include <new>
 #include <nlohmann/json.hpp>
+#include <string_view>
 
 #include "cli/failure.h"
 #include "cli/help.h"
@@ -86,18 +85,17 @@ ExitStatus run(CLI::App& program, const Run& chosen, const Arguments& arguments)
   return chosen();
 }
 
-constexpr const char* out_of_memory = "out of memory; take a smaller scene or a machine with more memory";
+constexpr std::string_view out_of_memory = "out of memory; take a smaller scene or a machine with more memory";
 
 const std::terminate_handler abort_with_message = std::get_terminate();
 
-/// For std::set_terminate. Allocates nothing.
+/// For std::set_terminate. Allocates nothing, so there is no JSON, and outputs that were begun stay.
 void end_after_exception() {
   try {
-    if (const std::exception_ptr uncaught = std::current_exception()) std::rethrow_exception(uncaught);
+    if (std::current_exception()) throw;
   } catch (const std::bad_alloc&) {
-    for (const char* const part :
-         std::initializer_list<const char*>{program_invocation_short_name, ": ", out_of_memory, "\n"}) {
-      if (::write(STDERR_FILENO, part, std::strlen(part)) < 0) break;
+    for (const std::string_view part : {std::string_view("roam: "), out_of_memory, std::string_view("\n")}) {
+      if (::write(STDERR_FILENO, part.data(), part.size()) < 0) break;
     }
     std::_Exit(failed);
   } catch (...) {
@@ -112,7 +110,7 @@ Error running_error() {
   } catch (const Stopped& stopped) {
     return Error(stopped.what());
   } catch (const std::bad_alloc&) {
-    return Error(out_of_memory);
+    return Error(std::string(out_of_memory));
   } catch (const std::exception& other) {
     // Ctrl-C also reaches the reader's process; its end is then no error of the file.
     if (interrupted()) return Error("cancelled");

@@ -15,8 +15,8 @@ namespace roam::app {
 /// Runs the chosen verb after its options are read.
 using Run = std::function<ExitStatus()>;
 
-/// Call it first. When memory runs out where nothing can catch it, as while JSON is freed, the program then says so and
-/// ends with ExitStatus::failed, like elsewhere, instead of being aborted.
+/// Call it first. When memory runs out where nothing can catch it, as while JSON is freed, the program then says so on
+/// standard error and ends with ExitStatus::failed, instead of being aborted.
 void end_plainly_without_memory();
 
 /// Reads the arguments and runs `chosen`, which the callbacks of the program's verbs set. On an error writes a message

@@ -16,6 +16,7 @@
 #include "files/descriptor.h"
 #include "files/whole_file.h"
 #include "roam/error.h"
+#include "text/stream_of.h"
 
 namespace roam::app {
 
@@ -50,7 +51,7 @@ void print_report(bool json, const Json& report, const std::string& text, const 
     print(text);
   } else {
     Json whole = report;
-    std::istringstream in(printable);
+    std::istringstream in = stream_of(printable);
     for (std::string line; std::getline(in, line);) whole["text"].push_back(line);
     print(whole);
   }

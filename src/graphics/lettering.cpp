@@ -18,6 +18,8 @@
 #include <string_view>
 #include <utility>
 
+#include "text/stream_of.h"
+
 namespace roam::graphics {
 namespace {
 
@@ -86,7 +88,7 @@ cairo_scaled_font_t* font_for(const Look& look) {
 
 std::vector<std::string> lines_of(const std::string& words) {
   std::vector<std::string> lines;
-  std::istringstream stream(words);
+  std::istringstream stream = stream_of(words);
   for (std::string line; std::getline(stream, line);) lines.push_back(std::move(line));
   return lines;
 }
@@ -219,9 +221,9 @@ bool is_unit(const std::string& word, const std::string& line) {
 
 std::vector<std::string> break_lines(const std::string& words, const Look& look, float width) {
   std::vector<std::string> lines;
-  std::istringstream paragraphs(words);
+  std::istringstream paragraphs = stream_of(words);
   for (std::string paragraph; std::getline(paragraphs, paragraph);) {
-    std::istringstream stream(paragraph);
+    std::istringstream stream = stream_of(paragraph);
     std::string line;
     for (std::string word; stream >> word;) {
       const std::string longer = line.empty() ? word : line + " " + word;

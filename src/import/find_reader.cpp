@@ -9,6 +9,7 @@
 #include "process/find_program.h"
 #include "roam/error.h"
 #include "roam/import.h"
+#include "text/stream_of.h"
 
 namespace roam {
 namespace {
@@ -64,7 +65,7 @@ fs::path find_reader(const fs::path& wanted) {
   if (const char* of_package = package_reader) places.emplace_back(of_package);
   places.emplace_back(ROAM_READER_INSTALLED);
   // An installation elsewhere, whose program is in PATH.
-  std::istringstream path(std::getenv("PATH") == nullptr ? "" : std::getenv("PATH"));
+  std::istringstream path = stream_of(std::getenv("PATH") == nullptr ? "" : std::getenv("PATH"));
   std::vector<fs::path> installations;
   for (std::string folder; std::getline(path, folder, ':');) {
     const fs::path bin(folder);

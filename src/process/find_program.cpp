@@ -8,6 +8,8 @@
 #include <sstream>
 #include <system_error>
 
+#include "text/stream_of.h"
+
 #ifdef __APPLE__
 #include <mach-o/dyld.h>
 #endif
@@ -23,7 +25,7 @@ bool can_run(const fs::path& program) {
 
 fs::path find_program(const std::string& name) {
   const char* path = std::getenv("PATH");
-  std::istringstream folders(path != nullptr ? path : "");
+  std::istringstream folders = stream_of(path != nullptr ? path : "");
   for (std::string folder; std::getline(folders, folder, ':');) {
     // A relative folder would depend on the current folder, which may belong to a stranger.
     if (!folder.starts_with('/')) continue;

@@ -10,6 +10,7 @@
 #include "cli/standard_streams.h"
 #include "scenes/frame.h"
 #include "text/printable.h"
+#include "text/stream_of.h"
 
 namespace roam::app {
 namespace {
@@ -27,14 +28,6 @@ std::optional<Mode> parse_mode(const std::string& text) {
 std::string describe(double radius, double height) {
   return height > 2.0 * radius ? fmt::format("radius {:g} m, height {:g} m", radius, height)
                                : fmt::format("a sphere of radius {:g} m", radius);
-}
-
-/// A stream that throws std::bad_alloc, instead of ending where memory runs out.
-std::istringstream stream_of(const std::string& text) {
-  std::istringstream in(text);
-  in.imbue(std::locale::classic());
-  in.exceptions(std::ios::badbit);
-  return in;
 }
 
 /// A line of a path file that begins with a mark.

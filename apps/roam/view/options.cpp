@@ -24,6 +24,7 @@
 #include "roam/store.h"
 #include "scenes/recorded_body.h"
 #include "scenes/web_options.h"
+#include "text/stream_of.h"
 #include "view/section.h"
 
 namespace roam::app {
@@ -53,7 +54,7 @@ std::string not_a_place(const std::string& text) {
 /// "1,2,1.5,90": position, optionally yaw and pitch.
 std::vector<double> parse_place(const std::string& text) {
   std::vector<double> numbers;
-  std::istringstream parts(text);
+  std::istringstream parts = stream_of(text);
   for (std::string part; std::getline(parts, part, ',');) {
     double value = 0.0;
     if (!CLI::detail::lexical_cast(part, value)) throw CLI::ValidationError("--at", not_a_place(text));

@@ -12,6 +12,7 @@
 #include "cli/exit_status.h"
 #include "roam/space.h"
 #include "text/number.h"
+#include "text/stream_of.h"
 
 namespace roam::app {
 namespace {
@@ -33,7 +34,7 @@ bool to_metres(const std::string& text, double& value) {
 Box parse_box(const std::string& text, const std::string& where) {
   std::string numbers = text;
   std::replace(numbers.begin(), numbers.end(), ',', ' ');
-  std::istringstream words(numbers);
+  std::istringstream words = stream_of(numbers);
   std::array<double, 6> value{};
   std::size_t count = 0;
   for (std::string word; words >> word; ++count) {

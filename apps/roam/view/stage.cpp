@@ -18,6 +18,7 @@
 #include "graphics/lettering.h"
 #include "osg_plugins/plugins.h"
 #include "roam/error.h"
+#include "text/stream_of.h"
 
 namespace roam::app {
 namespace {
@@ -368,7 +369,7 @@ void Stage::fill(ViewReport& report) const {
   report.draw_calls = times(draw_calls_, 1.0);
   for (double* calls : {&report.draw_calls.median, &report.draw_calls.p99}) *calls = std::round(*calls);
   report.renderer = frame_->describe();
-  std::istringstream hud(hud_->text());
+  std::istringstream hud = stream_of(hud_->text());
   for (std::string line; std::getline(hud, line);) report.hud.push_back(line);
   report.written.insert(report.written.end(), written_.begin(), written_.end());
 }

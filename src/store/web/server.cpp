@@ -46,6 +46,9 @@ std::thread thread_without_signals(auto&& run) {
   } catch (const std::system_error&) {
     ::pthread_sigmask(SIG_SETMASK, &before, nullptr);
     throw Error("cannot start a thread that reads from the web server; end other programs");
+  } catch (...) {
+    ::pthread_sigmask(SIG_SETMASK, &before, nullptr);
+    throw;
   }
 }
 
@@ -146,7 +149,7 @@ void Server::drop_stopped() {
   });
   active_.remove_if([&](const std::unique_ptr<Transfer>& transfer) {
     if (std::none_of(transfer->jobs.begin(), transfer->jobs.end(), is_stopped)) return false;
-    Curl::library().multi_remove_handle(multi_, transfer->handle);
+    Curl::library().multi_remove_handle(multi_, transfer->handle.get());
     for (Job* job : transfer->jobs) {
       if (is_stopped(job)) {
         end(*job, {stopped});
@@ -162,7 +165,7 @@ void Server::drop_stopped() {
 void Server::drop_ended() {
   active_.remove_if([&](const std::unique_ptr<Transfer>& transfer) {
     if (!transfer->jobs.empty()) return false;
-    Curl::library().multi_remove_handle(multi_, transfer->handle);
+    Curl::library().multi_remove_handle(multi_, transfer->handle.get());
     return true;
   });
 }
@@ -205,7 +208,7 @@ void Server::start(std::vector<Job*>&& jobs) {
   const std::vector<Job*> started = jobs;
   active_.push_back(std::make_unique<Transfer>(std::move(jobs), address, manners_));
   std::erase_if(waiting_, [&](Job* job) { return std::find(started.begin(), started.end(), job) != started.end(); });
-  if (Curl::library().multi_add_handle(multi_, active_.back()->handle) != CURLM_OK) {
+  if (Curl::library().multi_add_handle(multi_, active_.back()->handle.get()) != CURLM_OK) {
     for (Job* job : started) end(*job, {not_started});
     active_.pop_back();
   }
@@ -228,8 +231,8 @@ void Server::collect() {
     if (message->msg != CURLMSG_DONE) continue;
     const CURLcode result = message->data.result;
     CURL* const handle = message->easy_handle;
-    const auto at =
-        std::find_if(active_.begin(), active_.end(), [&](const auto& transfer) { return transfer->handle == handle; });
+    const auto at = std::find_if(active_.begin(), active_.end(),
+                                 [&](const auto& transfer) { return transfer->handle.get() == handle; });
     Curl::library().multi_remove_handle(multi_, handle);
     if (at == active_.end()) continue;
     bool is_over = true;

@@ -145,7 +145,7 @@ Transfer::Transfer(std::vector<Job*>&& of, std::string where, const Manners& man
 }
 
 Transfer::~Transfer() {
-  Curl::library().easy_cleanup(handle);
+  handle.reset();
   Curl::library().slist_free_all(headers_);
 }
 
@@ -300,7 +300,7 @@ bool Transfer::has_all(const Job& job) const { return !is_whole_ && status_ == 2
 std::string Transfer::redirected() const {
   char* to = nullptr;
   if (!is_redirect(status_)) return {};
-  Curl::library().easy_getinfo(handle, CURLINFO_REDIRECT_URL, &to);
+  Curl::library().easy_getinfo(handle.get(), CURLINFO_REDIRECT_URL, &to);
   return to == nullptr ? std::string() : std::string(to);
 }
 
@@ -327,7 +327,7 @@ bool Transfer::may_pass(CURLcode result) const {
 double Transfer::wished_pause() const {
   curl_off_t seconds = 0;
   if (status_ != 429 && status_ != 503) return 0.0;
-  Curl::library().easy_getinfo(handle, CURLINFO_RETRY_AFTER, &seconds);
+  Curl::library().easy_getinfo(handle.get(), CURLINFO_RETRY_AFTER, &seconds);
   return static_cast<double>(std::clamp<curl_off_t>(seconds, 0, 3600));
 }
 

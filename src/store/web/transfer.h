@@ -2,6 +2,7 @@
 /// \file
 /// One request to a web server for jobs that lie next to each other in a file, and the check of its answer.
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -20,8 +21,12 @@ class Transfer {
   Transfer(const Transfer&) = delete;
   Transfer& operator=(const Transfer&) = delete;
 
+  struct Cleanup {
+    void operator()(CURL* handle) const { Curl::library().easy_cleanup(handle); }
+  };
+
   std::vector<Job*> jobs;  ///< that have not ended
-  CURL* handle;
+  std::unique_ptr<CURL, Cleanup> handle;
   std::string address;                     ///< of the request
   int hops = 0;                            ///< redirects followed
   Clock::time_point alive = Clock::now();  ///< the start, or when bytes of the file came last
@@ -49,7 +54,7 @@ class Transfer {
   [[nodiscard]] bool body(std::span<const std::byte> bytes);
   template <class Value>
   void set(CURLoption option, Value value) {
-    Curl::library().easy_setopt(handle, option, value);
+    Curl::library().easy_setopt(handle.get(), option, value);
   }
   /// Whether the answer ended before the range that it announced.
   [[nodiscard]] bool is_cut() const { return has_range_ && received_ <= range_last_ - range_first_; }
