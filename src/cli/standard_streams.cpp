@@ -8,7 +8,6 @@
 #include <cstdio>
 #include <cstring>
 #include <nlohmann/json.hpp>
-#include <sstream>
 
 #include "cli/exit_status.h"
 #include "cli/report.h"
@@ -51,8 +50,7 @@ void print_report(bool json, const Json& report, const std::string& text, const 
     print(text);
   } else {
     Json whole = report;
-    std::istringstream in = stream_of(printable);
-    for (std::string line; std::getline(in, line);) whole["text"].push_back(line);
+    for (std::string& line : parts_of(printable, '\n')) whole["text"].push_back(std::move(line));
     print(whole);
   }
 }

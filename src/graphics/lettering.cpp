@@ -86,13 +86,6 @@ cairo_scaled_font_t* font_for(const Look& look) {
   return font.get();
 }
 
-std::vector<std::string> lines_of(const std::string& words) {
-  std::vector<std::string> lines;
-  std::istringstream stream = stream_of(words);
-  for (std::string line; std::getline(stream, line);) lines.push_back(std::move(line));
-  return lines;
-}
-
 cairo_font_extents_t extents_of(const Look& look) {
   cairo_font_extents_t extents;
   cairo_scaled_font_extents(font_for(look), &extents);
@@ -167,7 +160,7 @@ void Text::set_place(float x, float y) {
 }
 
 void Text::paint() {
-  const std::vector<std::string> lines = lines_of(words_);
+  const std::vector<std::string> lines = parts_of(words_, '\n');
   width_ = 0;
   for (const std::string& line : lines) width_ = std::max(width_, width_of(line, look_));
   removePrimitiveSet(0, getNumPrimitiveSets());
@@ -221,8 +214,7 @@ bool is_unit(const std::string& word, const std::string& line) {
 
 std::vector<std::string> break_lines(const std::string& words, const Look& look, float width) {
   std::vector<std::string> lines;
-  std::istringstream paragraphs = stream_of(words);
-  for (std::string paragraph; std::getline(paragraphs, paragraph);) {
+  for (const std::string& paragraph : parts_of(words, '\n')) {
     std::istringstream stream = stream_of(paragraph);
     std::string line;
     for (std::string word; stream >> word;) {

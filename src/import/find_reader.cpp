@@ -2,7 +2,6 @@
 
 #include <atomic>
 #include <cstdlib>
-#include <sstream>
 #include <string>
 #include <vector>
 
@@ -65,9 +64,9 @@ fs::path find_reader(const fs::path& wanted) {
   if (const char* of_package = package_reader) places.emplace_back(of_package);
   places.emplace_back(ROAM_READER_INSTALLED);
   // An installation elsewhere, whose program is in PATH.
-  std::istringstream path = stream_of(std::getenv("PATH") == nullptr ? "" : std::getenv("PATH"));
+  const char* const path = std::getenv("PATH");
   std::vector<fs::path> installations;
-  for (std::string folder; std::getline(path, folder, ':');) {
+  for (const std::string& folder : parts_of(path != nullptr ? path : "", ':')) {
     const fs::path bin(folder);
     if (bin.is_absolute()) installations.push_back(bin.parent_path() / "libexec" / "roam" / reader_name);
   }

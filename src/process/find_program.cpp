@@ -5,7 +5,6 @@
 
 #include <cstdint>
 #include <cstdlib>
-#include <sstream>
 #include <system_error>
 
 #include "text/stream_of.h"
@@ -25,8 +24,7 @@ bool can_run(const fs::path& program) {
 
 fs::path find_program(const std::string& name) {
   const char* path = std::getenv("PATH");
-  std::istringstream folders = stream_of(path != nullptr ? path : "");
-  for (std::string folder; std::getline(folders, folder, ':');) {
+  for (const std::string& folder : parts_of(path != nullptr ? path : "", ':')) {
     // A relative folder would depend on the current folder, which may belong to a stranger.
     if (!folder.starts_with('/')) continue;
     const fs::path program = fs::path(folder) / name;

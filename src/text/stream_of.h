@@ -1,11 +1,13 @@
 #pragma once
 /// \file
-/// A stream of a text for reading words and lines.
+/// Words and parts of a text. Where memory runs out, all throw std::bad_alloc.
 
 #include <ios>
 #include <locale>
 #include <sstream>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace roam {
 
@@ -16,6 +18,14 @@ namespace roam {
   stream.imbue(std::locale::classic());
   stream.exceptions(std::ios::badbit);
   return stream;
+}
+
+/// The parts between separators, as std::getline gives them: a separator at the end begins no other part.
+[[nodiscard]] inline std::vector<std::string> parts_of(const std::string& text, char separator) {
+  std::vector<std::string> parts;
+  std::istringstream stream = stream_of(text);
+  for (std::string part; std::getline(stream, part, separator);) parts.push_back(std::move(part));
+  return parts;
 }
 
 }  // namespace roam

@@ -8,7 +8,6 @@
 #include <charconv>
 #include <cmath>
 #include <initializer_list>
-#include <sstream>
 
 #include "cli/exit_status.h"
 #include "cli/help.h"
@@ -54,8 +53,7 @@ std::string not_a_place(const std::string& text) {
 /// "1,2,1.5,90": position, optionally yaw and pitch.
 std::vector<double> parse_place(const std::string& text) {
   std::vector<double> numbers;
-  std::istringstream parts = stream_of(text);
-  for (std::string part; std::getline(parts, part, ',');) {
+  for (const std::string& part : parts_of(text, ',')) {
     double value = 0.0;
     if (!CLI::detail::lexical_cast(part, value)) throw CLI::ValidationError("--at", not_a_place(text));
     numbers.push_back(value);

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <filesystem>
 #include <iterator>
-#include <sstream>
 #include <string>
 #include <system_error>
 #include <thread>
@@ -369,8 +368,7 @@ void Stage::fill(ViewReport& report) const {
   report.draw_calls = times(draw_calls_, 1.0);
   for (double* calls : {&report.draw_calls.median, &report.draw_calls.p99}) *calls = std::round(*calls);
   report.renderer = frame_->describe();
-  std::istringstream hud = stream_of(hud_->text());
-  for (std::string line; std::getline(hud, line);) report.hud.push_back(line);
+  report.hud = parts_of(hud_->text(), '\n');
   report.written.insert(report.written.end(), written_.begin(), written_.end());
 }
 
