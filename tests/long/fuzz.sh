@@ -18,8 +18,12 @@ if ! command -v clang++ > /dev/null ||
 fi
 # The compiler's cache then serves other copies of the source, too (fuzz_faults.sh).
 export CCACHE_BASEDIR=$PWD CCACHE_NOHASHDIR=1
-configure fuzz
-nice cmake --build build-fuzz --target test_fuzz -j "${JOBS:-1}" < /dev/null
+mkdir -p build-fuzz
+{
+  flock 9  # of two that run at once, one builds
+  configure fuzz
+  nice cmake --build build-fuzz --target test_fuzz -j "${JOBS:-1}" < /dev/null
+} 9> build-fuzz/lock
 program=$PWD/build-fuzz/test_fuzz
 mapfile -t all < <("$program")
 targets=("$@")
