@@ -25,6 +25,7 @@ dumps=()
 while read -r row _; do dumps+=("--dump-after=row_$row"); done < "$work/rows"
 valgrind --tool=callgrind --quiet --toggle-collect='row_*' "${dumps[@]}" --compress-strings=no --compress-pos=no \
   --callgrind-out-file="$work/out" "$program" > /dev/null || {
+  # It has just run without valgrind.
   status=$?
   ((status == 132)) || exit "$status"
   echo "skipped: valgrind does not know an instruction that this machine's libraries choose (SIGILL)"

@@ -6,6 +6,7 @@ import pathlib
 import signal
 import subprocess
 import sys
+import tempfile
 
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
 COMPILE_SECONDS = 7200
@@ -15,18 +16,26 @@ class Late(Exception):
     """A command that did not end in time, which proves nothing."""
 
 
-def ends_well(command, seconds):
-    """Whether a command ends with status 0. If it does not end in time, ends it and all that it started, and raises
-    Late."""
-    with subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, start_new_session=True,
-                          env={**os.environ, "GTEST_FAIL_FAST": "1"}) as process:
+def ended(command, seconds, **environment):
+    """The status of a command, and what it printed. If it does not end in time, ends it and all that it started, and
+    raises Late."""
+    with tempfile.TemporaryFile("w+", encoding="utf-8", errors="replace") as output, \
+            subprocess.Popen(command, stdout=output, stderr=subprocess.DEVNULL, start_new_session=True,
+                             env={**os.environ, "GTEST_FAIL_FAST": "1", **environment}) as process:
         try:
-            return process.wait(seconds) == 0
+            status = process.wait(seconds)
+            output.seek(0)
+            return status, output.read()
         except subprocess.TimeoutExpired as error:
             raise Late from error
         finally:
             if process.returncode is None:
                 os.killpg(process.pid, signal.SIGKILL)
+
+
+def ends_well(command, seconds):
+    """Whether a command ends with status 0; else as above."""
+    return ended(command, seconds)[0] == 0
 
 
 def listed_files():

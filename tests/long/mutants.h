@@ -1,11 +1,12 @@
 #pragma once
 
-// What tests/long/mutants.py puts in place of the tokens that it changes: all mutants are in one build, and the
-// variable ROAM_MUTANT of the environment has the number of the one that acts. `a < b` becomes `a < roam_mutant::Less{7} < b`,
-// with the same precedence. A constant expression is left as it is.
+// tests/long/mutants.py builds all mutants at once: it puts these switches in place of the tokens. The environment's
+// ROAM_MUTANT is the number of the mutant that acts. `a < b` becomes `a < roam_mutant::Less{7} < b`, which has the same
+// precedence. Constant expressions stay as they are.
 
 #include <fcntl.h>
 #include <sys/mman.h>
+#include <unistd.h>
 
 #include <cstdlib>
 #include <type_traits>
@@ -13,19 +14,18 @@
 
 namespace roam_mutant {
 
-inline constexpr int most = 1 << 14;
-
 enum Seen : unsigned char { never_computed, same, different, other_does_not_compile };
 
 inline int active = 0;
-/// For each mutant what the process has seen of its token, if it is to look: whether what would take its place has ever
-/// had another value.
+/// Null, or what the process has seen of each mutant: whether it would have changed a value.
 inline unsigned char* seen = nullptr;
 
 inline bool start() {
   if (const char* const number = std::getenv("ROAM_MUTANT")) active = std::atoi(number);
   if (const char* const file = std::getenv("ROAM_MUTANTS_SEEN")) {
-    void* const map = mmap(nullptr, most, PROT_READ | PROT_WRITE, MAP_SHARED, open(file, O_RDWR), 0);
+    const int descriptor = open(file, O_RDWR);
+    const auto bytes = static_cast<std::size_t>(lseek(descriptor, 0, SEEK_END));  // one for each mutant
+    void* const map = mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_SHARED, descriptor, 0);
     if (map == MAP_FAILED) std::abort();
     seen = static_cast<unsigned char*>(map);
   }
@@ -37,7 +37,7 @@ inline void see(int mutant, Seen what) {
   if (seen != nullptr && seen[mutant] < what) seen[mutant] = what;
 }
 
-/// Whether the mutant acts, of a token that then always has another value.
+/// Whether the mutant acts. It always changes the value of its token.
 inline bool acts(int mutant) {
   see(mutant, different);
   return active == mutant;
@@ -51,10 +51,10 @@ constexpr auto either(int mutant, Original original, Other other) {
   if (active == mutant) return Result(other());
   if (seen != nullptr) {
     if constexpr (std::is_arithmetic_v<Result>) {
-      // A division of integers by zero would end the process.
       const Result value = original();
-      constexpr bool divides = std::is_integral_v<Result> && !std::is_same_v<Result, bool>;
-      see(mutant, !divides && value == other() ? same : different);
+      // The other value of integers is not computed: a division by zero would end the process.
+      constexpr bool can_trap = std::is_integral_v<Result> && !std::is_same_v<Result, bool>;
+      see(mutant, !can_trap && value == other() ? same : different);
       return value;
     } else {
       see(mutant, different);

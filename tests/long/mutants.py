@@ -22,13 +22,12 @@ import os
 import pathlib
 import random
 import re
-import signal
 import subprocess
 import sys
 import tempfile
 import time
 
-from changed_tree import SOURCE, ChangedTree, Late, ends_well
+from changed_tree import SOURCE, ChangedTree, Late, ended, ends_well
 
 ROOMS = ("sweep", "index", "world", "motion")
 TOKEN = re.compile(r"""
@@ -40,11 +39,10 @@ TOKEN = re.compile(r"""
   | (?P<compound>(?<=\ )[-+]=(?=\ ))
   | (?P<number>(?<![\w.])(?:0x[0-9a-fA-F.]+p[-+]?\d+|0x[0-9a-fA-F]+|\d+\.\d*(?:e[-+]?\d+)?|\d+e[-+]?\d+|\d+)[fFuUlL]*(?![\w.']))
 """, re.VERBOSE)
-OTHER = {"<": "<=", "<=": "<", ">": ">=", ">=": ">", "==": "!=", "!=": "==", "&&": "||", "||": "&&", "+": "-", "-": "+",
-         "*": "/", "/": "*", "+=": "-=", "-=": "+="}
+OTHER = {"<": "<=", "<=": "<", ">": ">=", ">=": ">", "==": "!=", "!=": "==", "&&": "&& false &&", "||": "|| true ||",
+         "+": "-", "-": "+", "*": "/", "/": "*", "+=": "-=", "-=": "+="}
 NAMES = {"<": "Less", "<=": "LessEqual", ">": "Greater", ">=": "GreaterEqual", "==": "Equal", "!=": "Unequal",
          "+": "Plus", "-": "Minus", "*": "Times", "/": "Over", "+=": "Add", "-=": "Subtract"}
-MOST = 1 << 14  # as in mutants.h
 MEMORY = 8 << 30  # bytes of addresses, against mutants that take all
 ENDLESS = "did not end"
 
@@ -86,6 +84,16 @@ def switch(mutant, token, replacement):
 
 
 
+def replace(lines, line, column, token, by):
+    """Puts something else in place of a token."""
+    old = lines[line - 1]
+    lines[line - 1] = old[:column] + by + old[column + len(token):]
+
+
+def test_programs(build):
+    return sorted(p for p in build.glob("test_*") if os.access(p, os.X_OK) and p.is_file())
+
+
 class Switched(ChangedTree):
     """The build of all mutants, which have the numbers from 1."""
 
@@ -96,7 +104,7 @@ class Switched(ChangedTree):
                                         f"-DCMAKE_CXX_FLAGS=-std=c++20 -w -include {SOURCE}/tests/long/mutants.h"], [])
         self.tests = self.measured(work / "tests.json")
 
-    def compiles(self, targets=None):
+    def compiles(self):
         """Leaves out what does not compile: each line that the compiler names."""
         while True:
             self.write()
@@ -119,8 +127,7 @@ class Switched(ChangedTree):
             if number in self.left_out:
                 continue
             text = texts.setdefault(path, (SOURCE / path).read_text(encoding="utf-8").splitlines(keepends=True))
-            old = text[line - 1]
-            text[line - 1] = old[:column] + switch(number, token, replacement) + old[column + len(token):]
+            replace(text, line, column, token, switch(number, token, replacement))
         for path, lines in texts.items():
             if (self.tree / path).read_text(encoding="utf-8") != "".join(lines):
                 (self.tree / path).write_text("".join(lines), encoding="utf-8")
@@ -128,7 +135,7 @@ class Switched(ChangedTree):
     def measured(self, kept):
         """(seconds, program, name, mutants) of each test, with no mutant acting; the mutants are those that would
         change a value. self.same are those that would change none in any test, self.ill those that do not compile."""
-        programs = sorted(p for p in self.build.glob("test_*") if os.access(p, os.X_OK) and p.is_file())
+        programs = test_programs(self.build)
         digest = hashlib.sha256(b"".join(p.read_bytes() for p in programs)).hexdigest()
         if kept.exists() and (known := json.loads(kept.read_text(encoding="utf-8")))["digest"] == digest:
             self.same, self.ill = set(known["same"]), set(known["ill"])
@@ -140,15 +147,15 @@ class Switched(ChangedTree):
             for line in (line.split("#")[0].rstrip() for line in listed.splitlines()):
                 if not line.startswith(" "):
                     suite = line
-                elif not line.strip().startswith("DISABLED_"):
+                else:
                     with tempfile.NamedTemporaryFile() as file:
-                        file.write(bytes(MOST))
+                        file.write(bytes(len(self.every) + 1))
                         file.flush()
                         name, begin = suite + line.strip(), time.monotonic()
                         if self.fails(str(program), [name], 3600, ROAM_MUTANTS_SEEN=file.name):
                             sys.exit(f"{program.name}: {name} fails as it is")
                         seen = pathlib.Path(file.name).read_bytes()
-                    same, different, ill = ({n for n in range(MOST) if seen[n] == what} for what in (1, 2, 3))
+                    same, different, ill = ({n for n, s in enumerate(seen) if s == what} for what in (1, 2, 3))
                     self.same |= same
                     self.ill |= ill
                     tests.append((time.monotonic() - begin, str(program), name, different))
@@ -162,17 +169,12 @@ class Switched(ChangedTree):
     def fails(program, names, seconds, **environment):
         """How a program with these tests fails: its first test that does, or in another way. Nothing if all pass."""
         command = ["prlimit", f"--as={MEMORY}", program, "--gtest_brief=1", f"--gtest_filter={':'.join(names)}"]
-        with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, start_new_session=True,
-                              env={**os.environ, "GTEST_FAIL_FAST": "1", **environment}, text=True,
-                              errors="replace") as process:
-            try:
-                said, _ = process.communicate(timeout=seconds)
-            except subprocess.TimeoutExpired:
-                os.killpg(process.pid, signal.SIGKILL)
-                process.communicate()
-                return ENDLESS
+        try:
+            status, said = ended(command, seconds, **environment)
+        except Late:
+            return ENDLESS
         failed = re.search(r"^\[  FAILED  \] (\S+)", said, re.MULTILINE)
-        return "" if process.returncode == 0 else failed[1].rstrip(",") if failed else f"status {process.returncode}"
+        return "" if status == 0 else failed[1].rstrip(",") if failed else f"status {status}"
 
     def judge(self, number, seconds):
         """What kills the mutant: "compiler", a test, or how a program ended. Nothing if it survives. None if no test
@@ -202,7 +204,7 @@ class Rebuilt(ChangedTree):
     def __init__(self, work):
         super().__init__(work / "one", ["-DCMAKE_BUILD_TYPE=Release", "-DROAM_TOOLS=OFF", "-DROAM_UNITY=OFF",
                                         "-DCMAKE_CXX_FLAGS_RELEASE=-O1"], [])
-        self.programs = sorted(p for p in self.build.glob("test_*") if os.access(p, os.X_OK) and p.is_file())
+        self.programs = test_programs(self.build)
         self.seconds = {}
         for program in self.programs:
             begin = time.monotonic()
@@ -214,11 +216,10 @@ class Rebuilt(ChangedTree):
             self.seconds[program] = time.monotonic() - begin
 
     def judge(self, path, line, column, token, replacement):
-        """As above."""
+        """What kills the mutant: "compiler", a test program, or that none ends. Nothing if it survives."""
         def change(text):
             lines = text.splitlines(keepends=True)
-            old = lines[line - 1]
-            lines[line - 1] = old[:column] + replacement + old[column + len(token):]
+            replace(lines, line, column, token, replacement)
             return "".join(lines)
 
         with self.changed(path, change):
