@@ -106,6 +106,40 @@ TEST(Ground, ClimbsARampJustBelowTheSlopeLimit) {
   EXPECT_LT(w.feet(), near_ground);
 }
 
+TEST(Ground, KeepsTheSkinOnASlope) {
+  const Mesh m = ramp(40.0);
+  Walk w(m, {}, Mode::walk, {1.5, 0.0, 1.6});
+  w.go(Vec3(0.0), 1.0);
+  const double skin = w.walker.skin();
+  for (const double speed : {1.4, -1.4}) {
+    for (int i = 0; i < 90; ++i) {
+      w.step({speed, 0.0, 0.0});
+      const double gap = w.world.clearance(w.walker.body(), w.walker.position(), 1.0).distance;
+      ASSERT_NEAR(gap, skin, 0.3 * skin) << speed << " at " << i;
+    }
+  }
+}
+
+// Each side is too steep to stand on; both together carry. The body meets one of them first.
+TEST(Ground, StaysInAGrooveThatFalls) {
+  Mesh m;
+  const double side = std::tan(60.0 * std::numbers::pi / 180.0);
+  for (const double y : {-2.0, 2.0}) {
+    add_quad(m, {-8.0, 0.0, 1.0}, {8.0, 0.0, -1.0}, {8.0, y, -1.0 + 2.0 * side}, {-8.0, y, 1.0 + 2.0 * side});
+  }
+  for (const double speed : {0.5, 1.4, 5.0}) {
+    Walk w(m, {}, Mode::walk, {-5.0, 0.01, 2.5});
+    w.go(Vec3(0.0), 1.0);
+    ASSERT_TRUE(w.walker.grounded());
+    const int airborne = w.count(EventKind::airborne);
+    while (w.walker.position().x < 5.0) {
+      w.step({speed, 0.0, 0.0});
+      ASSERT_TRUE(w.walker.grounded()) << speed << " at " << w.walker.position().x;
+    }
+    EXPECT_EQ(w.count(EventKind::airborne), airborne);
+  }
+}
+
 TEST(Ground, DoesNotClimbARampJustAboveTheSlopeLimit) {
   const Mesh m = ramp(46.0);
   for (const double speed : {0.1, 1.4, 14.0}) {

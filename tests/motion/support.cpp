@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "motion/carrying.h"
+#include "motion/state.h"
 #include "roam/error.h"
 #include "support_scenes.h"
 
@@ -144,6 +145,19 @@ TEST(Support, GoesOnInThePlaneOfARamp) {
       EXPECT_GT(w.count(EventKind::bridged), 0);
     }
   }
+}
+
+// Where the floor is below its axis, a round body on a slope is off it by far more than a step of nothing.
+TEST(Support, SeesTheFloorOfASteepSlopeWithoutAStep) {
+  Mesh m = floor_mesh();
+  tilt(m, 44.0);
+  WalkerSettings settings = person(0.4);
+  settings.step = 0.0;
+  Walk w(m, settings, Mode::walk, {0.0, 0.0, 1.2});
+  w.go(Vec3(0.0), 0.5);
+  ASSERT_TRUE(w.walker.grounded());
+  ASSERT_TRUE(w.walker.state().floor());
+  EXPECT_NEAR(w.walker.state().floor()->normal.z, std::cos(44.0 * std::numbers::pi / 180.0), 1e-3);
 }
 
 TEST(Support, WalksOverSlats) {
@@ -293,9 +307,13 @@ TEST(Support, LandsOnACrackThatItNeverSawTheFloorOf) {
     EXPECT_GT(w.walker.position().x, 0.3);
     EXPECT_TRUE(w.walker.report().bridging);
   }
-  Walk put(split(1.25), person(0.645), Mode::walk, {0.6, 0.0, 0.91});
-  EXPECT_TRUE(put.walker.report().bridging);
-  EXPECT_NEAR(put.feet(), 0.0, near_ground);
+  for (const double height : {0.0, 7.0}) {
+    Mesh at = split(1.25);
+    shift(at, {0.0, 0.0, height});
+    Walk put(at, person(0.645), Mode::walk, {0.6, 0.0, height + 0.91});
+    EXPECT_TRUE(put.walker.report().bridging) << height;
+    EXPECT_NEAR(put.feet(), height, near_ground) << height;
+  }
 }
 
 TEST(Support, StepsOverARoughFloorWithACrack) {

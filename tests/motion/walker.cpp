@@ -162,6 +162,24 @@ TEST(Walker, AStepOfManyEventsKeepsWhatEndsIt) {
   EXPECT_EQ(r.has(EventKind::throttled), r.elapsed < 1e6);
 }
 
+TEST(Walker, AStepOfManyEventsReportsTheFallAfterThem) {
+  Mesh m;
+  add_floor(m, -20.0, -10.0, -10.0, 10.0, 0.0);
+  add_floor(m, -10.0, -10.0, 20.0, 10.0, -3.0);
+  const World world = build(m);
+  Walker w(world, {.step = 0.05}, Mode::walk, {-20.0, 0.0, 0.95});
+  std::vector<roam::SizeRegion> regions;
+  for (int i = 0; i < 8; ++i) {
+    const double x = -19.0 + i;
+    regions.push_back({{Vec3(x, -1.0, -1.0), Vec3(x + 0.3, 1.0, 3.0)}, 0.2, 0.0, ""});
+  }
+  w.set_regions(regions);
+  const StepReport& r = w.step({.velocity = {1.4, 0.0, 0.0}}, 10.0);
+  ASSERT_LT(w.feet().z, -w.fall_limit());
+  EXPECT_TRUE(r.has(EventKind::fell));
+  EXPECT_GT(r.events.size(), 16U) << "the others fill their share of the list";
+}
+
 TEST(Walker, GivesTheSameBitsOnEveryRunAndWithAnyNumberOfThreads) {
   Mesh m = rough_tiling(90, 5);
   Random clutter(9);

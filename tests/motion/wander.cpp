@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <set>
 #include <string>
@@ -11,6 +12,7 @@
 #include <vector>
 
 #include "messages.h"
+#include "motion/look_ahead.h"
 #include "roam/world.h"
 #include "walker_scenes.h"
 
@@ -165,6 +167,26 @@ TEST(WanderStart, IsInAHouseOfSmallRoomsRatherThanInItsGarden) {
   std::sort(refused.begin(), refused.end(),
             [](const Vec3& a, const Vec3& b) { return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z); });
   EXPECT_EQ(std::adjacent_find(refused.begin(), refused.end()), refused.end()) << "a candidate is judged once";
+}
+
+TEST(StrideAhead, GoesUpAndDownASlopeOnTheGround) {
+  Mesh mesh;
+  scenes::add_quad(mesh, {-10, -2, -4}, {10, -2, 4}, {10, 2, 4}, {-10, 2, -4});
+  const World world = World::build({&mesh, 1});
+  const Body body = Body::capsule(person.radius, person.height);
+  // On a slope of 2 in 5.
+  const double above = 0.5 * person.height + person.radius * (std::sqrt(1.16) - 1.0) + 1e-3;
+  for (const double way : {-1.0, 1.0}) {
+    int strides = 0;
+    wandering::stride_ahead({world, person, Mode::walk, body}, {0, 0, above}, {way, 0, 0}, 10,
+                            [&](const Vec3& place, double length) {
+                              ++strides;
+                              EXPECT_NEAR(place.x, 0.5 * way * strides, 1e-9);
+                              EXPECT_NEAR(place.z, 0.4 * place.x + above, 4e-3);
+                              EXPECT_EQ(length, 0.5);
+                            });
+    EXPECT_EQ(strides, 10);
+  }
 }
 
 TEST(WanderStart, IsInALongRoomRatherThanInASmallOneWithMoreFloor) {

@@ -106,6 +106,18 @@ TEST(WorldBuild, TakesFewBytes) {
   EXPECT_LE(double(world.stats().bytes) / double(world.stats().triangles), 12.0);
 }
 
+TEST(WorldBuild, CountsTheBytesOfObjects) {
+  const Mesh floor = floor_mesh(100, 0.2, {0.0, 0.0, 0.0});
+  std::vector<Mesh> rows(100);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    rows[i].vertices = floor.vertices;
+    const auto from = floor.triangles.begin() + static_cast<std::ptrdiff_t>(200 * i);
+    rows[i].triangles.assign(from, from + 200);
+  }
+  // A number of its first triangle, and its user data.
+  EXPECT_EQ(World::build(rows).stats().bytes, build(floor).stats().bytes + 99 * 2 * sizeof(std::uint64_t));
+}
+
 TEST(WorldBuild, FillsLeavesWithVertices) {
   // No triangle shares a vertex, so a leaf holds five.
   const Mesh floor = floor_mesh(100, 0.2, {0.0, 0.0, 0.0});

@@ -60,7 +60,9 @@ TEST(PatchworkMemory, WhereAnUpdateRunsOutOfItAllIsSolid) {
                    EXPECT_TRUE(met.hit && met.unknown && met.time == 0.0);
                    EXPECT_EQ(space->object_name(met.triangle), "memory ran out");
                    EXPECT_LE(space->gap_bound(ball, from, {1.0, 0.0, 0.0}, 1.0), 0.0);
-                   EXPECT_TRUE(space->clearance(ball, from, 1.0).unknown);
+                   const roam::Clearance near = space->clearance(ball, from, 1.0);
+                   EXPECT_TRUE(near.unknown);
+                   EXPECT_EQ(Patchwork::patch(near.triangle), PatchId{});
                  }
                  for (int i = 0; i < 3; ++i) walker->step({.velocity = {100.0, 0.0, 0.0}}, 0.1);
                  EXPECT_TRUE(walker->held() && walker->report().met_unknown);
