@@ -15,6 +15,7 @@
 
 #include "files/unfinished.h"
 #include "process/child.h"
+#include "process/thread_without_signals.h"
 #include "roam/error.h"
 
 namespace roam::app {
@@ -104,20 +105,12 @@ void watch() {
   end_at_once(signal_came);
 }
 
-/// The watchdog's thread blocks all signals, so that they reach other threads and interrupt their waiting.
-void start_watchdog() {
-  sigset_t all, before;
-  sigfillset(&all);
-  pthread_sigmask(SIG_SETMASK, &all, &before);
-  std::thread(watch).detach();
-  pthread_sigmask(SIG_SETMASK, &before, nullptr);
-}
-
 }  // namespace
 
 void catch_signals() {
   sem_init(&signals, 0, 0);
-  start_watchdog();
+  // The watchdog takes no signals, so that they interrupt what other threads wait for.
+  process::thread_without_signals(watch).detach();
   struct sigaction action {};
   action.sa_handler = take_signal;
   // No SA_RESTART, so that a read from a terminal returns.

@@ -1,7 +1,6 @@
 #include "process/spawn.h"
 
 #include <fcntl.h>
-#include <pthread.h>
 #include <signal.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -16,6 +15,8 @@
 #ifdef __linux__
 #include <sys/prctl.h>
 #endif
+
+#include "process/thread_without_signals.h"
 
 namespace roam::process {
 namespace {
@@ -77,17 +78,7 @@ int niceness() {
 class Spawner {
  public:
   Spawner() : process_(::getpid()) {
-    // Block all signals in this thread: they belong to the host's threads.
-    sigset_t all, before;
-    sigfillset(&all);
-    ::pthread_sigmask(SIG_SETMASK, &all, &before);
-    try {
-      std::thread([this] { run(); }).detach();
-    } catch (...) {
-      ::pthread_sigmask(SIG_SETMASK, &before, nullptr);
-      throw;
-    }
-    ::pthread_sigmask(SIG_SETMASK, &before, nullptr);
+    thread_without_signals([this] { run(); }).detach();
   }
 
   /// The spawner of this process. A forked process has none of its parent's threads and makes its own.

@@ -1,12 +1,11 @@
 #include "store/web/server.h"
 
-#include <pthread.h>
-#include <signal.h>
-
 #include <algorithm>
+#include <exception>
 #include <system_error>
 #include <utility>
 
+#include "process/thread_without_signals.h"
 #include "roam/error.h"
 #include "store/web/transfer.h"
 
@@ -34,24 +33,6 @@ std::chrono::nanoseconds seconds(double s) {
   return std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::duration<double>(s));
 }
 
-/// A thread without signals: they belong to the program's own, and libraries of libcurl cause SIGPIPE.
-std::thread thread_without_signals(auto&& run) {
-  sigset_t all, before;
-  ::sigfillset(&all);
-  ::pthread_sigmask(SIG_SETMASK, &all, &before);
-  try {
-    std::thread thread(run);
-    ::pthread_sigmask(SIG_SETMASK, &before, nullptr);
-    return thread;
-  } catch (const std::system_error&) {
-    ::pthread_sigmask(SIG_SETMASK, &before, nullptr);
-    throw Error("cannot start a thread that reads from the web server; end other programs");
-  } catch (...) {
-    ::pthread_sigmask(SIG_SETMASK, &before, nullptr);
-    throw;
-  }
-}
-
 }  // namespace
 
 Server::Server(Address address, const Manners& manners)
@@ -59,10 +40,12 @@ Server::Server(Address address, const Manners& manners)
   if (multi_ == nullptr) throw std::bad_alloc();
   Curl::library().multi_setopt(multi_, CURLMOPT_MAX_HOST_CONNECTIONS, static_cast<long>(most_transfers));
   try {
-    thread_ = thread_without_signals([this] { run(); });
-  } catch (...) {
+    // Libraries of libcurl cause SIGPIPE.
+    thread_ = process::thread_without_signals([this] { run(); });
+  } catch (const std::exception& e) {
     Curl::library().multi_cleanup(multi_);
-    throw;
+    if (dynamic_cast<const std::system_error*>(&e) == nullptr) throw;
+    throw Error("cannot start a thread that reads from the web server; end other programs");
   }
 }
 
