@@ -14,6 +14,7 @@
 #include <mutex>
 #include <optional>
 #include <random>
+#include <string>
 #include <utility>
 
 #include "killed_builds.h"
@@ -38,7 +39,7 @@ struct Disk {
   };
 
   std::mutex mutex;
-  std::map<Inode, int> unsynced;  ///< files, by descriptors of their own
+  std::map<Inode, int> unsynced;  ///< files; opened anew, because a copied descriptor would keep their locks
   std::vector<Rename> renames;    ///< in folders that are not synced
   int calls = 0;
   int fatal_call = 0;  ///< the power goes before this one; 0: never
@@ -78,7 +79,9 @@ auto written(int file, Call&& call) {
   if (disk == nullptr) return call();
   const std::lock_guard lock(disk->mutex);
   disk->step();
-  if (const Inode inode = inode_of(file); !disk->unsynced.contains(inode)) disk->unsynced[inode] = ::dup(file);
+  if (const Inode inode = inode_of(file); !disk->unsynced.contains(inode)) {
+    disk->unsynced[inode] = ::open(("/proc/self/fd/" + std::to_string(file)).c_str(), O_RDWR);
+  }
   return call();
 }
 
