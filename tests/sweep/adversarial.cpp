@@ -81,7 +81,7 @@ void judge_miss(const Query& q, const roam::SweepResult& s, double resolution, V
   if (Quad(s.distance) < gap - Quad(tolerance)) v.count(v.loose, q);
 }
 
-void judge_hit(const Query& q, const roam::SweepResult& s, double resolution, Verdict& v) {
+void judge_hit(Kind kind, const Query& q, const roam::SweepResult& s, double resolution, Verdict& v) {
   ++v.hits;
   const Quad distance = oracle::distance_on_the_way<Quad>(q.body, q.from, q.motion, s.time, q.triangle);
   const Quad gap = distance - Quad(q.body.radius);
@@ -98,6 +98,14 @@ void judge_hit(const Query& q, const roam::SweepResult& s, double resolution, Ve
   const double digit = 0x1p-52 * std::max({std::abs(s.point.x), std::abs(s.point.y), std::abs(s.point.z)});
   const Quad off = oracle::distance<Quad>({}, s.point, q.triangle);
   if (off > Quad(2.0 * digit + resolution)) v.count(v.ill_touched, q);
+  if (s.distance >= 0.0) {
+    // What sweep.h leaves to the point of a sliver.
+    const auto& [a, b, c] = q.triangle;
+    const double sliver =
+        kind == Kind::sliver ? 1e-5 * std::max({glm::distance(a, b), glm::distance(b, c), glm::distance(c, a)}) : 0.0;
+    const Quad apart = oracle::distance_on_the_way<Quad>(q.body, q.from, q.motion, s.time, {s.point, s.point, s.point});
+    if (apart - Quad(q.body.radius) > Quad(2.0 * digit + resolution + sliver)) v.count(v.ill_touched, q);
+  }
   if (std::abs(glm::dot(s.normal, s.normal) - 1.0) > 1e-15) v.count(v.ill_touched, q);
 }
 
@@ -108,7 +116,7 @@ Verdict judge(Kind kind, bool capsule, const roam::Vec3& origin, std::uint64_t s
     const Query q = generator.next();
     const roam::SweepResult s = roam::sweep(q.body, q.from, q.motion, q.triangle);
     const double resolution = roam::certified::hit_resolution(q.body, q.motion, local(q), 1.0);
-    s.hit ? judge_hit(q, s, resolution, v) : judge_miss(q, s, resolution, v);
+    s.hit ? judge_hit(kind, q, s, resolution, v) : judge_miss(q, s, resolution, v);
   }
   return v;
 }
