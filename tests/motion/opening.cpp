@@ -23,10 +23,10 @@ Vec3 pitched(double degrees) {
   return {std::cos(a), 0.0, std::sin(a)};
 }
 
-/// A body that has flown into the gap between two boxes, 2 m ahead of `place`, with a wall 4 m behind it.
+/// A body that has flown into the gap between two boxes, 2 m ahead of `place`, with a wall behind it and one beyond.
 struct Stopped {
   explicit Stopped(Mesh gap) {
-    add_wall(gap, -4.0, -9.0, -4.0, 9.0, -9.0, 9.0);
+    for (const double x : {-4.0, 4.0}) add_wall(gap, x, -9.0, x, 9.0, -9.0, 9.0);
     shift(gap, place);
     walk.emplace(gap, ball(0.3), Mode::fly, place);
     walk->go({1.4, 0.0, 0.0}, 3.0);

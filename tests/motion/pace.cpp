@@ -1,8 +1,11 @@
 /// \file
 /// Wishes with limits of acceleration: how fast the speed changes, and how far it takes to stop.
 
+#include "motion/pace.h"
+
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -253,6 +256,24 @@ TEST(Pace, LimitsThatAreNoneAreRefused) {
     EXPECT_THROW(w.step({.braking = bad}, frame), roam::Error);
     EXPECT_THROW(Route(w, path, {.acceleration = bad}), roam::Error);
     EXPECT_THROW(Route(w, path, {.braking = bad}), roam::Error);
+  }
+}
+
+TEST(Pace, AnApproachComesAsFarAsItSays) {
+  Random random(5);
+  for (int i = 0; i < 20000; ++i) {
+    const double speed = random.between(0.0, 6.0), until_rest = random.between(0.01, 5.0);
+    const double goal = until_rest * random.between(0.1, 1.0), seconds = random.between(1e-3, 0.5);
+    WalkerInput limits;
+    limits.acceleration = random.between(0.2, 9.0);
+    limits.braking = random.between(0.2, 9.0);
+    const auto step = roam::walking::approach(speed, random.between(0.1, 6.0), goal, until_rest, seconds, limits);
+    ASSERT_LE(step.seconds, seconds);
+    const double rate = step.speed < speed ? -limits.braking : limits.acceleration;
+    const double changing = std::min(std::abs((step.speed - speed) / rate), step.seconds);
+    const double way = (speed + 0.5 * rate * changing) * changing + step.speed * (step.seconds - changing);
+    ASSERT_NEAR(step.way, way, 1e-9) << i;
+    ASSERT_LE(step.way, goal);
   }
 }
 

@@ -175,6 +175,7 @@ TEST(Walker, AStepOfManyEventsReportsTheFallAfterThem) {
   }
   w.set_regions(regions);
   const StepReport& r = w.step({.velocity = {1.4, 0.0, 0.0}}, 10.0);
+  EXPECT_DOUBLE_EQ(w.fall_limit(), 0.3 + 0.05);
   ASSERT_LT(w.feet().z, -w.fall_limit());
   EXPECT_TRUE(r.has(EventKind::fell));
   EXPECT_GT(r.events.size(), 16U) << "the others fill their share of the list";

@@ -200,6 +200,18 @@ TEST(WanderStart, IsInALongRoomRatherThanInASmallOneWithMoreFloor) {
   EXPECT_GT(start->place.x, 10.0);
 }
 
+TEST(WanderStart, IsNotOnARoofThatHasMoreRoom) {
+  Mesh mesh;
+  // The roof of a crawl space, and a yard beside it.
+  scenes::add_floor(mesh, -15, -15, 15, 15, -18.8);
+  scenes::add_floor(mesh, -15, -15, 15, 15, -20);
+  scenes::add_floor(mesh, 20, -3, 26, 3, -20);
+  const std::optional<WanderStart> start = wander_start(scenes::build(mesh), person, Mode::walk);
+  ASSERT_TRUE(start);
+  EXPECT_FALSE(start->on_top);
+  EXPECT_GT(start->place.x, 20.0);
+}
+
 TEST(WanderStart, IsLookedForOnceOnEachFloorOfAHugeScene) {
   roam::Mesh huge;
   scenes::add_floor(huge, -1e9, -1e9, 1e9, 1e9, 1e9);

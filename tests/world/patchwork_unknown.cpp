@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <glm/common.hpp>
+#include <utility>
 #include <vector>
 
 #include "clutter.h"
@@ -141,6 +143,23 @@ TEST(PatchworkUnknown, StandsLongMotionsAndWideBoxes) {
     if (HasFatalFailure()) return;
   }
   for (const int count : tally) EXPECT_GT(count, 50);
+}
+
+TEST(PatchworkUnknown, IsTouchedAtAFaceAnEdgeOrAVertex) {
+  Patchwork space;
+  static_cast<void>(space.expect({Vec3(-1.0), Vec3(1.0)}));
+  space.update();
+  const Body ball{0.2, 0.0};
+  const std::pair<Vec3, roam::Feature> starts[] = {{{-4.0, 0.2, 0.1}, roam::Feature::face},
+                                                   {{-4.0, -4.0, 0.1}, roam::Feature::edge},
+                                                   {{-4.0, -4.0, -4.0}, roam::Feature::vertex}};
+  for (const auto& [from, feature] : starts) {
+    const Vec3 to(0.0, from.y < -1.0 ? 0.0 : from.y, from.z < -1.0 ? 0.0 : from.z);
+    const roam::Impact met = space.sweep(ball, from, to - from);
+    ASSERT_TRUE(met.hit && met.unknown);
+    EXPECT_EQ(met.feature, feature);
+    EXPECT_EQ(met.point, glm::clamp(from, Vec3(-1.0), Vec3(1.0)));
+  }
 }
 
 TEST(PatchworkUnknown, SidesOfOneBoxAndOfDifferentBoxesAreToldApart) {
