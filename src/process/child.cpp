@@ -15,6 +15,7 @@
 #include <mutex>
 #include <sstream>
 #include <thread>
+#include <utility>
 
 #include "roam/error.h"
 
@@ -83,6 +84,7 @@ Child::Child(const std::filesystem::path& program, const std::vector<std::string
   }
   // Moves them above the numbers that are about to be replaced.
   std::vector<Descriptor> moved;
+  moved.reserve(wanted.size());
   for (Inheritance& i : wanted) {
     moved.emplace_back(::fcntl(i.ours, F_DUPFD_CLOEXEC, first_free_descriptor));
     if (!moved.back().is_open()) refuse(errno);
@@ -103,10 +105,14 @@ Child::Child(const std::filesystem::path& program, const std::vector<std::string
   Registry& all = registry();
   // Locked before the start, so that end_children() also ends this child.
   const std::lock_guard lock(all.mutex);
+  // Its entry is made before: where memory runs out, no child is left.
+  std::map<pid_t, pid_t> entry{{0, ::getpid()}};
   const pid_t child = spawn(plan);
   if (child < 0) refuse(-child);
   pid_ = child;
-  all.children[child] = ::getpid();
+  auto node = entry.extract(0);
+  node.key() = child;
+  all.children.insert(std::move(node));
 }
 
 Child::~Child() { end(); }

@@ -108,7 +108,7 @@ TEST(PagerSystemCalls, AreNoneOfTheBodysThread) {
       },
       // This locks what update() must not wait for, much more often than loading threads do.
       [&] {
-        for (int i = 0; i < 1000; ++i) (void)pager->stats();
+        for (int i = 0; i < 30'000; ++i) (void)pager->stats();
       },
       // It is no proof unless the body moved on, and tiles came and went.
       [&] { return moved > 1000 && pager->stats().evictions > 20 && pager->stats().loads > 50 ? 0 : 3; });
