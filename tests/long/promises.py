@@ -90,7 +90,7 @@ PROMISES = [
      "WholeFile::~WholeFile() {\n  if (!temporary_.empty()) ", "WholeFile::~WholeFile() {\n  if (temporary_.empty()) "),
     ("process", "ChildAllocations.*", "src/process/child.cpp", "  moved.reserve(wanted.size());\n", ""),
     ("import_allocations", "ImportAllocations.*", "src/process/child.cpp",
-     "while (!wait(std::chrono::hours(1))) {\n  }\n", ""),
+     "  if (collect()) return;\n", "  if (collect() || pid_ > 0) return;\n"),
     ("profile", "ProfileAllocations.*", "src/profile/profile.cpp",
      "(const Error& error) {\n    throw Error(fmt::format(", "(const std::exception& error) {\n    throw Error(fmt::format("),
     ("store_build_allocations", "StoreBuildAllocations.*", "src/store/build/output_folder.cpp",
