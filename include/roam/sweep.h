@@ -40,7 +40,7 @@ enum class Feature : std::uint8_t { face, edge, vertex };  ///< the part of a tr
 struct SweepResult {
   bool hit = false;   ///< the body meets the triangle, or starts touching or overlapping it
   double time = 1.0;  ///< fraction of the motion that is certified free, rounded down; 0 if it starts in touch
-  Vec3 point{0.0};    ///< contact on the triangle; for a sliver, to 1e-5 of its longest edge
+  Vec3 point{0.0};    ///< contact on the triangle; on a sliver up to 1e-5 of its length beside the nearest point
   Vec3 normal{0.0};   ///< unit vector from `point` towards the body's axis
   Feature feature = Feature::face;
   /// Certified lower bound of the gap between body and triangle: at `time` for a hit, over the whole motion for a miss.
@@ -56,7 +56,7 @@ struct SweepResult {
 
 /// The closest point of a triangle to a body at rest.
 struct Proximity {
-  Vec3 point{0.0};   ///< on the triangle
+  Vec3 point{0.0};   ///< on the triangle, as of SweepResult
   Vec3 normal{0.0};  ///< unit vector from `point` towards the body's axis; if they meet, the shortest way apart
   Feature feature = Feature::face;
   double distance = 0.0;  ///< certified lower bound of the gap; <= 0 if the body touches or overlaps the triangle

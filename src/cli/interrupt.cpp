@@ -109,7 +109,7 @@ void watch() {
 
 void catch_signals() {
   sem_init(&signals, 0, 0);
-  // The watchdog takes no signals, so that they interrupt what other threads wait for.
+  // The watchdog takes no signals, so that they reach other threads and interrupt their waiting.
   process::thread_without_signals(watch).detach();
   struct sigaction action {};
   action.sa_handler = take_signal;

@@ -105,13 +105,14 @@ Child::Child(const std::filesystem::path& program, const std::vector<std::string
   Registry& all = registry();
   // Locked before the start, so that end_children() also ends this child.
   const std::lock_guard lock(all.mutex);
-  // Its entry is made before: where memory runs out, no child is left.
+  // Made first: if memory runs out, no child has started.
   std::map<pid_t, pid_t> entry{{0, ::getpid()}};
   const pid_t child = spawn(plan);
   if (child < 0) refuse(-child);
   pid_ = child;
   auto node = entry.extract(0);
   node.key() = child;
+  all.children.erase(child);  // of a parent that this process was forked from
   all.children.insert(std::move(node));
 }
 

@@ -90,7 +90,6 @@ TEST(Outputs, PicturesReplaceOnlyPicturesThatRoamMade) {
           << refused.err;
       EXPECT_EQ(folder.read(name), theirs) << arguments[0];
       std::filesystem::remove(file);
-      if (arguments[0] == "walk") folder.write(name, "");  // nobody's picture
       for (int again = 0; again < 2; ++again) {
         const ProgramResult written = run_program(ROAM_PROGRAM, arguments);
         EXPECT_TRUE(written.status == 0 || written.status == 3) << written.err;
@@ -98,6 +97,15 @@ TEST(Outputs, PicturesReplaceOnlyPicturesThatRoamMade) {
       }
     }
   }
+}
+
+TEST(Outputs, PicturesReplaceAnEmptyFile) {
+  const TestFolder folder;
+  const std::string scene = folder.write("scene.obj", room_obj()), path = folder.write("p.path", "2 0 1\n3 0 1\n");
+  const ProgramResult written =
+      run_program(ROAM_PROGRAM, {"walk", scene, "--path", path, "--picture", folder.write("a.svg", "")});
+  EXPECT_TRUE(written.status == 0 || written.status == 3) << written.err;
+  EXPECT_GT(folder.read("a.svg").size(), 0U);
 }
 
 TEST(Outputs, MadeScenesReplaceOnlyMadeScenes) {

@@ -147,7 +147,7 @@ TEST(Support, GoesOnInThePlaneOfARamp) {
   }
 }
 
-// Where the floor is below its axis, a round body on a slope is off it by far more than a step of nothing.
+// A round body on a slope touches it beside its axis. The floor below the axis is farther than a step of 0.
 TEST(Support, SeesTheFloorOfASteepSlopeWithoutAStep) {
   Mesh m = floor_mesh();
   tilt(m, 44.0);

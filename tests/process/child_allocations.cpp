@@ -1,4 +1,4 @@
-// Where memory runs out at the start of a child, the call throws, and no child is left.
+// If memory runs out at the start of a child, the call throws, and no child and no open file is left.
 
 #include <gtest/gtest.h>
 #include <sys/wait.h>

@@ -99,7 +99,7 @@ void judge_hit(Kind kind, const Query& q, const roam::SweepResult& s, double res
   const Quad off = oracle::distance<Quad>({}, s.point, q.triangle);
   if (off > Quad(2.0 * digit + resolution)) v.count(v.ill_touched, q);
   if (s.distance >= 0.0) {
-    // What sweep.h leaves to the point of a sliver.
+    // The point of a sliver may be so far beside the place where the body touches (sweep.h).
     const auto& [a, b, c] = q.triangle;
     const double sliver =
         kind == Kind::sliver ? 1e-5 * std::max({glm::distance(a, b), glm::distance(b, c), glm::distance(c, a)}) : 0.0;

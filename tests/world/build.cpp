@@ -114,7 +114,7 @@ TEST(WorldBuild, CountsTheBytesOfObjects) {
     const auto from = floor.triangles.begin() + static_cast<std::ptrdiff_t>(200 * i);
     rows[i].triangles.assign(from, from + 200);
   }
-  // A number of its first triangle, and its user data.
+  // Each object adds the number of its first triangle, and its user data.
   EXPECT_EQ(World::build(rows).stats().bytes, build(floor).stats().bytes + 99 * 2 * sizeof(std::uint64_t));
 }
 

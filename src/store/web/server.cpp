@@ -1,7 +1,6 @@
 #include "store/web/server.h"
 
 #include <algorithm>
-#include <exception>
 #include <system_error>
 #include <utility>
 
@@ -42,10 +41,12 @@ Server::Server(Address address, const Manners& manners)
   try {
     // Libraries of libcurl cause SIGPIPE.
     thread_ = process::thread_without_signals([this] { run(); });
-  } catch (const std::exception& e) {
+  } catch (const std::system_error&) {
     Curl::library().multi_cleanup(multi_);
-    if (dynamic_cast<const std::system_error*>(&e) == nullptr) throw;
     throw Error("cannot start a thread that reads from the web server; end other programs");
+  } catch (...) {
+    Curl::library().multi_cleanup(multi_);
+    throw;
   }
 }
 

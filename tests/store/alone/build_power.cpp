@@ -80,7 +80,9 @@ auto written(int file, Call&& call) {
   const std::lock_guard lock(disk->mutex);
   disk->step();
   if (const Inode inode = inode_of(file); !disk->unsynced.contains(inode)) {
-    disk->unsynced[inode] = ::open(("/proc/self/fd/" + std::to_string(file)).c_str(), O_RDWR);
+    const int opened = ::open(("/proc/self/fd/" + std::to_string(file)).c_str(), O_RDWR);
+    if (opened < 0) std::abort();
+    disk->unsynced[inode] = opened;
   }
   return call();
 }
