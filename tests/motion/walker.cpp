@@ -147,16 +147,21 @@ TEST(Walker, AGhostThatWouldLeaveAllSpaceStaysWhereItIs) {
   EXPECT_EQ(w.walker.step({.velocity = {1.0, 0.0, 0.0}}, 1.0).to, Vec3(1.0, 0.0, 0.95));
 }
 
+/// A narrower body over 0.3 m of each metre along +x, from x = -19: two events each.
+std::vector<roam::SizeRegion> many_regions(int count) {
+  std::vector<roam::SizeRegion> regions;
+  for (int i = 0; i < count; ++i) {
+    const double x = -19.0 + i;
+    regions.push_back({{Vec3(x, -1.0, -1.0), Vec3(x + 0.3, 1.0, 3.0)}, 0.2, 0.0, ""});
+  }
+  return regions;
+}
+
 TEST(Walker, AStepOfManyEventsKeepsWhatEndsIt) {
   const Mesh m = floor_mesh();
   const World world = build(m);
   Walker w(world, {}, Mode::walk, {-20.0, 0.0, 0.95});
-  std::vector<roam::SizeRegion> regions;
-  for (int i = 0; i < 30; ++i) {
-    const double x = -19.0 + i;
-    regions.push_back({{Vec3(x, -1.0, -1.0), Vec3(x + 0.3, 1.0, 3.0)}, 0.2, 0.0, ""});
-  }
-  w.set_regions(regions);
+  w.set_regions(many_regions(30));
   const StepReport& r = w.step({.velocity = {1.4, 0.0, 0.0}}, 1e6);
   EXPECT_EQ(r.events.total(), r.events.size()) << "nothing is lost beyond what motion may note";
   EXPECT_EQ(r.has(EventKind::throttled), r.elapsed < 1e6);
@@ -168,12 +173,7 @@ TEST(Walker, AStepOfManyEventsReportsTheFallAfterThem) {
   add_floor(m, -10.0, -10.0, 20.0, 10.0, -3.0);
   const World world = build(m);
   Walker w(world, {.step = 0.05}, Mode::walk, {-20.0, 0.0, 0.95});
-  std::vector<roam::SizeRegion> regions;
-  for (int i = 0; i < 8; ++i) {
-    const double x = -19.0 + i;
-    regions.push_back({{Vec3(x, -1.0, -1.0), Vec3(x + 0.3, 1.0, 3.0)}, 0.2, 0.0, ""});
-  }
-  w.set_regions(regions);
+  w.set_regions(many_regions(8));
   const StepReport& r = w.step({.velocity = {1.4, 0.0, 0.0}}, 10.0);
   EXPECT_DOUBLE_EQ(w.fall_limit(), 0.3 + 0.05);
   ASSERT_LT(w.feet().z, -w.fall_limit());
