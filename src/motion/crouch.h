@@ -15,7 +15,8 @@ void crouch(Move& move);
 /// Crouches if that lets the body go on along `motion`, under `contact`, which blocks it.
 bool crouch_under(Move& move, const Impact& contact, const Vec3& motion);
 
-/// Stands up if there is headroom for the whole body and its skin.
-bool stand_up(Move& move);
+/// Stands up if there is headroom for the whole body and its skin, unless only the tall body would be stopped at once
+/// along `way`.
+void stand_up(Move& move, const Vec3& way);
 
 }  // namespace roam::walking

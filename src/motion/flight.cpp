@@ -68,6 +68,7 @@ bool fly_on(Move& move, Gait& gait, const Vec3& velocity, double seconds) {
   const double begin_z = move.place.z;
   PlaneSet planes;
   double left = 1.0;
+  bool touched = false;
   for (int contact = 0; contact < slide_limit && left > 0.0; ++contact) {
     const Vec3 before = move.place;
     double share = left;
@@ -84,6 +85,7 @@ bool fly_on(Move& move, Gait& gait, const Vec3& velocity, double seconds) {
     }
     if (!a.touched) break;
     if (a.embedded) return false;
+    touched = true;
     move.touch(a.contact, a.gap);
     move.ease_off(a);
     if (glm::length(move.place - before) > move.skin) planes.clear();
@@ -103,8 +105,8 @@ bool fly_on(Move& move, Gait& gait, const Vec3& velocity, double seconds) {
   }
   move.time = start + seconds;
   // On a slope of angle a gravity acts by sin(a)^2. The speed kept here is that of a free fall and acts likewise. If
-  // the way down is closed, the fall begins anew.
-  if (fall < 0.0 && begin_z - move.place.z < hindered_part * -fall) rise_speed = 0.0;
+  // the way down is closed, the fall begins anew. A first fall that is lost in the rounding of z is not closed.
+  if (touched && fall < 0.0 && begin_z - move.place.z < hindered_part * -fall) rise_speed = 0.0;
   gait.rise_speed = rise_speed;
   const bool falls = gait.footing == Footing::air && gait.level.has_value();
   if (falls && move.feet() < *gait.level - (move.settings.radius + move.settings.step)) {

@@ -2,6 +2,8 @@
 /// \file
 /// A step in progress: the position of the body, its motion, and the report written on the way.
 
+#include <glm/geometric.hpp>
+
 #include "motion/known.h"
 #include "roam/space.h"
 #include "roam/step_report.h"
@@ -29,6 +31,12 @@ constexpr double free_gap = 5e-5;
 
 /// Metres. The longest way passed to one sweep; a space accepts 1e6 m.
 constexpr double longest_way = 5e5;
+
+/// The motion, in its direction at least so many metres long. A motion of no length stays as it is.
+[[nodiscard]] inline Vec3 at_least(const Vec3& motion, double least) {
+  const double length = glm::length(motion);
+  return length > 0.0 && length < least ? motion * (least / length) : motion;
+}
 
 /// The way a step, or a part of it, ended.
 enum class Ending : std::uint8_t {

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "math/finite.h"
+#include "math/largest.h"
 #include "motion/crouch.h"
 #include "motion/ground.h"
 #include "motion/pace.h"
@@ -20,6 +21,9 @@ namespace {
 
 /// Metres. The skin of a lossless world: a thousand times the rounding at 6.4e6 m, and too small to be seen.
 constexpr double least_skin = 1e-4;
+
+/// m/s. A faster wish counts as this one in the same direction: its square is finite, and no step can tell them apart.
+constexpr double fastest_wish = 1e100;
 
 /// Greatest number of pieces of one flight among regions, each half a radius long.
 constexpr int flight_limit = 4096;
@@ -213,6 +217,8 @@ const StepReport& Walker::State::step(const WalkerInput& wish, double dt) {
                 number_text(wish.braking) + " m/s^2; both must be more than 0");
   }
   WalkerInput input = wish;
+  const double most = largest(wish.velocity);
+  if (most > fastest_wish) input.velocity *= fastest_wish / most;
   std::optional<walking::Pace> change;
   if (walking::limits(wish)) {
     if (mode_ == Mode::walk) input.velocity.z = 0.0;
@@ -282,15 +288,17 @@ bool Walker::State::move(const WalkerInput& input, double dt) {
 walking::Ending Walker::State::move_for(const WalkerInput& input, double dt) {
   walking::Move m = under_way();
   const bool walking = mode_ == Mode::walk;
+  const Vec3 horizontal(input.velocity.x, input.velocity.y, 0.0);
   if (walking && input.crouch) {
     walking::crouch(m);
   } else {
-    walking::stand_up(m);
+    Vec3 way = walking ? horizontal : input.velocity;
+    if (walking && gait_.grounded()) way.z = -glm::dot(gait_.ground, horizontal) / gait_.ground.z;
+    walking::stand_up(m, way);
   }
   walking::Ending end = walking::Ending::done;
   if (walking) {
     if (input.jump) walking::jump(m, gait_);
-    const Vec3 horizontal(input.velocity.x, input.velocity.y, 0.0);
     end = walking::walk(m, gait_, horizontal, dt, safe_, sizes());
   } else {
     end = fly(m, input.velocity, dt);

@@ -1,8 +1,10 @@
 // A step up: stairs, kerbs, and the rims of floors.
 #include <algorithm>
+#include <cmath>
 #include <glm/geometric.hpp>
 
 #include "motion/ground.h"
+#include "motion/planes.h"
 
 namespace roam::walking {
 
@@ -18,7 +20,7 @@ std::optional<double> step_up(Move& move, Gait& gait, const Vec3& motion, double
   trial.place += rise;
   // At least far enough for a body that touches a kerb as high as its radius to reach where the rim carries it.
   const double least = move.settings.radius * (1.0 - rim_sine) + 4.0 * skin;
-  const Vec3 ahead = motion * (std::max(length, least) / length);
+  const Vec3 ahead = at_least(motion, least);
   const Advance forward = trial.probe(ahead);
   const Vec3 onward = ahead * forward.fraction;
   if (!(glm::length(onward) > skin)) return std::nullopt;
@@ -28,8 +30,12 @@ std::optional<double> step_up(Move& move, Gait& gait, const Vec3& motion, double
   if (!landing.hit || landing.distance < 0.0) return std::nullopt;
   const std::optional<Ground> ground = footing(trial, gait, landing);
   if (!ground || ground->level > *gait.level + step + 2.0 * skin) return std::nullopt;
-  // It is neither over the obstacle nor higher than before: that is no step, and repeating it would only creep on.
-  if (forward.touched && !(ground->level > *gait.level + 2.0 * skin)) return std::nullopt;
+  // It is neither over the obstacle nor higher than before, or still on the slope on which it stood: that is no step,
+  // and repeating it would only creep on.
+  const double higher = ground->level - *gait.level, slope = -glm::dot(gait.ground, onward) / gait.ground.z;
+  const bool same_slope = !ground->edge && glm::dot(ground->normal, gait.ground) > 1.0 - parallel_tolerance &&
+                          std::abs(higher - slope) <= 2.0 * skin;
+  if (forward.touched && (!(higher > 2.0 * skin) || same_slope)) return std::nullopt;
   const double drop = std::max(0.0, landing.time * reach - skin / landing.normal.z);
 
   move.time += seconds * std::min(1.0, glm::length(onward) / length);

@@ -77,7 +77,10 @@ bool stride(Move& move, Gait& gait, const Vec3& velocity, double seconds) {
       continue;
     }
     const Vec3 rest = v * left;
-    if (crouch_under(move, a.contact, over_grounds(rest, grounds))) continue;
+    if (crouch_under(move, a.contact, over_grounds(rest, grounds))) {
+      in_vain.reset();  // of the tall body
+      continue;
+    }
     if (const std::optional<double> made = step_up(move, gait, rest, left)) {
       left = std::max(0.0, left - *made * left);
       walls.clear();
@@ -98,8 +101,8 @@ bool stride(Move& move, Gait& gait, const Vec3& velocity, double seconds) {
   keep_ground(move, gait, glm::length(Vec3(gone.x, gone.y, 0.0)));
   // A body that rolls off a rim goes on down at its present slope, at most as steep as a rim that carries. Thrown off
   // level it would cross cracks that it does not bridge. A body that loses its support disc has no rim below to guide
-  // it.
-  if (!gait.grounded() && seconds > 0.0) {
+  // it. Without gravity it floats on level.
+  if (!gait.grounded() && seconds > 0.0 && move.settings.gravity > 0.0) {
     const double steepest = -wish * rim_tangent;
     const double down = was_carried ? steepest : std::max((move.place.z - origin.z) / seconds, steepest);
     gait.rise_speed = std::min(0.0, down);

@@ -13,7 +13,10 @@ namespace {
 /// Greatest number of strides in one step; a step of minutes ends early instead of running on. 10 s of flight take 300.
 constexpr int stride_limit = 4096;
 
-bool below_everything(const Move& move) { return move.place.z + 0.5 * move.height < move.space.bounds().lower.z; }
+/// Whether it falls for ever.
+bool below_everything(const Move& move) {
+  return move.settings.gravity > 0.0 && move.place.z + 0.5 * move.height < move.space.bounds().lower.z;
+}
 
 bool at_same_place(const Whereabouts& a, const Whereabouts& b) { return a.place == b.place && a.height == b.height; }
 

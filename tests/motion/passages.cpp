@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "walker_judged.h"
 
@@ -61,6 +62,58 @@ TEST(Passages, CrouchesUnderALowCeilingHoweverSlow) {
     Walk w(m, {}, Mode::walk, {0.69, 0.0, 0.95});
     w.go({speed, 0.0, 0.0}, std::min(1.0, 1.5 / speed));
     EXPECT_TRUE(w.walker.crouched()) << speed;
+  }
+}
+
+/// Vertices off the grid, so that the world has an error and the walker a skin of more than a millimetre.
+TEST(Passages, CrouchesUnderALowCeilingByStepsShorterThanItsSkin) {
+  const struct {
+    double speed, acceleration, dt, start;
+  } ways[] = {{1.4, 9.33, 1.0 / 240.0, -0.305},
+              {1.4, 2.0, 1.0 / 144.0, -0.31},
+              {0.2, INFINITY, 1.0 / 240.0, -0.31},
+              {1.4, INFINITY, 1e-4, -0.304}};
+  for (const double rise : {0.0, 0.36, -0.36})
+    for (const auto& way : ways) {
+      SCOPED_TRACE(testing::Message() << "rise " << rise << ", " << way.speed << " m/s, " << way.dt << " s");
+      const auto at = [&](double x, double y, double z) { return Vec3(x, y, z + rise * x); };
+      Mesh m;
+      add_quad(m, at(-200.3, -200.7, 0.0003), at(200.1, -200.7, 0.0003), at(200.1, 200.9, 0.0003),
+               at(-200.3, 200.9, 0.0003));
+      add_quad(m, at(0.0003, -8.0, 1.5003), at(4.0, -8.0, 1.5003), at(4.0, 8.0, 1.5003), at(0.0003, 8.0, 1.5003));
+      add_quad(m, at(0.0003, -8.0, 1.5003), at(0.0003, 8.0, 1.5003), at(0.0003, 8.0, 4.0), at(0.0003, -8.0, 4.0));
+      Walk w(m, {}, Mode::walk, at(way.start, 0.0, 0.91 + 0.3 * (std::sqrt(1.0 + rise * rise) - 1.0)));
+      ASSERT_GT(w.world.largest_error(), 2e-4);
+      const int steps = static_cast<int>(1.0 / way.dt);
+      for (int i = 0; i < steps && w.walker.position().x < 0.0; ++i) {
+        const StepReport& r = w.walker.step(
+            {.velocity = {way.speed, 0.0, 0.0}, .acceleration = way.acceleration, .braking = 2.0 * way.acceleration},
+            way.dt);
+        ASSERT_GE(margin(w.judge, r, w.walker.settings().radius), 0.0);
+      }
+      EXPECT_TRUE(w.walker.crouched());
+      EXPECT_GT(w.walker.position().x, way.start + 0.1);
+    }
+}
+
+/// The ground is higher ahead because it rises, not because the body is over the wall.
+TEST(Passages, SlidesAlongALowWallUpASlopeWithoutSteps) {
+  for (const double degrees : {5.0, 28.0, 40.0}) {
+    const double rise = std::tan(degrees * std::numbers::pi / 180.0);
+    for (const double top : {0.25, 0.35, 0.6, 0.65, 0.7, 0.8, 1.0}) {
+      Mesh m;
+      add_quad(m, {-5.0, -5.0, -5.0 * rise}, {5.0, -5.0, -5.0 * rise}, {5.0, 5.0, 5.0 * rise}, {-5.0, 5.0, 5.0 * rise});
+      // Its top is level, so that in the end the body may step onto it.
+      add_box(m, {0.0, -5.0, -6.0}, {0.1, 5.0, top});
+      Walk w(m, {}, Mode::walk, {-0.301, 0.0, 0.95 + 0.3 * (1.0 / std::cos(degrees * std::numbers::pi / 180.0) - 1.0)});
+      for (int i = 0; i < 40; ++i) {
+        const StepReport& r = w.step({1.4 * std::sin(0.057), 1.4 * std::cos(0.057), 0.0});
+        const auto steps = std::count_if(r.events.begin(), r.events.end(),
+                                         [](const roam::Event& e) { return e.kind == EventKind::stepped_up; });
+        ASSERT_LE(steps, 1) << degrees << " degrees, " << top << " m, step " << i;
+      }
+      EXPECT_GT(w.walker.position().y, 0.5) << degrees << " degrees, " << top << " m";
+    }
   }
 }
 

@@ -138,6 +138,53 @@ TEST(Walker, AStepOfTheShortestTimeIsNotBlocked) {
   EXPECT_FALSE(w.step({0.3, 0.0, 0.0}, std::numeric_limits<double>::denorm_min()).blocked);
 }
 
+TEST(Walker, WithoutGravityFloatsOnFromAnEdgeAndBelowTheScene) {
+  Mesh m;
+  add_floor(m, -10.0, -10.0, 10.0, 10.0, 10.0);
+  const WalkerSettings floating{.gravity = 0.0};
+  for (const Vec3& start : {Vec3(8.0, 0.0, 10.91), Vec3(8.0, 0.0, 1.0)}) {
+    Walk w(m, floating, Mode::walk, start);
+    w.go({1.4, 0.0, 0.0}, 2.0);
+    const Vec3 off = w.walker.position();  // it has rolled off the rim
+    EXPECT_NEAR(off.z, start.z, 0.25);
+    w.go({1.4, 0.0, 0.0}, 4.0);
+    EXPECT_NEAR(w.walker.position().x, off.x + 5.6, 1e-6);
+    EXPECT_NEAR(w.walker.position().z, off.z, 1e-6);
+    EXPECT_EQ(w.count(EventKind::put_back) + w.count(EventKind::held), 0);
+  }
+}
+
+/// The first fall is lost in the rounding of z.
+TEST(Walker, FallsByTheShortestStepsFarAboveTheOrigin) {
+  for (const double height : {1e5, 6.4e6}) {
+    Mesh m;
+    add_floor(m, -10.0, -10.0, 10.0, 10.0, height);
+    const World world = build(m);
+    Walker walker(world, {}, Mode::walk, {0.0, 0.0, height + 3.0});
+    const double dt = height < 1e6 ? 1e-6 : 9e-6;
+    constexpr int steps = 50'000;
+    for (int i = 0; i < steps; ++i) walker.step({}, dt);
+    const double fallen = 0.5 * 9.81 * (steps * dt) * (steps * dt);
+    EXPECT_NEAR(height + 3.0 - walker.position().z, fallen, 0.02 * fallen);
+  }
+}
+
+TEST(Walker, AnyFiniteWishLeavesItWell) {
+  const Mesh m = floor_mesh();
+  for (const double speed : {1e155, 1e300, -1e308}) {
+    Walk w(m, {}, Mode::walk, {0.0, 0.0, 9.0});
+    w.walker.step({.velocity = {speed, speed, 0.0}, .acceleration = 10.0, .braking = 10.0}, 0.1);
+    EXPECT_LT(w.walker.position().z, 8.99);
+    w.step({speed, 0.0, 0.0});
+    w.step({0.0, 0.0, 0.0}, 0.5);
+    EXPECT_LT(w.walker.position().z, 8.5);
+    w.go({0.0, 0.0, 0.0}, 3.0);
+    const double x = w.walker.position().x;
+    EXPECT_GT(w.step({1.4, 0.0, 0.0}).elapsed, 0.0);
+    EXPECT_TRUE(std::isfinite(x));
+  }
+}
+
 TEST(Walker, AGhostThatWouldLeaveAllSpaceStaysWhereItIs) {
   const Mesh m = floor_mesh();
   Walk w(m, {}, Mode::ghost, {0.0, 0.0, 0.95});
