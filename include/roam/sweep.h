@@ -9,7 +9,7 @@
 ///
 /// (supporting plane: van den Bergen, "Ray casting against general convex objects", 2004; conservative advance:
 /// Mirtich, "Impulse-based dynamic simulation", 1996), minus the rounding error that docs/algorithm.md derives. At a
-/// hit the axis is within radius + 1.5e-14 * reach of the triangle. The reach is radius + half height + motion + offset
+/// hit the axis is within radius + 1.6e-14 * reach of the triangle. The reach is radius + half height + motion + offset
 /// of the farthest corner, the last two as |x| + |y| + |z|; the distance to the scene's origin does not matter.
 ///
 /// All functions are pure and thread-safe. They throw roam::Error for input that is not finite or beyond 1e12 m, and

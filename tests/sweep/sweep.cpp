@@ -264,7 +264,7 @@ TEST(Sweep, AnyMixOfLengthsUpToTheLimitIsAnsweredSafely) {
     const double reach = body.radius + body.half_height + 3.0 * std::pow(10.0, most) * 4.0;
     const Quad gap = oracle::distance_on_the_way<Quad>(body, from, motion, s.time, t) - Quad(body.radius);
     // Faces of less than 1e-130 m^2 have no normal.
-    EXPECT_LE(gap, Quad(1.5e-14 * reach + 1e-64));
+    EXPECT_LE(gap, Quad(1.6e-14 * reach + 1e-64));
   }
   EXPECT_GT(hits, 2000);
   EXPECT_GT(misses, 2000);
