@@ -91,8 +91,16 @@ struct Store::State::Recent {
   };
   /// The name of the object of a part's triangle, if it is kept. Throws roam::Error if the part is known to be damaged.
   [[nodiscard]] std::optional<std::string> object(std::uint32_t part, std::uint64_t triangle) const;
-  /// Does nothing if another thread has kept them meanwhile.
+  /// Does nothing if another thread has kept them meanwhile. Damage takes the place of what was read of the part
+  /// before.
   void keep(Objects&& read) {
+    if (read.damage) {
+      std::erase_if(objects, [&](const Objects& o) {
+        if (o.part != read.part) return false;
+        used -= entry_cost + o.bytes;
+        return true;
+      });
+    }
     const auto is_same = [&](const Objects& o) { return o.part == read.part && o.first == read.first; };
     if (std::any_of(objects.begin(), objects.end(), is_same)) return;
     make_room(entry_cost + read.bytes);

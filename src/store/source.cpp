@@ -102,10 +102,11 @@ SourceTriangle store::find_source(const Store::State& s, TriangleId triangle, co
   if (!object) {
     lock.unlock();
     Store::State::Recent::Objects read = read_objects(s, part, number, stop);
-    if (!read.damage) object = read.names.object(number);
+    const std::optional<Error> damage = read.damage;
+    if (!damage) object = read.names.object(number);
     lock.lock();
     s.recent->keep(std::move(read));
-    if (!object) object = s.recent->object(part, number);  // throws
+    if (damage) throw Error(*damage);
   }
   return {s.manifest.parts[part].name, number, s.first[part] + number, *object};
 }

@@ -6,7 +6,9 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <chrono>
 #include <mutex>
+#include <thread>
 #include <unordered_map>
 #include <utility>
 
@@ -18,6 +20,8 @@ namespace roam::store {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr std::chrono::seconds longest_wait_for_lock{1};
 
 /// A static text; strerror's may be overwritten by the next call.
 const char* reason(int error) {
@@ -79,8 +83,12 @@ class Files : public StoreBytes {
   void hold(const std::string& manifest) {
     Descriptor opened = open_file(folder_, manifest, O_RDONLY);
     if (!opened.is_open()) return;
-    // Builders lock it only as long as removal takes. Some file systems have no locks.
-    while (::flock(opened.number(), LOCK_SH) != 0 && errno == EINTR) {
+    // Builders lock it only as long as removal takes, but anybody who may read it may lock it for ever. Some file
+    // systems have no locks.
+    const auto until = std::chrono::steady_clock::now() + longest_wait_for_lock;
+    while (::flock(opened.number(), LOCK_SH | LOCK_NB) != 0 && (errno == EINTR || errno == EWOULDBLOCK) &&
+           std::chrono::steady_clock::now() < until) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
     }
     const std::lock_guard lock(mutex_);
     held_ = std::move(opened);

@@ -5,8 +5,8 @@
 #include <cstring>
 #include <string_view>
 
-#include "index/grid.h"
 #include "store/files.h"
+#include "store/mask.h"
 
 namespace roam::store {
 namespace {
@@ -86,37 +86,14 @@ LoadedTile TileReader::tile(std::uint64_t page, const TileEntry& entry, std::uin
   loaded.memory = blocks_for(shape.bytes());
   const std::span<std::byte> out(reinterpret_cast<std::byte*>(loaded.memory.get()), shape.bytes());
   if (const char* problem = decoder_.decode(content, shape, out)) refuse(store_, what, problem);
-  loaded.tile.origin = {entry.origin[0], entry.origin[1], entry.origin[2]};
-  loaded.tile.step = entry.step;
-  loaded.tile.error = entry.error;
-  loaded.tile.fine_error = entry.fine_error;
-  loaded.tile.fine = shape.fine;
-  loaded.tile.leaves = shape.nodes;
-  const std::byte* leaves = out.data() + shape.nodes * sizeof(index::Block);
-  loaded.leaves = {reinterpret_cast<const index::Leaf*>(leaves), shape.leaves};
-  if (shape.fine) {
-    const std::byte* fine = leaves + shape.leaves * sizeof(index::Block);
-    loaded.fine = {reinterpret_cast<const index::FineLeaf*>(fine), shape.leaves};
-  }
+  static_cast<TileView&>(loaded) = view_tile(entry, out);
+  if (const char* problem = check_place(entry, loaded)) refuse(store_, what, problem);
   return loaded;
 }
 
 std::vector<SourceNumber> TileReader::numbers(std::uint64_t page, const TileEntry& entry, std::uint32_t number) {
   const std::string what = "the source numbers of " + name_of(page, number, box_of(entry));
   return decode_numbers(read(range_of_numbers(page, entry), what), entry.triangles);
-}
-
-Triangle stored_triangle(const index::Tile& tile, const index::Leaf& leaf, const index::FineLeaf* fine, int triangle) {
-  Triangle out;
-  const double step = tile.step;
-  for (int c = 0; c < 3; ++c) {
-    const int v = leaf.vertex_of(c, triangle);
-    for (int k = 0; k < 3; ++k) {
-      const double low = fine != nullptr ? step / double(index::fine_steps) * fine->vertex[k][v] : 0.0;
-      out[static_cast<std::size_t>(c)][k] = tile.origin[k] + (step * leaf.vertex[k][v] + low);
-    }
-  }
-  return out;
 }
 
 }  // namespace roam::store

@@ -14,6 +14,7 @@
 #include "store/opened.h"
 #include "store/page.h"
 #include "store/read_ahead.h"
+#include "store/tile_view.h"
 
 namespace roam::store {
 
@@ -24,11 +25,8 @@ struct LoadedPage {
 };
 
 /// A tile, read, checked and decoded.
-struct LoadedTile {
+struct LoadedTile : TileView {
   std::unique_ptr<index::Block[]> memory;
-  index::Tile tile;
-  std::span<const index::Leaf> leaves;
-  std::span<const index::FineLeaf> fine;
 };
 
 /// Thrown when a page or a tile cannot be read or is altered.
@@ -70,10 +68,5 @@ class TileReader {
 /// "tile 3 of page 17 (10.5 2.0 0.3 to 20.1 9.9 4.0)"
 [[nodiscard]] std::string name_of(std::uint64_t page, std::uint32_t tile, const Box& box);
 [[nodiscard]] std::string name_of(std::uint64_t page, const Box& box);
-
-/// The corners of triangle `triangle` of a leaf in the scene's frame, with each stored coordinate correctly rounded.
-/// `fine`: the leaf's low bits, or null.
-[[nodiscard]] Triangle stored_triangle(const index::Tile& tile, const index::Leaf& leaf, const index::FineLeaf* fine,
-                                       int triangle);
 
 }  // namespace roam::store

@@ -250,24 +250,6 @@ class Verifier {
     if (geometry_hash(tile.tile, tile.leaves, tile.fine) != entry.geometry_hash) {
       throw Error("its triangles are not those that its entry counts");
     }
-    const Box box = box_of(entry);
-    const Vec3 cell = box.size() / double(mask_cells);
-    for (std::size_t l = 0; l < tile.leaves.size(); ++l) {
-      for (int i = 0; i < tile.leaves[l].triangle_count; ++i) {
-        const Triangle triangle =
-            stored_triangle(tile.tile, tile.leaves[l], tile.fine.empty() ? nullptr : &tile.fine[l], i);
-        for (const Vec3& corner : triangle) {
-          int at[3];
-          for (int k = 0; k < 3; ++k) {
-            if (corner[k] < box.lower[k] || corner[k] > box.upper[k]) throw Error("a triangle lies outside its box");
-            at[k] =
-                cell[k] > 0.0 ? std::min(mask_cells - 1, static_cast<int>((corner[k] - box.lower[k]) / cell[k])) : 0;
-          }
-          const int bit = at[0] + mask_cells * (at[1] + mask_cells * at[2]);
-          if ((entry.mask[bit / 64] >> (bit % 64) & 1U) == 0) throw Error("a triangle lies outside its mask");
-        }
-      }
-    }
     if (!numbers_problem.empty()) throw Error(numbers_problem);
   }
 

@@ -9,6 +9,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -45,6 +46,8 @@ struct StoreOptions {
   std::size_t page_tiles = 64;
   /// Triangles of a tile at most; 0: as many as World::build puts into one.
   std::uint32_t tile_triangles = 0;
+  /// Changes the entry of each tile, as a stranger might.
+  std::function<void(roam::store::TileEntry&)> change{};
 };
 
 /// Marks every cell that the box of a triangle, grown by `error`, meets.
@@ -55,7 +58,7 @@ inline void mark(roam::store::TileEntry& tile, const roam::Triangle& triangle, d
   for (int k = 0; k < 3; ++k) {
     const double extent = tile.upper[k] - tile.lower[k];
     const auto cell = [&](double x) {
-      return extent > 0.0 ? std::clamp(static_cast<int>(std::floor((x - tile.lower[k]) / extent * 8.0)), 0, 7) : 0;
+      return extent > 0.0 ? static_cast<int>(std::clamp((x - tile.lower[k]) / extent * 8.0, 0.0, 7.0)) : 0;
     };
     from[k] = cell(box.lower[k] - error - 1e-9);
     to[k] = extent > 0.0 ? cell(box.upper[k] + error + 1e-9) : 7;
@@ -143,6 +146,7 @@ class Maker {
     e.number_hash = store::xxh3(coded_numbers);
     e.geometry_hash = store::geometry_hash(tile.tile, tile.leaves, tile.fine_leaves);
     soup_.for_each(ids, [&](std::size_t, const roam::Triangle& t) { mark_finely(e, t, error); });
+    if (options_.change) options_.change(e);
     std::vector<std::byte> blob = coded;
     blob.insert(blob.end(), coded_numbers.begin(), coded_numbers.end());
     e.offset = pack_.add(blob);

@@ -9,8 +9,8 @@
 #include "program.h"
 #include "store/build/divide.h"
 #include "store/build/histogram.h"
-#include "store/build/mask.h"
 #include "store/build/run.h"
+#include "store/mask.h"
 
 namespace {
 
@@ -253,6 +253,15 @@ TEST(StoreRun, GivesBackEveryTriangleOfARange) {
       ASSERT_NE(it, found.end());
       ASSERT_EQ(it->second, content.triangle(items[i].triangle));
     }
+  }
+}
+
+TEST(StoreMask, HasCellsInTheThinnestBox) {
+  for (const double thin : {0.0, 5e-324, 1e-310, 1e-300}) {
+    const CellRange range = CellGrid({Vec3(0.0), {1.0, 1.0, thin}}, 0.0).range(Vec3(0.0), {0.5, 1.0, thin});
+    EXPECT_EQ(range.first[2], 0) << thin;
+    EXPECT_TRUE(range.last[2] >= 0 && range.last[2] < mask_cells) << thin;
+    EXPECT_EQ(range.last[1], mask_cells - 1);
   }
 }
 

@@ -1,15 +1,21 @@
 // A store that says what cannot be: it is refused, or read, in little memory.
+#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <malloc.h>
+#include <sys/file.h>
 
 #include <algorithm>
 #include <chrono>
 #include <cstring>
 #include <future>
+#include <random>
 #include <stop_token>
 
+#include "files/descriptor.h"
 #include "memory_cost.h"
 #include "packed_part.h"
+#include "pager_made.h"
+#include "roam/pager.h"
 #include "store/build/fingerprint.h"
 #include "store/opened.h"
 #include "store/part_bytes.h"
@@ -42,14 +48,18 @@ class HostileStore : public testing::Test {
   }
   /// Puts a part file of these many objects and this content in force. `window`: log2 of the bytes of its window.
   void publish_part(std::uint64_t objects, const std::string& content, int window = 21) const {
-    store::Manifest m = manifest();
+    publish_part(folder_.path(), objects, content, window);
+  }
+  static void publish_part(const std::filesystem::path& folder, std::uint64_t objects, const std::string& content,
+                           int window) {
+    store::Manifest m = store::read_manifest(*store::files_of(folder), "s");
     const auto bytes = packed_part(m.parts[0].triangles, objects, 1, content, window);
-    store::NewFile file(folder_.path(), store::part_file("new"));
+    store::NewFile file(folder, store::part_file("new"));
     file.write(bytes);
     m.parts[0].file = file.commit_by_hash();
     m.parts[0].bytes = bytes.size();
     m.parts[0].objects = objects;
-    store::publish(folder_.path(), m);
+    store::publish(folder, m);
   }
   /// What `source` says of a triangle of the store.
   [[nodiscard]] std::string object_of_one() const {
@@ -124,6 +134,92 @@ TEST_F(HostileStore, ALongNameIsCutAndNotKept) {
   std::string object;
   EXPECT_LT(cost_of([&] { object = object_of_one(); }).mebibytes, 16U);
   EXPECT_EQ(object, std::string(store::longest_part_name, 'a'));
+}
+
+/// Queries find the triangles of a tile by its box, and by its mask before it is loaded.
+TEST_F(HostileStore, ATileOutsideItsBoxOrItsMaskIsNotUsed) {
+  Mesh wall;
+  wall.vertices = {{0, 0, 0}, {8, 0, 0}, {8, 8, 8}, {0, 8, 8}};
+  wall.triangles = {{0, 1, 2}, {0, 2, 3}};
+  const auto box_of_a_corner = [](store::TileEntry& e) {
+    for (int k = 0; k < 3; ++k) e.upper[k] = e.lower[k] + 1.0;
+    std::fill(std::begin(e.mask), std::end(e.mask), ~std::uint64_t{0});
+  };
+  const auto elsewhere = [](store::TileEntry& e) {
+    for (int k = 0; k < 3; ++k) e.origin[k] += 100.0 * e.step * 65536.0;
+  };
+  // No corner of a triangle is in there.
+  const auto hole = [](store::TileEntry& e) { e.mask[3] &= ~(std::uint64_t{0xff} << (8 * 3)); };
+  const struct {
+    std::function<void(store::TileEntry&)> lie;
+    std::string said;
+  } lies[] = {
+      {{}, ""}, {box_of_a_corner, "outside its box"}, {elsewhere, "outside its box"}, {hole, "outside its mask"}};
+  for (const bool lossless : {false, true}) {
+    for (const auto& [lie, said] : lies) {
+      SCOPED_TRACE(said);
+      const made::Folder folder("place");
+      const auto opened = made::store(folder.path(), {&wall, 1}, {.lossless = lossless, .change = lie});
+      const auto all = [&] { opened->for_each_triangle({Vec3(-1e3), Vec3(1e3)}, [](auto, auto) {}); };
+      const std::string found = damage(verify_store(folder.path()));
+      EXPECT_NE(cost_of(all).said.find(said), std::string::npos) << cost_of(all).said;
+      EXPECT_NE(found.find(said), std::string::npos) << found;
+      EXPECT_EQ(cost_of(all).said.empty(), said.empty());
+      Pager pager(opened);
+      const Vec3 beside(0.3, 0.3, 0.3);
+      const auto stats = [&] { return pager.stats(); };
+      ASSERT_TRUE(made::update_until(pager, {0.1, 0.1}, beside, [&] { return stats().tiles + stats().failed == 1; }));
+      EXPECT_EQ(stats().failed, said.empty() ? 0U : 1U);
+      EXPECT_NE(stats().last_failure.find(said), std::string::npos) << stats().last_failure;
+      EXPECT_EQ(pager.clearance({0.1, 0.1}, beside, 1.0).unknown, !said.empty());
+    }
+  }
+}
+
+/// The names of the first objects are kept without a look at those that follow them.
+TEST_F(HostileStore, APartWhoseFirstNamesAreGoodIsDamagedBehindThem) {
+  constexpr std::uint64_t objects = 15'000, bad = 14'000;
+  constexpr std::size_t side = 128;  // 2 * 127 * 127 triangles
+  Mesh mesh;
+  for (std::uint32_t i = 0; i < side * side; ++i) mesh.vertices.emplace_back(i % side, i / side, 0.0);
+  for (std::uint32_t i = 0; i + side + 1 < side * side; ++i) {
+    if (i % side == side - 1) continue;
+    mesh.triangles.push_back({i, i + 1, i + static_cast<std::uint32_t>(side)});
+  }
+  ASSERT_GT(mesh.triangles.size(), objects);
+  const made::Folder folder("behind");
+  made::Maker(folder.path(), {&mesh, 1}, {.page_tiles = 4, .tile_triangles = 100}).run();
+  std::mt19937 random(1);
+  std::string content;
+  for (std::uint64_t i = 0; i < objects; ++i) {
+    content += std::string(1, i == 0 || i == bad ? '\0' : '\1') + number(40);
+    for (int k = 0; k < 40; ++k) content += static_cast<char>('a' + random() % 26);
+  }
+  content += std::string(1, '\0') + number(mesh.triangles.size());
+  publish_part(folder.path(), objects, content, 21);
+
+  const auto opened = Store::open(folder.path());
+  const auto id_of = [&](std::uint64_t wanted) {
+    TriangleId id = 0;
+    opened->for_each_triangle(opened->info().bounds, [&](auto, auto ids) {
+      for (const TriangleId some : ids) id = opened->scene_triangle(some) == wanted ? some : id;
+    });
+    return id;
+  };
+  const TriangleId early = id_of(5), late = id_of(14'500);
+  const auto said = [&](TriangleId id) { return cost_of([&] { static_cast<void>(opened->source(id)); }).said; };
+  EXPECT_EQ(said(early), "");
+  EXPECT_NE(said(late).find("in no order"), std::string::npos) << said(late);
+  EXPECT_NE(said(late).find("in no order"), std::string::npos) << "it was kept";
+}
+
+/// Whoever may read a manifest may lock it.
+TEST_F(HostileStore, ALockedManifestKeepsNobodyWaiting) {
+  for (const auto& entry : std::filesystem::directory_iterator(folder_.path() / "manifests")) {
+    const files::Descriptor held(::open(entry.path().c_str(), O_RDONLY | O_CLOEXEC));
+    ASSERT_EQ(::flock(held.number(), LOCK_EX), 0);
+    EXPECT_GT(Store::open(folder_.path())->info().triangles, 0U);
+  }
 }
 
 /// Reads of part files wait until they are let go.

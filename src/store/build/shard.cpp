@@ -12,10 +12,10 @@
 #include "index/tile_builder.h"
 #include "store/authentic.h"
 #include "store/build/layout.h"
-#include "store/build/mask.h"
 #include "store/build/shard_triangles.h"
 #include "store/codec/tile_codec.h"
 #include "store/files.h"
+#include "store/mask.h"
 #include "store/page.h"
 
 namespace roam::store {

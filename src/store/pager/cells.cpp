@@ -27,6 +27,7 @@ struct Cube {
     return out;
   }
   [[nodiscard]] TriangleId number() const { return static_cast<TriangleId>(x + mask_cells * (y + mask_cells * z)); }
+  [[nodiscard]] store::CellRange range() const { return {{x, y, z}, {x + size - 1, y + size - 1, z + size - 1}}; }
   /// The octant that the bits of `i` choose: bit k is the upper half along axis k.
   [[nodiscard]] Cube part(int i) const {
     const int half = size / 2;
@@ -34,30 +35,15 @@ struct Cube {
   }
 };
 
-enum class Filled : std::uint8_t { none, some, all };
-
-Filled filled(const TileEntry& t, const Cube& cube) {
-  static_assert(mask_cells == 8, "a layer of cells is one word");
-  const std::uint64_t row = ((std::uint64_t{1} << cube.size) - 1) << cube.x;
-  std::uint64_t layer = 0;
-  for (int y = cube.y; y < cube.y + cube.size; ++y) layer |= row << (8 * y);
-  bool any = false, every = true;
-  for (int z = cube.z; z < cube.z + cube.size; ++z) {
-    any = any || (t.mask[z] & layer) != 0;
-    every = every && (t.mask[z] & layer) == layer;
-  }
-  return every ? Filled::all : any ? Filled::some : Filled::none;
-}
-
 /// Visits the boxes of occupied cells for which look(box) is true. Boxes are as large as possible. `order` is the
 /// octant of each cube that is visited first.
 template <class Look, class Visit>
 void visit_cells(const TileEntry& t, const Cube& cube, int order, const Look& look, const Visit& visit) {
-  const Filled state = filled(t, cube);
-  if (state == Filled::none) return;
+  const store::Filled state = store::filled(t, cube.range());
+  if (state == store::Filled::none) return;
   const Box box = cube.box(t);
   if (!look(box)) return;
-  if (state == Filled::all) return visit(Cells{box, cube.number()});
+  if (state == store::Filled::all) return visit(Cells{box, cube.number()});
   for (int i = 0; i < 8; ++i) visit_cells(t, cube.part(i ^ order), order, look, visit);
 }
 

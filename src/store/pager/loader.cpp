@@ -6,6 +6,8 @@
 #include <system_error>
 
 #include "store/files.h"
+#include "store/mask.h"
+#include "store/tile_view.h"
 
 namespace roam::paging {
 namespace {
@@ -146,7 +148,9 @@ const char* Loaders::load_tile(const Work& work, Tools& tools, Outcome& outcome)
   if (const char* problem = read(work, coded, outcome)) return problem;
   const auto begin = Clock::now();
   const store::TileShape shape = shape_of(*work.entry);
-  const char* const problem = tools.decoder.decode(coded, shape, {arena_ + work.unit * unit_bytes, shape.bytes()});
+  const std::span<std::byte> out(arena_ + work.unit * unit_bytes, shape.bytes());
+  const char* problem = tools.decoder.decode(coded, shape, out);
+  if (!problem) problem = store::check_place(*work.entry, store::view_tile(*work.entry, out));
   outcome.decode_s = seconds_since(begin);
   return problem;
 }
@@ -165,15 +169,7 @@ const char* Loaders::load_page(const Work& work, Outcome& outcome) const {
   std::byte* const tiles = memory + Planner::tiles_offset(page.ref.bytes);
   in.tiles = reinterpret_cast<index::Tile*>(tiles);
   for (std::size_t i = 0; i < in.view.tiles.size(); ++i) {
-    const store::TileEntry& entry = in.view.tiles[i];
-    index::Tile tile{};
-    tile.origin = {entry.origin[0], entry.origin[1], entry.origin[2]};
-    tile.step = entry.step;
-    tile.error = entry.error;
-    tile.fine_error = entry.fine_error;
-    tile.fine = entry.fine != 0;
-    tile.nodes = index::Tile::absent_leaf;
-    new (tiles + i * sizeof(index::Tile)) index::Tile(tile);
+    new (tiles + i * sizeof(index::Tile)) index::Tile(store::absent_tile(in.view.tiles[i]));
   }
   std::byte* const states = tiles + in.view.tiles.size() * sizeof(index::Tile);
   for (std::size_t i = 0; i < in.view.tiles.size(); ++i) {
