@@ -28,12 +28,9 @@ bool DisplayLook::has_image() const {
 }
 
 std::uint64_t DisplayPart::node_bytes() const {
-  // A geometry of OpenSceneGraph with its arrays and buffers; other nodes take less.
-  constexpr std::uint64_t most = 2048;
   std::uint64_t nodes = textures.size() + looks.size() + geometries.size() + groups;
   for (const DisplayPages& node : pages) nodes += 1 + node.levels.size();
-  constexpr std::uint64_t name_most = 256;  // without its letters
-  return most * nodes + name_most * objects.size();
+  return node_cost * nodes + name_cost * objects.size();
 }
 
 std::uint64_t DisplayPart::bytes() const {

@@ -128,6 +128,9 @@ struct DisplayPart {
   std::uint32_t groups = 1;
   std::vector<DisplayPages> pages;
 
+  /// Bytes that a node takes in the display: a geometry of OpenSceneGraph with its arrays and buffers; other nodes take
+  /// less. Bytes of an object's name without its letters.
+  static constexpr std::uint64_t node_cost = 2048, name_cost = 256;
   /// Approximate bytes of its nodes in the display, without the lists in this part.
   [[nodiscard]] std::uint64_t node_bytes() const;
   /// The same, plus the bytes of these lists.

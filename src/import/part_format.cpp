@@ -26,7 +26,8 @@ class Writer : public PayloadWriter {
 
 class Reader {
  public:
-  explicit Reader(std::span<const std::byte> bytes) : rest_(bytes) {}
+  Reader(std::span<const std::byte> bytes, std::uint64_t most_node_bytes)
+      : rest_(bytes), node_bytes_left_(most_node_bytes) {}
 
   template <class T>
   T take() {
@@ -61,6 +62,18 @@ class Reader {
     if (count > rest_.size() / size) throw StreamDamaged{"a list that is not there"};
     return count;
   }
+  /// The same; then makes room for the elements, each of which takes so much in the display.
+  template <class List>
+  std::uint64_t take_count(List& list, std::size_t size, std::uint64_t cost) {
+    const std::uint64_t count = take_count(size);
+    take_nodes(count, cost);
+    list.reserve(count);
+    return count;
+  }
+  void take_nodes(std::uint64_t count, std::uint64_t cost) {
+    if (count > node_bytes_left_ / cost) throw StreamReceiver::ContentTooLarge{};
+    node_bytes_left_ -= count * cost;
+  }
   [[nodiscard]] bool at_end() const { return rest_.empty(); }
 
  private:
@@ -72,6 +85,7 @@ class Reader {
   }
 
   std::span<const std::byte> rest_;
+  std::uint64_t node_bytes_left_;
 };
 
 /// Bound of a position: both ends of a scene, its origin, and rounding.
@@ -193,7 +207,7 @@ DisplayPages take_pages(Reader& from, const DisplayPart& part, std::vector<std::
     throw StreamDamaged{"pages without a size"};
   }
   constexpr std::size_t least_level_bytes = 20;
-  const std::uint64_t count = from.take_count(least_level_bytes);
+  const std::uint64_t count = from.take_count(pages.levels, least_level_bytes, DisplayPart::node_cost);
   bool paged = false;
   for (std::uint64_t i = 0; i < count; ++i) {
     DisplayLevel level;
@@ -272,27 +286,31 @@ std::vector<std::byte> encode(const DisplayPart& part) {
   return to.take_bytes();
 }
 
-void decode(std::span<const std::byte> bytes, DisplayPart& part) {
+void decode(std::span<const std::byte> bytes, DisplayPart& part, std::uint64_t most_node_bytes) {
   // The least bytes of an element, so that no count allocates more than a multiple of the bytes present.
   constexpr std::size_t texture_bytes = 23, look_bytes = 28, name_bytes = 8, geometry_bytes = 80, pages_bytes = 57;
   // A group has no bytes of its own, but each group except the first is a level, which has.
   constexpr std::size_t level_bytes = 16;
-  Reader from(bytes);
+  constexpr std::uint64_t node = DisplayPart::node_cost;
+  Reader from(bytes, most_node_bytes);
   part.groups = from.take<std::uint32_t>();
   if (part.groups == 0 || part.groups > 1 + bytes.size() / level_bytes) throw StreamDamaged{"groups that are no tree"};
-  for (std::uint64_t n = from.take_count(texture_bytes); n > 0; --n) part.textures.push_back(take_texture(from));
-  for (std::uint64_t n = from.take_count(look_bytes); n > 0; --n) part.looks.push_back(take_look(from, part));
-  for (std::uint64_t n = from.take_count(name_bytes); n > 0; --n) {
+  from.take_nodes(part.groups, node);
+  for (auto n = from.take_count(part.textures, texture_bytes, node); n > 0; --n) {
+    part.textures.push_back(take_texture(from));
+  }
+  for (auto n = from.take_count(part.looks, look_bytes, node); n > 0; --n) part.looks.push_back(take_look(from, part));
+  for (auto n = from.take_count(part.objects, name_bytes, DisplayPart::name_cost); n > 0; --n) {
     from.take_list(part.objects.emplace_back(), DisplayPart::name_limit);
   }
   std::uint64_t triangles = 0;
-  for (std::uint64_t n = from.take_count(geometry_bytes); n > 0; --n) {
+  for (auto n = from.take_count(part.geometries, geometry_bytes, node); n > 0; --n) {
     part.geometries.push_back(take_geometry(from, part));
     triangles += part.geometries.back().indices.size() / 3;
   }
   std::vector<std::uint32_t> depth(part.groups, not_shown);
   depth[0] = 0;
-  for (std::uint64_t n = from.take_count(pages_bytes); n > 0; --n) {
+  for (auto n = from.take_count(part.pages, pages_bytes, node); n > 0; --n) {
     part.pages.push_back(take_pages(from, part, depth));
   }
   if (!from.at_end()) throw StreamDamaged{"a part that is too long"};

@@ -15,6 +15,7 @@
 /// The frame that begins the part (PartHeader) has origin, bounds and triangles.
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -25,7 +26,8 @@ namespace roam::reader {
 [[nodiscard]] std::vector<std::byte> encode(const DisplayPart& part);
 
 /// Decodes into `part`, whose origin is set. Checks every count against the bytes present, every index against the
-/// number of its elements, and every number against its range. Throws StreamReceiver::StreamDamaged.
-void decode(std::span<const std::byte> bytes, DisplayPart& part);
+/// number of its elements, and every number against its range. Throws StreamReceiver::StreamDamaged; ContentTooLarge,
+/// before it allocates, if DisplayPart::node_bytes() would be more than `most_node_bytes`.
+void decode(std::span<const std::byte> bytes, DisplayPart& part, std::uint64_t most_node_bytes);
 
 }  // namespace roam::reader

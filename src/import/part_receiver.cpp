@@ -68,10 +68,10 @@ void PartReceiver::begin_part(std::span<const std::byte> payload) {
 }
 
 void PartReceiver::finish_part() {
-  decode(bytes_, part_);
+  // Many small objects take more memory in the display than in the stream. What is decoded takes less than a node does.
+  decode(bytes_, part_, part_bytes_ - bytes_taken_);
   // The caller of `give` allocates in turn, so free these bytes first.
   std::vector<std::byte>().swap(bytes_);
-  // Many small objects take more memory in the display than in the stream.
   count_bytes(part_.node_bytes());
   bytes_taken_ += part_.node_bytes();
   const bool paged = !part_.pages.empty();

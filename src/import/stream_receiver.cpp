@@ -207,7 +207,9 @@ void StreamReceiver::take_left_out(PayloadReader& fields) {
   object.vertices = fields.take<std::uint64_t>();
   object.triangles = fields.take<std::uint64_t>();
   const bool bad = reason == LeftOutReason::bad_vertices;
-  left_out_triangles_ += object.triangles;
+  // A sum that wraps around would be small.
+  constexpr std::uint64_t most = std::uint64_t{1} << 62;
+  left_out_triangles_ = std::min(left_out_triangles_ + std::min(object.triangles, most), most);
   (bad ? bad_objects_ : ignored_objects_).add(std::move(object));
 }
 

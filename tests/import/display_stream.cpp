@@ -9,6 +9,7 @@
 #include "import/part_format.h"
 #include "import/part_receiver.h"
 #include "import/stream.h"
+#include "memory_cost.h"
 #include "shown_scene.h"
 
 namespace roam::test {
@@ -16,12 +17,14 @@ namespace {
 
 using namespace reader;
 
+constexpr std::uint64_t unlimited = ~std::uint64_t{0};
+
 /// How a part is damaged; empty where it is not.
 std::string damage_of(const std::vector<std::byte>& bytes, std::uint64_t triangles) {
   DisplayPart part;
   part.triangles = triangles;
   try {
-    decode(bytes, part);
+    decode(bytes, part, unlimited);
   } catch (const StreamReceiver::StreamDamaged& damage) {
     return damage.how;
   }
@@ -34,7 +37,7 @@ TEST(ImportDisplayStream, BringsEveryValue) {
   const DisplayPart sent = full_part();
   DisplayPart part;
   part.triangles = sent.triangles;
-  decode(encode(sent), part);
+  decode(encode(sent), part, unlimited);
   EXPECT_TRUE(is_valid(part));
   EXPECT_EQ(encode(part), encode(sent));
   EXPECT_EQ(part.pages[1].levels[2].page, "two");
@@ -168,6 +171,26 @@ TEST(ImportDisplayStream, CountsWhatSmallThingsTakeWhereTheyAreDrawn) {
                              frame(3, FrameKind::end, PayloadWriter().add(totals).add(std::uint32_t{0}).bytes());
   EXPECT_TRUE(is_taken(stream, 4u << 20));
   EXPECT_FALSE(is_taken(stream, 1u << 20));
+}
+
+/// A name without letters has 8 bytes in the stream, and takes four times as many in memory.
+TEST(ImportDisplayStream, RefusesNamesBeforeItMakesRoomForThem) {
+  DisplayPart sent = full_part();
+  sent.objects.resize(2'000'000);
+  const std::vector<std::byte> bytes = encode(sent);
+  const auto refused = [&](std::uint64_t most) {
+    DisplayPart part;
+    part.triangles = sent.triangles;
+    try {
+      decode(bytes, part, most);
+    } catch (const StreamReceiver::ContentTooLarge&) {
+      return true;
+    }
+    return false;
+  };
+  const std::uint64_t names = DisplayPart::name_cost * sent.objects.size();
+  EXPECT_LT(memory_cost::cost_of([&] { EXPECT_TRUE(refused(names)); }).mebibytes, 16u) << "its groups leave less";
+  EXPECT_FALSE(refused(sent.node_bytes()));
 }
 
 TEST(ImportDisplayStream, TakesNoPartThatFillsMoreThanHalfOfTheMemory) {
