@@ -1,5 +1,6 @@
 // roam cluster: writes jobs for a batch engine that build a store on many machines.
 #include <fmt/format.h>
+#include <sys/mman.h>
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
@@ -7,12 +8,14 @@
 #include <cerrno>
 #include <cstring>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "cli/exit_status.h"
 #include "cli/report.h"
 #include "cli/values.h"
+#include "files/descriptor.h"
 #include "process/find_program.h"
 #include "roam/error.h"
 #include "roam/store_build.h"
@@ -98,7 +101,12 @@ ExitStatus slurm(ClusterVerb verb) {
                     "there is no sbatch here; start the script, which the command prints without --submit, "
                     "on a machine that has it");
   }
-  ::execl("/bin/sh", "sh", "-c", script.c_str(), nullptr);
+  // An argument may have 128 KiB, which the names of some thousand scenes exceed.
+  const int file = ::memfd_create("script", 0);
+  const auto bytes = std::as_bytes(std::span(script));
+  if (file >= 0 && files::write_fully(file, bytes) == bytes.size()) {
+    ::execl("/bin/sh", "sh", fmt::format("/dev/fd/{}", file).c_str(), nullptr);
+  }
   throw Error::at("/bin/sh", std::string("cannot start /bin/sh: ") + std::strerror(errno));
 }
 

@@ -213,6 +213,12 @@ void WholeFile::finish_writing() {
 }
 
 bool WholeFile::take(const std::string& name) {
+#ifdef RENAME_NOREPLACE
+  if (::renameat2(folder_.number(), temporary_.c_str(), folder_.number(), name.c_str(), RENAME_NOREPLACE) == 0)
+    return true;
+  if (errno == EEXIST) return false;
+    // Some file systems cannot.
+#endif
   if (::linkat(folder_.number(), temporary_.c_str(), folder_.number(), name.c_str(), 0) == 0) {
     ::unlinkat(folder_.number(), temporary_.c_str(), 0);
     return true;
@@ -227,6 +233,12 @@ bool WholeFile::take(const std::string& name) {
 // Nothing allocates once the file has its name. Only the fsync of its folder may fail then.
 fs::path WholeFile::commit() {
   fs::path file = folder_path_ / name_;
+  if (naming_ == Naming::unclaimed) {
+    finish_writing();
+    if (!take(name_)) ::unlinkat(folder_.number(), temporary_.c_str(), 0);
+    settle();
+    return file;
+  }
   if (naming_ != Naming::numbered) {
     commit_as(name_);
     return file;

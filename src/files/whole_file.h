@@ -16,9 +16,11 @@
 namespace roam::files {
 
 enum class Naming {
-  exact,     ///< a file that has the name is replaced; if a link has it, the file that the link leads to
-  beside,    ///< the file or link of the name is replaced: a stranger may have put a link there
-  numbered,  ///< "a.png" becomes the first of a-1.png, a-2.png, ... that nothing has; nothing is replaced
+  exact,      ///< a file that has the name is replaced; if a link has it, the file that the link leads to
+  beside,     ///< the file or link of the name is replaced: a stranger may have put a link there
+  unclaimed,  ///< a file or link that has the name stays, and commit() drops the new one: of several writers one wins,
+              ///< if the file system has hard links or RENAME_NOREPLACE
+  numbered,   ///< "a.png" becomes the first of a-1.png, a-2.png, ... that nothing has; nothing is replaced
 };
 
 /// A file in the making, beside its final place. It has the rights of any new file, or less. Unless commit() succeeds

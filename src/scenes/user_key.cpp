@@ -2,13 +2,14 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/file.h>
 #include <sys/random.h>
 #include <sys/stat.h>
 
 #include <algorithm>
 #include <charconv>
+#include <chrono>
 #include <span>
+#include <thread>
 #include <utility>
 
 #include "cli/user_folder.h"
@@ -26,6 +27,7 @@ using files::Descriptor;
 
 constexpr mode_t others_reading = 077, others_writing = 022;
 constexpr unsigned own_folder = 0700, own_file = 0600;  // rights
+constexpr int most_looks = 20;                          // at a key with several names, in 1 s
 /// 64 digits and a line feed.
 constexpr std::size_t key_bytes = 65;
 
@@ -123,8 +125,15 @@ bool is_there(const Descriptor& folder, const fs::path& file) {
 }
 
 StoreKey read(const Descriptor& folder, const fs::path& file) {
-  const Descriptor key = files::open_regular(folder.number(), file.filename().string(), file);
-  const struct stat status = status_of(key, file);
+  const auto open = [&] { return files::open_regular(folder.number(), file.filename().string(), file); };
+  Descriptor key = open();
+  struct stat status = status_of(key, file);
+  // On some file systems the process that makes it gives it its name before it takes the temporary one away.
+  for (int i = 0; i < most_looks && status.st_nlink > 1; ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    key = open();
+    status = status_of(key, file);
+  }
   demand_own(status, file, others_reading);
   if (status.st_nlink > 1) {
     throw Error::at(file.string(),
@@ -139,7 +148,9 @@ void make(const Descriptor& folder, const fs::path& file) {
   text += '\n';
   Descriptor own(::fcntl(folder.number(), F_DUPFD_CLOEXEC, 0));
   if (!own.is_open()) files::fail("write", file, errno);
-  files::WholeFile out(std::move(own), file.parent_path(), file.filename().string(), own_file);
+  // Tasks on several machines may begin at once, where a folder's lock is not known to the others.
+  files::WholeFile out(std::move(own), file.parent_path(), file.filename().string(), own_file,
+                       files::Naming::unclaimed);
   out.write(std::as_bytes(std::span(text)));
   out.commit();
 }
@@ -151,9 +162,7 @@ UserKey found(bool makes) {
     const Descriptor folder = open_folder(file.parent_path(), makes);
     if (!folder.is_open() || !is_there(folder, file)) {
       if (!makes) return {{}, Error("you have none yet, and the first `roam build` makes it")};
-      // If two processes begin at once, one makes the key for both. Some file systems have no locks.
-      (void)files::again([&] { return ::flock(folder.number(), LOCK_EX); });
-      if (!is_there(folder, file)) make(folder, file);
+      make(folder, file);
     }
     return {read(folder, file)};
   } catch (const Error& error) {

@@ -51,6 +51,28 @@ echo "4$(wc -l < ')" + folder.file("jobs") + "');cluster\"\n";
   EXPECT_NE(refused.err.find("there is no sbatch here"), std::string::npos) << refused.err;
 }
 
+/// The system takes no argument of more than 128 KiB.
+TEST(Cluster, SubmitsJobsOfAnyNumberOfScenes) {
+  const TestFolder folder;
+  std::filesystem::path deep = folder.file("");
+  for (int i = 0; i < 12; ++i) deep /= std::string(250, 'a');
+  std::filesystem::create_directories(deep);
+  std::vector<std::string> verb = {"cluster", "slurm", "-o", folder.file("s"), "--shards", "3"};
+  for (int i = 0; i < 40; ++i) {
+    verb.push_back(write_ply((deep / (std::to_string(i) + ".ply")).string(), field(1, 0.5, {0.0, 0.0, 0.0})));
+  }
+  EXPECT_GT(roam(verb).out.size(), 128U << 10);
+  verb.emplace_back("--submit");
+  std::filesystem::create_directory(folder.file("bin"));
+  std::ofstream(folder.file("bin/sbatch")) << "#!/bin/sh\ncat > /dev/null\necho 7\n";
+  std::filesystem::permissions(folder.file("bin/sbatch"), std::filesystem::perms::owner_all);
+  const std::string path = std::getenv("PATH");
+  const EnvironmentVariable with_slurm("PATH", folder.file("bin") + ":" + path);
+  const auto run = roam(verb);
+  EXPECT_EQ(run.status, 0) << run.err;
+  EXPECT_EQ(run.out, "The jobs are 7 7 7 7; the last one writes slurm-7.out.\n");
+}
+
 TEST(Cluster, RefusesNamesThatTheShellWouldRead) {
   const TestFolder folder;
   const std::string scene = write_ply(folder.file("a\nEND\n.ply"), field(2, 0.5, {0.0, 0.0, 0.0}));

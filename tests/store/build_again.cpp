@@ -125,9 +125,15 @@ TEST(StoreBuildAgain, RepairsJustWhatIsDamaged) {
   }
   fs::remove(fs::directory_iterator(folder.file("s") + "/parts")->path());
   EXPECT_FALSE(roam::verify_store(folder.file("s")).damage.empty());
+  const auto damaged = content(folder.file("s"));
+  write_ply(folder.file("c.ply"), field(50, 0.5, {0.0, 0.0, 0.0}));
   auto other = o;
   other.scene.pop_back();
-  EXPECT_NE(refusal([&] { roam::repair_store(other); }).find("not made of this scene"), std::string::npos);
+  for (const bool more : {false, true}) {
+    if (more) other.scene.emplace_back(folder.file("c.ply"));
+    EXPECT_NE(refusal([&] { roam::repair_store(other); }).find("not made of this scene"), std::string::npos);
+    EXPECT_TRUE(content(folder.file("s")) == damaged) << "a part of another scene is left";
+  }
   EXPECT_EQ(roam::repair_store(o).shards_built, 1U);
   EXPECT_TRUE(content(folder.file("s")) == before);
   expect_whole(folder.file("s"));

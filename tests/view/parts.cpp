@@ -326,6 +326,16 @@ TEST(Bookmarks, AreKeptForTheirSceneAlone) {
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(file.parent_path()), {}), 1);
 }
 
+TEST(Bookmarks, AreKeptForASceneWhoseNameIsNoUtf8) {
+  const TestFolder folder;
+  const std::filesystem::path file = folder.file("b.json");
+  Bookmarks mine(file, {"caf\xe9.obj"}, {});
+  EXPECT_EQ(mine.add({{1, 2, 3}, 90, -5}).name, "1");
+  EXPECT_EQ(mine.add({{4, 5, 6}, 0, 0}).name, "2");
+  EXPECT_EQ(Bookmarks(file, {"caf\xe9.obj"}, {}).all().size(), 2u);
+  EXPECT_TRUE(Bookmarks(file, {"caf\xe8.obj"}, {}).all().empty());
+}
+
 TEST(Bookmarks, AreGivenNames) {
   const TestFolder folder;
   const std::filesystem::path file = folder.file("b.json");

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "files/escaped.h"
 #include "files/json_text.h"
 #include "files/whole_file.h"
 #include "roam/error.h"
@@ -96,7 +97,8 @@ Bookmarks::Bookmarks(std::filesystem::path file, const std::vector<std::filesyst
     std::error_code none;
     const std::filesystem::path absolute = std::filesystem::absolute(scene);
     const auto whole = std::filesystem::weakly_canonical(absolute, none);
-    scenes_.push_back((none ? absolute : whole).string());
+    // JSON holds no bytes that are not UTF-8.
+    scenes_.push_back(files::escaped((none ? absolute : whole).string(), [](char32_t) { return true; }));
   }
   const Json document = read(file_);
   for (const Json& scene : document) {

@@ -367,7 +367,7 @@ StoreBuildReport repair_store(const StoreBuildOptions& options) {
            plan->parts[i].info.fingerprint == manifest.parts[i].fingerprint;
   }
   if (!same) {
-    remove_scratch(work.store);
+    static_cast<void>(tidy(work.store));  // the parts of the other scene, too
     throw Error::at(
         work.store.string(),
         fmt::format("{} was not made of this scene as it is now: build it again instead", work.store.string()));

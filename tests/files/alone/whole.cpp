@@ -22,6 +22,8 @@ namespace {
 /// The n-th call of those below fails with this error, or is cut short where the error is 0. 0: none does.
 std::atomic<int> calls{0}, failing_call{0}, failure{0};
 std::atomic<int> umasks{0};
+/// Whether the file system knows RENAME_NOREPLACE; over a network it does not.
+std::atomic<bool> renames_without_replacing{false};
 
 template <class Call, class Short>
 auto counted(Call&& call, Short&& cut_short) {
@@ -51,6 +53,14 @@ extern "C" int fsync(int fd) {
 }
 extern "C" int renameat(int from_folder, const char* from, int to_folder, const char* to) noexcept {
   return counted([&] { return static_cast<int>(::syscall(SYS_renameat, from_folder, from, to_folder, to)); });
+}
+extern "C" int renameat2(int from_folder, const char* from, int to_folder, const char* to,
+                         unsigned int flags) noexcept {
+  if (renames_without_replacing) {
+    return static_cast<int>(::syscall(SYS_renameat2, from_folder, from, to_folder, to, flags));
+  }
+  errno = EINVAL;
+  return -1;
 }
 extern "C" int linkat(int from_folder, const char* from, int to_folder, const char* to, int flags) noexcept {
   return counted([&] { return static_cast<int>(::syscall(SYS_linkat, from_folder, from, to_folder, to, flags)); });
@@ -169,7 +179,34 @@ TEST(WholeFile, TwoOfOneNameDoNotMix) {
   EXPECT_EQ(files_in(folder), 1U);
 }
 
-TEST(WholeFile, ThatIsNumberedReplacesNothing) {
+TEST(WholeFile, OfANameThatNobodyHadIsTheFirstOfAll) {
+  for (const bool at_once : {false, true}) {
+    renames_without_replacing = at_once;
+    const TestFolder folder;
+    const std::string file = folder.file("a.txt");
+    const auto writer = [&] {
+      return WholeFile(roam::files::Descriptor(::open(folder.file("").c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)),
+                       folder.file(""), "a.txt", 0600, Naming::unclaimed);
+    };
+    WholeFile one = writer(), other = writer();
+    one.write(bytes_of("one"));
+    other.write(bytes_of("other"));
+    const fs::path first = one.commit();
+    EXPECT_EQ(other.commit(), first);
+    EXPECT_EQ(folder.read("a.txt"), "one");
+    EXPECT_EQ(files_in(folder), 1U);
+  }
+  renames_without_replacing = false;
+}
+
+class NumberedFile : public testing::TestWithParam<bool> {
+ protected:
+  NumberedFile() { renames_without_replacing = GetParam(); }
+  ~NumberedFile() override { renames_without_replacing = false; }
+};
+INSTANTIATE_TEST_SUITE_P(WhetherOrNotRenamingCanKeepAFile, NumberedFile, testing::Bool());
+
+TEST_P(NumberedFile, ReplacesNothing) {
   const TestFolder folder;
   const std::string file = folder.file("a.txt");
   WholeFile one(file, Naming::numbered), other(file, Naming::numbered);
