@@ -17,8 +17,8 @@ constexpr const char* help = R"(`roam help VERB` explains a verb, with examples.
 
 Results go to standard output, progress and notes to standard error.
 Exit status 0 for yes or done; 1 for a failure, whose message names the fault, its place and the remedy; 2 for wrong
-usage; 3 for the answer no. After Ctrl-C a verb tidies up and ends within a second, a walk that draws its picture within
-three: exit status 130 (SIGTERM: 143).
+usage; 3 for the answer no. After Ctrl-C a verb tidies up and ends within a second, or two minutes if its results take
+long to write; a second Ctrl-C ends it at once: exit status 130 (SIGTERM: 143).
 
 Examples:
   roam view mine.dae

@@ -73,7 +73,7 @@ verification::Verification verified(const ViewReport& report, const ViewOptions&
 
 /// One session, to its end or Ctrl-C. Returns how the person wants to go on.
 std::optional<NextSession> run_session(const ViewOptions& options, const ViewPlan& plan, const ViewSettings& settings,
-                                       ViewReport& report, bool& cancelled) {
+                                       ViewReport& report, Unwritten& unwritten, bool& cancelled) {
   Session session(options, plan, settings);
   try {
     while (session.frame()) {
@@ -81,9 +81,9 @@ std::optional<NextSession> run_session(const ViewOptions& options, const ViewPla
   } catch (const Cancelled&) {
     // Write, verify and report what there is so far.
     cancelled = true;
-    give_time_to_write();
+    give_time_to_write(longest_writing);
   }
-  report = session.finish();
+  report = session.finish(unwritten);
   return cancelled ? std::nullopt : session.next();
 }
 
@@ -107,12 +107,13 @@ ExitStatus view(ViewOptions options) {
     limit.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(options.scene.threads));
   }
   ViewReport report;
+  Unwritten unwritten;
   bool cancelled = false;
   const std::vector<std::string> given = options.scene.ignore;
   std::optional<graphics::DisplayHold> hold;
   if (!options.headless) hold.emplace();
   std::vector<std::string> notes, noted;  // of all sessions
-  while (const std::optional<NextSession> next = run_session(options, plan, settings, report, cancelled)) {
+  while (const std::optional<NextSession> next = run_session(options, plan, settings, report, unwritten, cancelled)) {
     append(notes, report.notes);
     append(noted, report.noted);
     const std::string note = go_on(options, *next, given);
@@ -125,7 +126,7 @@ ExitStatus view(ViewOptions options) {
   append(noted, report.noted);
   report.notes = std::move(notes);
   const std::string picture = options.screenshot.string();
-  if (!picture.empty() && std::find(report.written.begin(), report.written.end(), picture) == report.written.end()) {
+  if (!picture.empty() && !unwritten.any() && std::find(report.written.begin(), report.written.end(), picture) == report.written.end()) {
     report.notes.push_back(picture + " was not written: the session ended before its picture was drawn" +
                            earlier_stays(picture));
   }
@@ -144,6 +145,7 @@ ExitStatus view(ViewOptions options) {
     }
   }
   print_report(options.json, json_report(report), text_report(report) + kept_frame_line(options.scene), options.trace);
+  unwritten.raise();
   if (cancelled) throw Cancelled();
   if (report.verified) verification::demand_all_read(*report.verified, report.store);
   const bool reached = report.path_ended && report.result->outcome == Outcome::reached;
@@ -164,7 +166,7 @@ A gamepad or a SpaceMouse moves you, too, if roam was built with SDL2 or libspna
 looks, Start shows the menu.
 
 Keys, mouse and body can be changed in roam/settings.json in $XDG_CONFIG_HOME or ~/.config. Bookmarks are kept beside
-it. With --path, --screenshot or --time the program ends by itself, and works with --headless. Exit status 3 if the
+it. With --path, --screenshot, --turntable or --time the program ends by itself, and works with --headless. Exit status 3 if the
 body does not reach the end of its path.
 
 Examples:

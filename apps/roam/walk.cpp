@@ -90,8 +90,8 @@ class Recorder {
   /// False after Ctrl-C.
   [[nodiscard]] bool goes_on() const { return goes_on_; }
   void finish() {
-    if (trace_) trace_->close();
     progress_.reset();  // removes the progress line before the report
+    if (trace_) trace_->close();
   }
   [[nodiscard]] StepTimes times() const {
     return {nanoseconds_.quantile(0.5), nanoseconds_.quantile(0.99), nanoseconds_.largest()};
@@ -308,10 +308,11 @@ ExitStatus walk(WalkOptions options) {
   report.result = go(options, walker, path, recorder);
   report.interrupted = !recorder.goes_on();
   if (report.interrupted) {
-    give_time_to_write();
+    give_time_to_write(longest_writing);
     report.result.end = walker.position();
   }
-  recorder.finish();
+  Unwritten unwritten;
+  unwritten.attempt([&] { recorder.finish(); });
 
   report.scene = options.scene.names();
   report.frame = frame;
@@ -344,8 +345,7 @@ ExitStatus walk(WalkOptions options) {
   scene.leave();
   checking::SceneSum sum;
   if (options.checks()) check_moves(options, scene, recorder.pieces(), report, sum);
-  Unwritten certificate;
-  certificate.attempt([&] {
+  unwritten.attempt([&] {
     const bool written = certify(options.certify, scene, recorder.pieces(), report.verified ? &sum : nullptr);
     const auto freed = words::first(report.result, EventKind::freed);
     if (!written || !freed) return;
@@ -354,12 +354,15 @@ ExitStatus walk(WalkOptions options) {
   });
   const auto draw_way = [&] { drawing->write(sheet(options, scene, report, recorder.record(), *seen)); };
   // After Ctrl-C the picture may take more time than there is.
-  if (drawing && !report.interrupted) draw_way();
+  if (drawing && !report.interrupted) unwritten.attempt(draw_way);
   const std::string text =
       text_report(report) + kept_frame_line(options.scene) + (options.stats ? stats_report(report) : "");
   print_report(options.json, json_report(report), text, options.trace);
-  if (drawing && report.interrupted) draw_way();
-  certificate.raise();
+  if (drawing && report.interrupted) {
+    give_time_to_write(longest_drawing);
+    unwritten.attempt(draw_way);
+  }
+  unwritten.raise();
   if (report.interrupted) return failed;
   if (report.verified) {
     verification::demand_all_read(*report.verified, options.scene.names(), "check it by --against SCENE");
@@ -370,7 +373,7 @@ ExitStatus walk(WalkOptions options) {
 constexpr const char* walk_help =
     R"(The report says how the walk ended: reached, blocked (where and by what), fell, left_scene
 or held; then the narrowest place of the way and the headroom. Exit status 0 if the end is reached, 3 if not. After
-Ctrl-C, report, trace and picture of the way so far are still written (status 130).
+Ctrl-C, report and trace of the way so far are still written, and the picture if that takes under 2 s (status 130).
 
 A path file has one waypoint `x y z` in each line, or the lines `t x y z qx qy qz qw` that osgViewer records. Times and
 rotations are ignored: --speed and --dt set the pace. Positions are of the body's centre. A waypoint is reached if
@@ -378,8 +381,8 @@ it is in the body; on foot also if it is at most the step height above or below 
 names its body and mode; --radius, --sphere and --mode override them.
 
 The body is a person of radius 0.3 m and height 1.8 m, or the one that `roam train` saved beside the scene, in
-SCENE.roam.json. The saved body is smaller in places where only a smaller one fits; --height, --step and --slope
-change it. A profile of another scene is refused.
+SCENE.roam.json. The saved body is smaller in places where only a smaller one fits; other options of the body change
+it. A profile of another scene is refused.
 
 Examples:
   roam walk mine.dae --path tour.path

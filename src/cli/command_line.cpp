@@ -16,6 +16,7 @@
 #include "cli/help.h"
 #include "cli/interrupt.h"
 #include "cli/report.h"
+#include "cli/standard_streams.h"
 #include "cli/tell.h"
 #include "cli/usage.h"
 #include "roam/error.h"
@@ -139,6 +140,7 @@ int run_and_tell(CLI::App& program, const Run& chosen, const Arguments& argument
 void end_plainly_without_memory() { std::set_terminate(end_after_exception); }
 
 int run_command_line(CLI::App& program, Run& chosen, int argc, char** argv) {
+  occupy_standard_streams();
   catch_signals();
   const int status = run_and_tell(program, chosen, Arguments(argv + 1, argv + argc));
   return status == failed && interrupted() ? interrupted_status() : status;

@@ -4,12 +4,14 @@
 #include <semaphore.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cerrno>
 #include <csignal>
 #include <cstdint>
 #include <ctime>
 #include <exception>
+#include <string_view>
 #include <system_error>
 #include <thread>
 
@@ -24,14 +26,14 @@ namespace {
 /// Time for children to end in order: Xvfb removes its lock and its socket.
 constexpr std::chrono::milliseconds grace_of_children{100};
 
-/// After the first signal, the watchdog ends the program within this time in any case: the last part is for its own
-/// work.
-constexpr std::chrono::nanoseconds patience_with_watchdog =
-    longest_good_order + longest_writing + std::chrono::milliseconds(2000);
+/// The watchdog ends the program within this time, once that is due.
+constexpr std::chrono::nanoseconds patience_with_watchdog = std::chrono::milliseconds(4000);
+/// After this time a line says what the program still does.
+constexpr std::chrono::milliseconds silent_writing{2000};
 
 std::atomic<int> signal_came = 0;      ///< its number
 std::atomic<std::int64_t> came_at{0};  ///< of the steady clock, nanoseconds
-std::atomic<bool> writing = false;     ///< give_time_to_write() was called
+std::atomic<std::int64_t> due{0};      ///< of the same clock: the watchdog ends the program
 sem_t signals;                         ///< one for each signal that arrived
 
 extern "C" void take_signal(int number) {
@@ -41,7 +43,8 @@ extern "C" void take_signal(int number) {
   const std::int64_t moment = std::int64_t{now.tv_sec} * 1'000'000'000 + now.tv_nsec;
   if (signal_came == 0) {
     came_at = moment;
-  } else if (moment - came_at > patience_with_watchdog.count()) {
+    due = moment + std::chrono::nanoseconds(longest_good_order).count();
+  } else if (moment - due > patience_with_watchdog.count()) {
     // The next signal gets its default action, in case the watchdog itself hangs.
     std::signal(number, SIG_DFL);
   }
@@ -58,15 +61,20 @@ void wait_for_signal() {
 /// Waits until a signal arrives, at most `longest`. Returns whether one arrived.
 bool wait_for_signal(std::chrono::milliseconds longest) {
   timespec until{};
-  clock_gettime(CLOCK_REALTIME, &until);
+  clock_gettime(CLOCK_MONOTONIC, &until);
   const auto nanoseconds = until.tv_nsec + std::chrono::nanoseconds(longest).count();
   until.tv_sec += nanoseconds / 1'000'000'000;
   until.tv_nsec = nanoseconds % 1'000'000'000;
   int failed = 0;
   do {
-    failed = sem_timedwait(&signals, &until);
+    failed = sem_clockwait(&signals, CLOCK_MONOTONIC, &until);
   } while (failed != 0 && errno == EINTR);
   return failed == 0;
+}
+
+/// Allocates nothing.
+void say(std::string_view words) {
+  [[maybe_unused]] const auto told = ::write(STDERR_FILENO, words.data(), words.size());
 }
 
 [[noreturn]] void end_at_once(int number) {
@@ -76,8 +84,7 @@ bool wait_for_signal(std::chrono::milliseconds longest) {
   } catch (const std::exception&) {
     // There is no memory left for cleaning up. The program ends anyway.
   }
-  constexpr char words[] = "roam: cancelled\n";
-  [[maybe_unused]] const auto told = ::write(STDERR_FILENO, words, sizeof words - 1);
+  say("roam: cancelled\n");
   std::signal(number, SIG_DFL);
   sigset_t set;
   sigemptyset(&set);
@@ -101,7 +108,19 @@ bool wait_for_another_signal(std::chrono::milliseconds longest) {
 
 void watch() {
   wait_for_signal();
-  if (!wait_for_another_signal(longest_good_order) && writing) wait_for_another_signal(longest_writing);
+  for (bool another = false, said = false; !another;) {
+    const std::chrono::nanoseconds now = std::chrono::steady_clock::now().time_since_epoch();
+    const auto left = std::chrono::ceil<std::chrono::milliseconds>(std::chrono::nanoseconds(due) - now);
+    if (left <= left.zero()) break;
+    if (!said && now - std::chrono::nanoseconds(came_at) > longest_good_order + silent_writing) {
+      say("roam: still writing the results; Ctrl-C again drops them\n");
+      said = true;
+    }
+    // It may be put off meanwhile.
+    constexpr std::chrono::milliseconds look{100};
+    another = wait_for_another_signal(std::min(left, look));
+  }
+  due = std::chrono::nanoseconds(std::chrono::steady_clock::now().time_since_epoch()).count();
   end_at_once(signal_came);
 }
 
@@ -130,7 +149,9 @@ bool interrupted() { return signal_came != 0; }
 
 int interrupted_status() { return 128 + signal_came; }
 
-void give_time_to_write() { writing = true; }
+void give_time_to_write(std::chrono::milliseconds longest) {
+  due = std::chrono::nanoseconds(std::chrono::steady_clock::now().time_since_epoch() + longest).count();
+}
 
 void stop_if_interrupted() {
   if (interrupted()) throw Cancelled();

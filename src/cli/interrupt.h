@@ -7,7 +7,7 @@
 
 namespace roam::app {
 
-/// The longest time from the signal to the program's end, except for the watchdog's own work and for longest_writing.
+/// The longest time from the signal to the program's end, except for the watchdog's own work and give_time_to_write().
 inline constexpr std::chrono::milliseconds longest_good_order{800};
 
 /// Signals within this time of the first one count as the same: `timeout` and shells send one to the program and one to
@@ -25,9 +25,13 @@ void catch_signals();
 /// 128 + the number of the signal, as shells expect it of a program that a signal ended. Only after interrupted().
 [[nodiscard]] int interrupted_status();
 
-/// After a signal: gives the program longest_writing more to write its results. A further signal still ends it at once.
-void give_time_to_write();
-inline constexpr std::chrono::milliseconds longest_writing{2000};
+/// After a signal: the program may take so long, from now, to write its results. A further signal still ends it at
+/// once; after 2 s a line says so. Replaces the time given before.
+void give_time_to_write(std::chrono::milliseconds longest);
+/// For trace, film and report: an encoder ends, and a slow disk takes what was written.
+inline constexpr std::chrono::milliseconds longest_writing{120'000};
+/// For a picture, which no film or trace waits for.
+inline constexpr std::chrono::milliseconds longest_drawing{2000};
 
 /// Throws roam::Cancelled if a signal has arrived.
 void stop_if_interrupted();

@@ -11,6 +11,7 @@
 
 #include "cli/exit_status.h"
 #include "cli/standard_streams.h"
+#include "cli/tell.h"
 #include "files/mark.h"
 #include "files/whole_file.h"
 #include "roam/path_file.h"
@@ -111,6 +112,12 @@ void check_output(const std::string& option, const std::filesystem::path& file) 
   if (const std::optional<Obstacle> found = obstacle(files::behind_links(file))) {
     throw UsageError(option + " " + file.string(), found->what + "; " + found->advice);
   }
+}
+
+void Unwritten::raise() const {
+  if (errors_.empty()) return;
+  for (std::size_t i = 1; i < errors_.size(); ++i) tell(errors_[i].what());
+  throw Error(errors_.front());
 }
 
 std::string earlier_stays(const std::filesystem::path& file) {

@@ -66,17 +66,15 @@ class Unwritten {
     try {
       write();
     } catch (const Error& error) {
-      if (!first_) first_ = error;
+      errors_.push_back(error);
     }
   }
-  [[nodiscard]] bool any() const { return first_.has_value(); }
-  /// Call it after the result has been printed. Throws the first error.
-  void raise() const {
-    if (first_) throw Error(*first_);
-  }
+  [[nodiscard]] bool any() const { return !errors_.empty(); }
+  /// Call it after the result has been printed. Throws the first error, and tells the others before.
+  void raise() const;
 
  private:
-  std::optional<Error> first_;
+  std::vector<Error> errors_;
 };
 
 }  // namespace roam::app

@@ -11,6 +11,10 @@
 
 namespace roam::app {
 
+/// Opens each of the three standard streams that is closed, so that no other file gets its number and with it what is
+/// printed. Reading and writing it still fail. Call it before any file is opened.
+void occupy_standard_streams();
+
 [[nodiscard]] inline bool is_standard(const std::filesystem::path& file) { return file == "-"; }
 
 /// The text of standard input for `-`, else of the file as files::read_named() reads it. Throws roam::Error if it

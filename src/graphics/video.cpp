@@ -31,7 +31,7 @@ constexpr std::size_t most_waiting = 8;
 constexpr std::uintmax_t full_disk = 1 << 20;
 constexpr int least_side = 16, largest_side = 8192;
 /// s: for encoding the rest after the last picture; x264 looks ahead some dozens of pictures.
-constexpr std::chrono::seconds ending_patience{120};
+constexpr std::chrono::seconds ending_patience{100};
 
 /// Number of the film's descriptor in ffmpeg. Its path may lead to another file by then.
 constexpr int film_descriptor = 3;
@@ -236,7 +236,12 @@ class Video::Encoder {
 
   [[noreturn]] void fail() {
     process_.wait(std::chrono::seconds(1));
-    const std::string words = process_.last_words();
+    std::string words = process_.last_words();
+    // One that exceeds `ulimit -f` has no words.
+    if (const int number = process_.ending().signal; words.empty() && number != 0) {
+      const char* const name = ::sigdescr_np(number);
+      words = "it was ended: " + (name != nullptr ? std::string(name) : "signal " + std::to_string(number));
+    }
     struct statvfs disk {};
     const bool full =
         ::fstatvfs(file_.descriptor(), &disk) == 0 && std::uintmax_t{disk.f_bavail} * disk.f_frsize < full_disk;

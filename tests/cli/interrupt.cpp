@@ -8,6 +8,7 @@
 #include <set>
 #include <thread>
 
+#include "environment_variable.h"
 #include "program.h"
 
 namespace {
@@ -53,7 +54,7 @@ class Interrupt : public testing::Test {
 
   /// Starts the program, sends the signal after so many seconds, and looks at what is left. A fast machine may be done
   /// before.
-  void interrupt(const Arguments& arguments, double after, int signal, int times = 1) {
+  void interrupt(const Arguments& arguments, double after, int signal, int times = 1, double longest = soon) {
     SCOPED_TRACE(arguments[0] + ", signal " + std::to_string(signal) + " after " + std::to_string(after) + " s");
     std::vector<char*> argv{const_cast<char*>(ROAM_PROGRAM)};
     for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
@@ -86,7 +87,13 @@ class Interrupt : public testing::Test {
       // Each is a signal of its own.
       if (i + 1 < times) std::this_thread::sleep_for(std::chrono::milliseconds(10));
     }
+    bool sent_again = again_ == 0.0;
     while (!ended && since(sent) < 10.0 * soon) {
+      for (int i = 0; i < times && !sent_again && since(sent) > again_; ++i) {
+        ::kill(program, signal);
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));
+        sent_again = i + 1 == times;
+      }
       ended = ::waitpid(program, &status, WNOHANG) == program;
       std::this_thread::sleep_for(std::chrono::milliseconds(5));
     }
@@ -96,7 +103,7 @@ class Interrupt : public testing::Test {
     }
     ::close(input[0]);
     ::close(input[1]);
-    EXPECT_LT(since(sent), soon);
+    EXPECT_LT(since(sent), longest);
     // Orderly, or as the signal does it.
     const bool in_order = WIFEXITED(status) && WEXITSTATUS(status) == 128 + signal;
     EXPECT_TRUE((done && WIFEXITED(status) && WEXITSTATUS(status) == 0) || in_order ||
@@ -114,6 +121,7 @@ class Interrupt : public testing::Test {
   static const std::string& scene() { return scene_; }
 
   TestFolder folder_;
+  double again_ = 0.0;  ///< s after the signals they are sent again; 0: they are not
 
  private:
   int interrupted_ = 0;
@@ -200,16 +208,37 @@ TEST_F(Interrupt, View) {
 TEST_F(Interrupt, ViewThatWritesItsFilmAndSaysThatItsPictureIsNotWritten) {
   const std::string floor = folder_.write("floor.obj", "v -9 -9 0\nv 9 -9 0\nv 9 9 0\nv -9 9 0\nf 1 2 3 4\n");
   const std::string film = folder_.file("film.mp4");
+  // Its encoder takes longer than good order.
+  fs::create_directory(folder_.file("bin"));
+  const std::string path = std::getenv("PATH");
+  const std::string encoder = folder_.write("bin/ffmpeg", "#!/bin/sh\nPATH='" + path + "' ffmpeg \"$@\" && sleep 4\n");
+  ::chmod(encoder.c_str(), 0755);
+  const EnvironmentVariable slow("PATH", folder_.file("bin") + ":" + path);
   // A busy machine draws its first picture late.
   for (const double seconds : {5.0, 20.0, 60.0}) {
     interrupt(
         {"view", floor, "--headless", "--time", "1e6", "--screenshot", folder_.file("shot.png"), "--record", film},
-        seconds, SIGINT);
+        seconds, SIGINT, 1, 4.0 + 2.0 * soon);
     if (fs::exists(film)) break;
   }
   EXPECT_TRUE(fs::exists(film)) << folder_.read("log");
+  EXPECT_NE(folder_.read("log").find("still writing the results; Ctrl-C again drops them"), std::string::npos);
   EXPECT_NE(folder_.read("log").find("shot.png was not written: the session ended before"), std::string::npos)
       << folder_.read("log");
+}
+
+/// A signal that is sent twice, as by `timeout`, after the time in which the program ends without results.
+TEST_F(Interrupt, ViewWhoseEncoderNeverEndsByASecondSignal) {
+  const std::string floor = folder_.write("floor.obj", "v -9 -9 0\nv 9 -9 0\nv 9 9 0\nv -9 9 0\nf 1 2 3 4\n");
+  fs::create_directory(folder_.file("bin"));
+  const std::string encoder = folder_.write("bin/ffmpeg", "#!/bin/sh\ncat > /dev/null\nexec sleep 300\n");
+  ::chmod(encoder.c_str(), 0755);
+  const EnvironmentVariable endless("PATH", folder_.file("bin") + ":" + std::string(std::getenv("PATH")));
+  again_ = 6.0;
+  interrupt({"view", floor, "--headless", "--time", "1e6", "--record", folder_.file("film.mp4")}, 5.0, SIGINT, 2,
+            again_ + soon);
+  EXPECT_FALSE(fs::exists(folder_.file("film.mp4")));
+  EXPECT_NE(folder_.read("log").find("roam: cancelled"), std::string::npos) << folder_.read("log");
 }
 
 TEST_F(Interrupt, ViewThatFilms) {

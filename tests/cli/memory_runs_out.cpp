@@ -2,6 +2,7 @@
 // ROAM_TEST_FAILURES=N: tries N allocations of each verb (default: 10), each alone and with all that follow.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <map>
@@ -83,9 +84,9 @@ class MemoryRunsOut : public testing::Test {
   void try_all(const std::string& arguments, bool loads_tiles = false) const {
     const Ended good = run_with(arguments, "");
     ASSERT_EQ(good.result.status, 0) << good.result.err;
-    // Nearly all before that are of the options of all verbs.
-    const long first = run_with("--version", "").allocations - 300;
-    ASSERT_GT(good.allocations, first);
+    // Nearly all before that are of the options of all verbs. Their number varies by some hundreds from run to run.
+    const long first = std::min(run_with("--version", "").allocations, good.allocations) - 300;
+    ASSERT_GT(first, 1000);
     const char* const wanted = std::getenv("ROAM_TEST_FAILURES");
     const long tries = wanted != nullptr ? std::atol(wanted) : 10;
     long failures = 0;

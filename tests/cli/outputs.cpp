@@ -209,4 +209,34 @@ TEST(Outputs, ThatAreNotWrittenLeaveAnEarlierFileAndSaySo) {
   EXPECT_EQ(folder.read("certificate"), "roam certificate 1\n");
 }
 
+TEST(Outputs, ThatCannotBeWrittenCostNoOtherOne) {
+  const TestFolder folder;
+  const std::string scene = folder.write("scene.obj", room_obj());
+  const ProgramResult result = run_program(
+      "/bin/sh", {"-c", "ulimit -f 1000; exec " ROAM_PROGRAM " walk " + scene + " --wander 600 --json --trace " +
+                            folder.file("t.csv") + " --picture " + folder.file("way.svg")});
+  EXPECT_EQ(result.status, 1) << result.err;
+  EXPECT_TRUE(contains(result.err, "t.csv: File too large")) << result.err;
+  EXPECT_FALSE(std::filesystem::exists(folder.file("t.csv")));
+  EXPECT_TRUE(std::filesystem::exists(folder.file("way.svg")));
+  EXPECT_TRUE(contains(result.out, "\"outcome\"")) << result.out;
+}
+
+/// The trace would get the number of standard error, and what is printed there.
+TEST(StandardStreams, ThatAreClosedAreNoFile) {
+  const TestFolder folder;
+  const std::string floor =
+      folder.write("floor.obj", "v -9e3 -9e3 0\nv 9e3 -9e3 0\nv 9e3 9e3 0\nv -9e3 9e3 0\nf 1 2 3 4\n");
+  const std::string trace = folder.file("t.csv");
+  const ProgramResult result = run_program(
+      "/bin/sh",
+      {"-c",
+       ROAM_PROGRAM " walk " + floor + " --wander 1e7 --trace " + trace + " <&- >&- 2>&- & pid=$!; until ls " + trace +
+           ".*; do kill -0 $pid || break; sleep 0.1; done > /dev/null 2>&1; readlink /proc/$pid/fd/0 /proc/$pid/fd/1 "
+           "/proc/$pid/fd/2; kill $pid; wait $pid"});
+  EXPECT_EQ(result.out, "/dev/null\n/dev/null\n/dev/null\n") << result.err;
+  EXPECT_EQ(result.status, 143);
+  EXPECT_EQ(folder.read("t.csv").rfind("step,t,x,y,z,", 0), 0u);
+}
+
 }  // namespace

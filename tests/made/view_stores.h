@@ -69,7 +69,7 @@ class Driven : public DrivenSession {
   }
   [[nodiscard]] bool on_store() { return session->status().paging.has_value(); }
   [[nodiscard]] std::string notes() {
-    const app::ViewReport report = session->finish();
+    const app::ViewReport report = finish();
     std::string text;
     for (const std::string& note : report.notes) text += note + "\n";
     return text;

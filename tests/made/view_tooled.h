@@ -57,7 +57,7 @@ class Tooled : public Driven {
     events().mouseMotion(across, up);
     run(1.0 / 60.0);
   }
-  [[nodiscard]] std::vector<app::Measurement> measured() { return session->finish().measurements; }
+  [[nodiscard]] std::vector<app::Measurement> measured() { return finish().measurements; }
 
  private:
   std::array<float, 2> held_{};

@@ -30,6 +30,13 @@ class DrivenSession {
     options.scene.scenes = {file};
     return file;
   }
+  /// The report of the session, which is at its end.
+  [[nodiscard]] roam::app::ViewReport finish() {
+    roam::app::Unwritten unwritten;
+    roam::app::ViewReport report = session->finish(unwritten);
+    unwritten.raise();
+    return report;
+  }
   /// Runs frames until the session can roam.
   void begin(const roam::app::ViewSettings& settings = {}) {
     session.emplace(options, roam::app::make_plan(options, settings), settings);

@@ -23,7 +23,7 @@ class BeforeADoor : public DrivenSession {
     begin();
   }
   [[nodiscard]] std::uint64_t violations() {
-    const ViewReport report = session->finish();
+    const ViewReport report = finish();
     return verify(report.meshes, report.pieces).violations;
   }
 

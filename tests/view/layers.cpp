@@ -145,7 +145,7 @@ TEST(Layers, LetTheBodyThroughIfItIsSaid) {
   EXPECT_FALSE(contains(d.hud(), "hidden: 1 of")) << d.hud();
   d.walk(9.0);
   EXPECT_NEAR(d.place().x, 19.7, 0.02);
-  const Json json = json_report(d.session->finish());
+  const Json json = json_report(d.finish());
   EXPECT_EQ(json["hidden"]["objects"], 0);
   EXPECT_EQ(json["hidden"]["passed"], true);
 }
@@ -195,7 +195,7 @@ TEST(Layers, AreHiddenFromTheStartByAnOption) {
   Layered d({"front", "ce*", "nothing"});
   EXPECT_EQ(d.drawn(), all - 4);
   EXPECT_TRUE(contains(d.hud(), "hidden: 2 of 6 objects")) << d.hud();
-  const ViewReport report = d.session->finish();
+  const ViewReport report = d.finish();
   EXPECT_EQ(report.hidden_objects, 2u);
   EXPECT_EQ(
       std::count_if(report.notes.begin(), report.notes.end(),

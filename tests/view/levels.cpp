@@ -260,7 +260,7 @@ TEST(ViewLevels, AreCoarserWhereWhatIsSeenDoesNotFit) {
   limited.settle();
   EXPECT_LE(limited.pages().bytes(), all / 3 + all / 10);
   EXPECT_GT(limited.pages().coarser(), 1.0);
-  const ViewReport report = limited.session->finish();
+  const ViewReport report = limited.finish();
   std::string notes;
   for (const std::string& note : report.notes) notes += note + "\n";
   EXPECT_TRUE(contains(notes, "the picture is coarser than it could be")) << notes;

@@ -35,7 +35,7 @@ TEST(Section, HidesAClickedSurfaceAndWhatIsBeforeIt) {
   d.tap('t');
   d.click(0.3, -0.9);
   ASSERT_TRUE(d.until([&] { return contains(d.hud(), ", floor, slope 0"); })) << d.hud();
-  EXPECT_TRUE(json_report(d.session->finish())["section"].empty());
+  EXPECT_TRUE(json_report(d.finish())["section"].empty());
 }
 
 TEST(Section, IsMovedByTheWheel) {
@@ -47,7 +47,7 @@ TEST(Section, IsMovedByTheWheel) {
   d.events().mouseScroll(osgGA::GUIEventAdapter::SCROLL_UP);
   d.events().mouseScroll(osgGA::GUIEventAdapter::SCROLL_UP);
   d.run(0.1);
-  const Json json = json_report(d.session->finish());
+  const Json json = json_report(d.finish());
   ASSERT_EQ(json["section"].size(), 1u);
   EXPECT_NEAR(json["section"][0]["normal"][2], 1.0, 1e-6);
   const double eye = json["end"]["eye"][2];
@@ -116,12 +116,12 @@ TEST(SectionBox, BeginsAroundTheRoomAndEndsWithItsKey) {
   ASSERT_TRUE(box_of(d));
   EXPECT_NEAR(box_of(d)->center().x, 10.0, 0.01) << "8 m to either side";
   EXPECT_NEAR(box_of(d)->lower.z, -0.1, 0.01) << "the floor is in it";
-  const Json during = json_report(d.session->finish());
+  const Json during = json_report(d.finish());
   EXPECT_NEAR(during["section_box"]["upper"][0], 18.1, 0.1);
   tap_box(d);
   EXPECT_FALSE(box_of(d));
   EXPECT_TRUE(contains(d.hud(), "All is shown again")) << d.hud();
-  EXPECT_TRUE(json_report(d.session->finish())["section_box"].is_null());
+  EXPECT_TRUE(json_report(d.finish())["section_box"].is_null());
 }
 
 /// A box about the wall ahead.
@@ -209,11 +209,11 @@ TEST(OpenSection, LetsTheBodyThroughWhatIsHiddenWhole) {
   EXPECT_TRUE(contains(open.hud(), "section: a plane at x = 15.00 m; the body passes")) << open.hud();
   EXPECT_NEAR(flies_to(shut), 19.7, 0.02) << "the wall at 20 m";
   EXPECT_GT(flies_to(open), 20.3);
-  const ViewReport report = open.session->finish();
+  const ViewReport report = open.finish();
   EXPECT_EQ(std::count(report.notes.begin(), report.notes.end(), "The body passes through what is hidden."), 1)
       << "it is said on the console";
   EXPECT_EQ(json_report(report)["section_passed"], true);
-  EXPECT_EQ(json_report(shut.session->finish())["section_passed"], false);
+  EXPECT_EQ(json_report(shut.finish())["section_passed"], false);
 }
 
 TEST(OpenSection, LeavesWhatIsSeenInPartSolid) {
@@ -267,7 +267,7 @@ TEST(OpenSection, OfAStoreLetsTheBodyThroughToo) {
 TEST(OpenSection, OfAStoreIsReportedApartFromItsObjects) {
   ViewOptions options = with_section({"x<15"}, true);
   options.hide = {"front"};
-  const Json json = json_report(Tooled(options, true).session->finish());
+  const Json json = json_report(Tooled(options, true).finish());
   EXPECT_EQ(json["hidden"]["objects"], 1);
   EXPECT_EQ(json["hidden"]["passed"], false);
   EXPECT_EQ(json["section_passed"], true);

@@ -36,7 +36,7 @@ class Driven : public DrivenSession {
     run(1.0 / 60.0);
   }
   [[nodiscard]] verification::Verification verified() {
-    const ViewReport report = session->finish();
+    const ViewReport report = finish();
     return verify(report.meshes, report.pieces);
   }
 };

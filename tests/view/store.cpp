@@ -29,7 +29,7 @@ TEST(ViewStore, FindsTheStoreBesideTheScene) {
   EXPECT_NEAR(d.place().x, 19.7, 0.02);
   // The name is read by another thread, and comes with a later frame.
   EXPECT_TRUE(d.until([&] { return contains(d.hud(), "blocked by front"); })) << d.hud();
-  const ViewReport report = d.session->finish();
+  const ViewReport report = d.finish();
   EXPECT_EQ(report.store, store);
   EXPECT_EQ(report.triangles, 12u);
   ASSERT_TRUE(report.paging.has_value());
@@ -123,7 +123,7 @@ TEST(ViewStore, FindsTheSceneOfAStore) {
   d.begin();
   d.run(0.2);
   EXPECT_TRUE(d.on_store());
-  const ViewReport report = d.session->finish();
+  const ViewReport report = d.finish();
   EXPECT_EQ(report.scene, scene);
   EXPECT_TRUE(report.notes.empty()) << report.notes.front();
 }

@@ -42,7 +42,7 @@ TEST(ViewStoreBuilding, BuildsAStoreMeanwhileAndChangesToIt) {
   d.run(12.0);
   EXPECT_NEAR(d.place().x, 19.7, 0.02);
   EXPECT_TRUE(Store::is_store(d.folder.file("scene.obj.roam")));
-  const ViewReport report = d.session->finish();
+  const ViewReport report = d.finish();
   EXPECT_TRUE(report.notes.empty()) << report.notes.front();
   const verification::Verification proof = verify(report.meshes, report.pieces);
   EXPECT_GT(proof.pieces, 300u);

@@ -71,7 +71,7 @@ TEST(Tools, GiveMeasurementsInTheReport) {
   d.click(0, 0);
   d.click(0.5, 0);
   d.click(0, 0);
-  const Json json = json_report(d.session->finish());
+  const Json json = json_report(d.finish());
   ASSERT_EQ(json["measurements"].size(), 2u);
   const Json& first = json["measurements"][0];
   EXPECT_EQ(first["a"]["object"], "front");
@@ -329,7 +329,7 @@ TEST(Probing, FindsAWayBetweenMeasuredPoints) {
   EXPECT_FALSE(contains(d.hud(), "YES")) << "that was of another question: " << d.hud();
   d.tap('i');
   ASSERT_TRUE(d.until([&] { return contains(d.hud(), "probe: YES: a body 0.60 m wide"); })) << "to B: " << d.hud();
-  const ViewReport report = d.session->finish();
+  const ViewReport report = d.finish();
   ASSERT_EQ(report.probes.size(), 2u);
   EXPECT_LT(glm::distance(report.probes[0].from, {10, 0, 0}), 0.01) << "the body's feet";
   EXPECT_LT(glm::distance(report.probes[1].from, report.probes[0].to), 1e-9);
@@ -373,7 +373,7 @@ TEST(Probing, StandsInFrontOfAClickedWall) {
   ASSERT_TRUE(d.until([&] { return contains(d.hud(), ", front, wall facing 270\u00b0 (W)"); })) << d.hud();
   d.tap('i');
   ASSERT_TRUE(d.until([&] { return contains(d.hud(), "probe: YES: a body 0.60 m wide"); })) << d.hud();
-  const ViewReport report = d.session->finish();
+  const ViewReport report = d.finish();
   ASSERT_EQ(report.probes.size(), 1u);
   EXPECT_NEAR(report.probes[0].to.x, 20.0 - 0.35, 1e-2);
   EXPECT_TRUE(contains(d.hud(), "at B: moved 0.35 m from the click: on the floor at ")) << d.hud();
@@ -394,7 +394,7 @@ TEST(Probing, ShowsTheWordsOfTheAnswerWhereABodyIsStopped) {
   EXPECT_FALSE(contains(d.hud(), "certainty")) << d.hud();
   d.run(0.1);
   EXPECT_TRUE(contains(d.hud() + "\n", "\ndoor 0.500 m wide\n")) << "at its place: " << d.hud();
-  const ViewReport report = d.session->finish();
+  const ViewReport report = d.finish();
   ASSERT_EQ(report.probes.size(), 1u);
   const ProbedWay way = way_of(report.probes[0]);
   ASSERT_TRUE(way.open.size() >= 2 && way.barred.size() >= 2);
@@ -511,7 +511,7 @@ TEST(Pictures, AreDrawnThoughTheSessionEndsInTheSameFrame) {
   d.press('p');
   d.session->run("quit");
   EXPECT_FALSE(d.session->frame());
-  EXPECT_NO_THROW(static_cast<void>(d.session->finish()));
+  EXPECT_NO_THROW(static_cast<void>(d.finish()));
   std::filesystem::current_path(before);
   EXPECT_TRUE(std::filesystem::exists(d.folder.file("roam-1.png")));
 }

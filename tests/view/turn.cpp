@@ -62,7 +62,7 @@ TEST(Unit, IsNotedOnce) {
   d.options.scene.scenes = {d.folder.write("scene.dae", test::collada("Z_UP", "0.0254"))};
   d.begin();
   d.run(0.5);
-  const std::vector<std::string> notes = d.session->finish().notes;
+  const std::vector<std::string> notes = d.finish().notes;
   EXPECT_EQ(std::count_if(notes.begin(), notes.end(), [](const std::string& note) { return contains(note, " unit "); }),
             1);
 }

@@ -141,7 +141,7 @@ bool Session::frame() {
     load_pages_of_film();
     stage_.draw_if_seen(at_end || (options_.turntable && !turning_at_));
   } else if (!options_.screenshot.empty()) {
-    stage_.draw_picture(options_.screenshot, options_.hud.has_value());
+    picture_.attempt([&] { stage_.draw_picture(options_.screenshot, options_.hud.has_value()); });
   }
   return !last;
 }
@@ -336,8 +336,9 @@ bool Session::run(const std::string& command) {
   return it->second || commands_.run(command);
 }
 
-ViewReport Session::finish() {
+ViewReport Session::finish(Unwritten& unwritten) {
   layers_->finish();
+  unwritten.attempt([&] { picture_.raise(); });
   ViewReport report;
   report.scene = options_.scene.names();
   report.noted = report.notes = news_.notes();
@@ -348,15 +349,15 @@ ViewReport Session::finish() {
   display_.fill(report);
   hidden_.fill(report);
   tools_->fill(report);
-  records_.finish();
+  unwritten.attempt([&] { records_.finish(); });
   records_.fill(report);
   report.written = news_.files();
   report.measurements_told = measurements_told_;
   report.written_told = written_told_;
+  unwritten.attempt([&] { log_.finish(); });
   log_.fill(report);
-  stage_.finish();
+  stage_.finish(unwritten);
   stage_.fill(report);
-  log_.finish();
   return report;
 }
 

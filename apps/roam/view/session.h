@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include "cli/output_file.h"
 #include "osgRoam/Manipulator.h"
 #include "view/arrival.h"
 #include "view/bookmark_list.h"
@@ -67,8 +68,8 @@ class Session {
   bool frame();
   /// Set if the session has ended for another one.
   [[nodiscard]] const std::optional<NextSession>& next() const { return rereading_.next(); }
-  /// Ends the session and writes its outputs.
-  [[nodiscard]] ViewReport finish();
+  /// Ends the session and writes its outputs, each of which may fail.
+  [[nodiscard]] ViewReport finish(Unwritten& unwritten);
 
   /// Commands::run; the display shows the effect at once.
   bool run(const std::string& command);
@@ -110,6 +111,7 @@ class Session {
   const ViewPlan plan_;
   WalkLog log_;
   Stage stage_;
+  Unwritten picture_;  ///< of --screenshot
   osg::ref_ptr<Cameras> cameras_;
   Arrival arrival_;
   const std::shared_ptr<SceneObjects> objects_;

@@ -388,7 +388,7 @@ void Stage::say_what_is_finished() {
   viewer_->renderingTraversals();
 }
 
-void Stage::finish() {
+void Stage::finish(Unwritten& unwritten) {
   if (is_still_next() || picture_wanted_) {  // asked for in the last frame, which was not drawn
     enlarged_in_ = interrupted() ? 0 : std::min(enlarged_in_, 1);
     if (is_still_next()) overlay_->set_marks({});
@@ -397,12 +397,19 @@ void Stage::finish() {
   }
   say_what_is_finished();
   for (graphics::Screenshot& picture : pictures_) {
-    picture.finish();
-    written_.push_back(picture.path().string());
+    unwritten.attempt([&] {
+      picture.finish();
+      written_.push_back(picture.path().string());
+    });
   }
   pictures_.clear();
   if (!film_) return;
-  film_->finish();
+  const std::string film = written_.front();
+  written_.erase(written_.begin());
+  unwritten.attempt([&] {
+    film_->finish();
+    written_.insert(written_.begin(), film);
+  });
   film_.reset();
 }
 

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "cli/histogram.h"
+#include "cli/output_file.h"
 #include "graphics/capture.h"
 #include "graphics/context.h"
 #include "graphics/frame.h"
@@ -93,8 +94,8 @@ class Stage {
   void draw_picture(const std::filesystem::path& path, bool with_display = false);
   /// Adds the frame statistics, and the files that options request.
   void fill(ViewReport& report) const;
-  /// Ends film and pictures. Throws roam::Error if one of them could not be written.
-  void finish();
+  /// Ends film and pictures.
+  void finish(Unwritten& unwritten);
 
   /// 0 before the second frame; the first one includes the setup.
   [[nodiscard]] double last_frame_ms() const { return last_ms_; }

@@ -35,7 +35,8 @@ void WalkLog::fill(ViewReport& report) {
   report.collision_ns = times(collision_, 1.0);
   report.collision_own_ns = times(own_collision_, 1.0);
   report.pieces = std::move(pieces_);
-  if (!trace_file_.empty() && !is_standard(trace_file_)) report.written.push_back(trace_file_.string());
+  const bool traced = !trace_file_.empty() && !trace_;
+  if (traced && !is_standard(trace_file_)) report.written.push_back(trace_file_.string());
 }
 
 void WalkLog::finish() {

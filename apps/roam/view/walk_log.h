@@ -31,7 +31,7 @@ class WalkLog {
 
   /// Sums over the steps and placements; a ghost has no clearance.
   [[nodiscard]] const Tally& tally() const { return tally_; }
-  /// Adds the steps and the trace, and moves out the pieces for verify().
+  /// Call it after finish(). Adds the steps and the trace, and moves out the pieces for verify().
   void fill(ViewReport& report);
 
  private:

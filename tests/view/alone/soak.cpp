@@ -241,7 +241,9 @@ class Sessions {
     steps_ += tally.steps;
     length_ += tally.length;
     least_gap_ = std::min(least_gap_, tally.least_gap);
-    static_cast<void>(session_->finish());
+    Unwritten unwritten;
+    static_cast<void>(session_->finish(unwritten));
+    unwritten.raise();
     session_.reset();
     ++count_;
   }
