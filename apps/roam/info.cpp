@@ -217,9 +217,7 @@ std::string stats_report(const Store& store) {
 }
 
 ExitStatus store_info(const SceneOptions& options, bool json, bool stats) {
-  if (options.scenes.size() > 1 || options.says_how_to_read()) {
-    throw UsageError("a store is a scene of its own, and was read when it was built: name it alone");
-  }
+  options.demand_store_alone();
   const auto store = Store::open(options.scenes.front(), Store::usual_memory, options.web);
   const std::string problem = reading_problem(*store);
   Json report = json_report(*store);

@@ -85,7 +85,9 @@ class RowReader {
         line_ += static_cast<std::uint64_t>(std::count(rows.text.begin(), rows.text.end(), '\n'));
         return rows;
       }
-      if (rest_.size() > longest_row) throw Error(fmt::format("line {}", line_), "too long for a query");
+      if (rest_.size() > longest_row)
+        throw Error(fmt::format("line {}", line_),
+                    "too long for a query; a row is x,y,z,dx,dy,dz,radius[,half_height]");
     }
     return rows;
   }

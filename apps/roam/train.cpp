@@ -132,7 +132,8 @@ ExitStatus train(TrainVerbOptions o) {
         fmt::format("the largest radius is {:g} m; take a smaller one, or a larger --radius-max or --height",
                     o.train.radius_max));
   o.scene.check_there();
-  if (o.scene.no_profile && o.profile) throw UsageError("-o and --no-profile", "one of them");
+  if (o.scene.no_profile && o.profile)
+    throw UsageError("-o and --no-profile", "they exclude each other; leave one out");
   const std::filesystem::path profile = profile_file(o);
   take_kept_frame(o.scene);
   if (o.picture) check_output("--picture", *o.picture);

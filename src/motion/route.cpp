@@ -198,7 +198,7 @@ double Route::State::until_rest(const Vec3& way) const {
 const StepReport& Route::State::advance() {
   const DefaultFloatingPoint guard;
   if (done)
-    throw Error("the route has ended (" + std::string(to_string(result.outcome)) + "): ask done() before each step");
+    throw Error("the route has ended (" + std::string(to_string(result.outcome)) + "): call done() before each step");
   const Vec3 way = way_to(waypoints_[next_], *walker_);
   const double distance = glm::length(way);
   double dt = options_.dt, planned = 0.0;

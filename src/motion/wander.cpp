@@ -159,7 +159,7 @@ void Wander::State::look() {
 
 const StepReport& Wander::State::advance() {
   const DefaultFloatingPoint guard;
-  if (done) throw Error("the wandering has ended: ask done() before each step");
+  if (done) throw Error("the wandering has ended: call done() before each step");
   look();
   if (done) return walker_->report();
   const StepReport& report = walker_->step({.velocity = options_.speed * heading_}, options_.dt);

@@ -38,9 +38,11 @@ void BodyOptions::add_to(CLI::App& verb) {
       ->type_name("RS");
   verb.add_option("--eye", eye, "Height of the camera above the body's lowest point (default: 1.6, at most H - R)")
       ->type_name("E");
-  verb.add_option("--step", step, "Highest step (stair, kerb) that the body climbs (default: 0.3, at most H / 2)")
+  verb.add_option("--step", step,
+                  "Highest step (stair, kerb) that the body climbs (default: as trained, or 0.3, at most H / 2)")
       ->type_name("M");
-  verb.add_option("--slope", slope, "Slope that the body climbs, in degrees (default: 45)")->type_name("DEG");
+  verb.add_option("--slope", slope, "Slope that the body climbs, in degrees (default: as trained, or 45)")
+      ->type_name("DEG");
 }
 
 WalkerSettings body_of(const BodyOptions& options, const BodySizes& known) {

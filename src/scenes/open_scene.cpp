@@ -42,15 +42,7 @@ void return_memory() {
 
 std::shared_ptr<const Store> open_store(const SceneOptions& options, std::uint64_t memory) {
   if (!options.name_a_store()) return nullptr;
-  if (options.scenes.size() > 1) {
-    throw UsageError("a store is a scene of its own: build one store of all that is to be one scene (roam build)");
-  }
-  if (options.says_how_to_read()) {
-    throw UsageError(
-        Error::at(options.scenes.front().string(),
-                  options.scenes.front().string() +
-                      " is a store: --up, --unit, --ignore and --lossless are said when it is built (roam build)"));
-  }
+  options.demand_store_alone();
   return Store::open(options.scenes.front(), memory, options.web);
 }
 

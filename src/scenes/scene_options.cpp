@@ -145,8 +145,15 @@ ImportOptions SceneOptions::import_options() const {
   return how;
 }
 
-bool SceneOptions::says_how_to_read() const {
-  return !up.empty() || !unit.empty() || !ignore.empty() || !allow.empty() || lossless;
+void SceneOptions::demand_store_alone() const {
+  if (!name_a_store()) return;
+  if (scenes.size() > 1) {
+    throw UsageError("a store is a scene of its own: build one store of all that is to be one scene (roam build)");
+  }
+  if (up.empty() && unit.empty() && ignore.empty() && allow.empty() && !lossless) return;
+  const std::string store = scenes.front().string();
+  throw UsageError(
+      Error::at(store, store + " is a store: --up, --unit, --ignore, --allow and --lossless belong to `roam build`"));
 }
 
 bool SceneOptions::name_a_store() const {

@@ -48,8 +48,8 @@ struct SceneOptions {
   [[nodiscard]] std::vector<std::string> arguments() const;
   /// The same as options of import_scene.
   [[nodiscard]] ImportOptions import_options() const;
-  /// Whether any option about reading or indexing of files was given.
-  [[nodiscard]] bool says_how_to_read() const;
+  /// Throws UsageError if a store is named beside other scenes, or with options for reading and indexing files.
+  void demand_store_alone() const;
   /// Whether one of the scenes is a store.
   [[nodiscard]] bool name_a_store() const;
   /// Throws roam::Error for a missing scene, and for a store that is still being built.

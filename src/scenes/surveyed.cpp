@@ -71,6 +71,7 @@ void add_surveyed_to(CLI::App& verb, SceneOptions& options) {
       ->required()
       ->type_name("");
   options.add_reading_to(verb);
+  verb.get_option("--memory")->description("Memory for reading a scene (default: 8G), e.g. 1G");
   add_web_options(verb, *verb.get_option("SCENE"), options.web);
 }
 
@@ -80,9 +81,7 @@ Surveyed survey_scene(const SceneOptions& options, double slope_degrees) {
   std::shared_ptr<const Store> store;
   std::vector<TriangleId> numbers;
   if (options.name_a_store()) {
-    if (options.scenes.size() > 1 || options.says_how_to_read()) {
-      throw UsageError("a store is a scene of its own, and was read when it was built: name it alone");
-    }
+    options.demand_store_alone();
     store = Store::open(options.scenes.front(), Store::usual_memory, options.web);
     identity = identity_of(store->info());
     meshes = read_store(*store, numbers);

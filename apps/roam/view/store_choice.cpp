@@ -81,15 +81,8 @@ SceneAndStore scene_and_store(const SceneOptions& scene, const std::filesystem::
     scene.check_there();
     return what;
   }
-  if (scenes.size() > 1 || !store.empty()) {
-    throw UsageError("a store is a scene of its own: name the scene, and the store by --store");
-  }
-  if (scene.says_how_to_read()) {
-    throw UsageError(
-        Error::at(scenes.front().string(),
-                  scenes.front().string() +
-                      " is a store: --up, --unit, --ignore and --lossless are said when it is built (roam build)"));
-  }
+  if (!store.empty()) throw UsageError("a store is a scene of its own: name the scene, and the store by --store");
+  scene.demand_store_alone();
   what.store = scenes.front();
   const std::filesystem::path shown = scene_beside(what.store);
   what.store_only = shown.empty();

@@ -106,7 +106,7 @@ class Planner {
     }
     if (cells.empty()) {
       remove_results();
-      throw Error("the scene holds no triangle");
+      throw Error("the scene holds no triangle; check its files, and --ignore");
     }
     std::vector<Stretch> stretches = divide(std::move(cells), [&](std::uint32_t part, const CurveCell& cell, int bits) {
       return refine(part, cell, bits);
