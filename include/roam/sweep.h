@@ -40,7 +40,7 @@ enum class Feature : std::uint8_t { face, edge, vertex };  ///< the part of a tr
 struct SweepResult {
   bool hit = false;   ///< the body meets the triangle, or starts touching or overlapping it
   double time = 1.0;  ///< fraction of the motion that is certified free, rounded down; 0 if it starts in touch
-  Vec3 point{0.0};    ///< contact on the triangle; on a sliver up to 1e-5 of its length beside the nearest point
+  Vec3 point{0.0};    ///< on the triangle; on a sliver farther than the nearest by up to 1e-5 length + 1e-9 radius
   Vec3 normal{0.0};   ///< unit vector from `point` towards the body's axis
   Feature feature = Feature::face;
   /// Certified lower bound of the gap between body and triangle: at `time` for a hit, over the whole motion for a miss.

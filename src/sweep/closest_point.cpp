@@ -13,6 +13,10 @@ namespace {
 /// the perpendicular. Only speed depends on it: beyond it the edges are tried as well.
 constexpr double face_trust = 1.0 + 1e-9;
 
+/// Of the square of a triangle's longest edge, squared: the square of twice the area of a sliver is less. It is ten
+/// thousand times as long as wide, and its normal so inexact that a foot on its plane may lie beside it.
+constexpr double sliver_part = 1e-8;
+
 void improve(Closest& best, const Closest& other) {
   if (other.squared < best.squared) best = other;
 }
@@ -43,14 +47,16 @@ Closest at_any_edge(const Obstacle& o, const Vec3& p) {
 Closest at_face(Obstacle& o, const Vec3& p, double a_share, double b_share, double c_share) {
   const Vec3& normal = o.face_normal();
   const double height = glm::dot(normal, p - o.corner[0]);
-  const double whole = 1.0 / (a_share + b_share + c_share);
+  const double sum = a_share + b_share + c_share, whole = 1.0 / sum;
   const Vec3 x = p - (o.corner[0] + (b_share * whole) * o.edge[0] - (c_share * whole) * o.edge[2]);
   const double squared = glm::dot(x, x);
   if (!(squared <= height * height * face_trust)) {
     const Closest edge = at_any_edge(o, p);
     if (!(squared < edge.squared) || normal == Vec3(0.0)) return edge;
   }
-  return {height < 0.0 ? -normal : normal, 1.0, squared, p - height * normal, Feature::face};
+  const double longest = std::max({o.edge_squared[0], o.edge_squared[1], o.edge_squared[2]});
+  const Vec3 point = p - (sum < sliver_part * longest * longest ? x : height * normal);
+  return {height < 0.0 ? -normal : normal, 1.0, squared, point, Feature::face};
 }
 
 /// The axis, without its ends, against one edge. If their closest points are not inside the axis, an end of the axis is

@@ -101,8 +101,9 @@ void judge_hit(Kind kind, const Query& q, const roam::SweepResult& s, double res
   if (s.distance >= 0.0) {
     // The point of a sliver may be so far beside the place where the body touches (sweep.h).
     const auto& [a, b, c] = q.triangle;
-    const double sliver =
-        kind == Kind::sliver ? 1e-5 * std::max({glm::distance(a, b), glm::distance(b, c), glm::distance(c, a)}) : 0.0;
+    const double longest = std::max({glm::distance(a, b), glm::distance(b, c), glm::distance(c, a)});
+    const bool is_sliver = kind == Kind::sliver || glm::length(glm::cross(b - a, c - a)) < 1.001e-4 * longest * longest;
+    const double sliver = is_sliver ? 1e-5 * longest + 1e-9 * (q.body.radius + s.distance) : 0.0;
     const Quad apart = oracle::distance_on_the_way<Quad>(q.body, q.from, q.motion, s.time, {s.point, s.point, s.point});
     if (apart - Quad(q.body.radius) > Quad(2.0 * digit + resolution + sliver)) v.count(v.ill_touched, q);
   }

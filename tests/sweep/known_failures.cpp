@@ -46,6 +46,17 @@ TEST(KnownFailures, LegsOfThreeMillimetresAtNormalIncidence) {
   }
 }
 
+/// Its foot on the plane of the inexact normal lies 1.3e-11 m beside the triangle.
+TEST(Slivers, HaveThePointOfContactOnThem) {
+  const Triangle t{Vec3(0.34000019828978795, -0.48367949927736104, -0.8065072889575805),
+                   Vec3(0.70029432128079883, -1.7887855436641438, -1.3010596235966878),
+                   Vec3(0.33792595400527736, -0.47616731729135631, -0.8036609356763551)};
+  const Vec3 from(0.70029432128079883, -0.63634439048917568, -1.3010596235966878);
+  const auto s = roam::sweep({.radius = 1.1346774736860183}, from, {0.76, -1.86, -0.15}, t);
+  ASSERT_TRUE(s.hit);
+  EXPECT_LT(oracle::distance<Quad>({}, s.point, t), Quad(1e-15));
+}
+
 TEST(KnownFailures, SliverOfFiveMicrometres) {
   const Triangle t{Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0.5, 5e-6, 0)};
   for (const Vec3& way : {Vec3(0, 0, 1), Vec3(0, 1, 0), Vec3(0, 1, 1), Vec3(1, 1, 1e-6)}) {
