@@ -10,10 +10,11 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "cli/exit_status.h"
-#include "cli/report.h"
+#include "cli/standard_streams.h"
 #include "cli/values.h"
 #include "files/descriptor.h"
 #include "process/find_program.h"
@@ -33,9 +34,15 @@ struct ClusterVerb {
   bool submit = false;
 };
 
+/// Whether a byte, after another one, is a control character or ends one of UTF-8 (C1).
+bool is_control(unsigned char before, unsigned char c) {
+  return c < 0x20 || c == 0x7F || (before == 0xC2 && c >= 0x80 && c < 0xA0);
+}
+
 /// A word of the shell. Throws UsageError for control characters, such as line breaks.
 std::string quoted(const std::string& word) {
-  if (std::any_of(word.begin(), word.end(), [](unsigned char c) { return c < 0x20 || c == 0x7F; })) {
+  char before = ' ';
+  if (std::any_of(word.begin(), word.end(), [&](char c) { return is_control(std::exchange(before, c), c); })) {
     throw UsageError(word, "this name has a line break or another control character; rename it");
   }
   std::string text = "'";
@@ -93,7 +100,8 @@ ExitStatus slurm(ClusterVerb verb) {
   verb.scene.memory = std::max(verb.scene.memory.value_or(StoreBuildOptions{}.memory), StoreBuildOptions::least_memory);
   const std::string script = slurm_script(verb);
   if (!verb.submit) {
-    print(script);
+    // Not print(), which shortens long lines: this is for a shell.
+    write_output(script);
     return done;
   }
   if (process::find_program("sbatch").empty()) {

@@ -76,9 +76,14 @@ TEST(Cluster, SubmitsJobsOfAnyNumberOfScenes) {
 TEST(Cluster, RefusesNamesThatTheShellWouldRead) {
   const TestFolder folder;
   const std::string scene = write_ply(folder.file("a\nEND\n.ply"), field(2, 0.5, {0.0, 0.0, 0.0}));
-  const auto refused = roam({"cluster", "slurm", scene, "--shards", "3"});
-  EXPECT_EQ(refused.status, 2);
-  EXPECT_NE(refused.err.find("this name has a line break"), std::string::npos) << refused.err;
+  const std::string steering = write_ply(folder.file("a\xc2\x9b.ply"), field(2, 0.5, {0.0, 0.0, 0.0}));
+  for (const std::string& name : {scene, steering}) {
+    const auto refused = roam({"cluster", "slurm", name, "--shards", "3"});
+    EXPECT_EQ(refused.status, 2);
+    EXPECT_NE(refused.err.find("this name has a line break"), std::string::npos) << refused.err;
+  }
+  const std::string old = write_ply(folder.file("caf\xe9.ply"), field(2, 0.5, {0.0, 0.0, 0.0}));
+  EXPECT_NE(roam({"cluster", "slurm", old, "--shards", "3"}).out.find("caf\xe9.ply'"), std::string::npos);
   EXPECT_EQ(roam({"cluster", "slurm", folder.file("absent.ply"), "--shards", "3"}).status, 1);
   EXPECT_EQ(roam({"cluster", "slurm", scene}).status, 2);
   EXPECT_EQ(roam({"cluster"}).status, 2);
