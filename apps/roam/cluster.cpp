@@ -10,7 +10,7 @@
 #include <memory>
 #include <span>
 #include <string>
-#include <utility>
+#include <string_view>
 #include <vector>
 
 #include "cli/exit_status.h"
@@ -22,6 +22,7 @@
 #include "roam/store_build.h"
 #include "scenes/beside_scene.h"
 #include "scenes/scene_options.h"
+#include "text/printable.h"
 #include "verbs.h"
 
 namespace roam::app {
@@ -34,15 +35,19 @@ struct ClusterVerb {
   bool submit = false;
 };
 
-/// Whether a byte, after another one, is a control character or ends one of UTF-8 (C1).
-bool is_control(unsigned char before, unsigned char c) {
-  return c < 0x20 || c == 0x7F || (before == 0xC2 && c >= 0x80 && c < 0xA0);
+/// Whether a word has a control character (C0, DEL, C1). Bytes that are not UTF-8 are none.
+bool has_control(std::string_view word) {
+  while (!word.empty()) {
+    const Character first = first_character(word);
+    if (first.bytes > 0 && first.code < 0xA0 && is_control(first.code)) return true;
+    word.remove_prefix(std::max(first.bytes, std::size_t{1}));
+  }
+  return false;
 }
 
 /// A word of the shell. Throws UsageError for control characters, such as line breaks.
 std::string quoted(const std::string& word) {
-  char before = ' ';
-  if (std::any_of(word.begin(), word.end(), [&](char c) { return is_control(std::exchange(before, c), c); })) {
+  if (has_control(word)) {
     throw UsageError(word, "this name has a line break or another control character; rename it");
   }
   std::string text = "'";

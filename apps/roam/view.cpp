@@ -126,7 +126,8 @@ ExitStatus view(ViewOptions options) {
   append(noted, report.noted);
   report.notes = std::move(notes);
   const std::string picture = options.screenshot.string();
-  if (!picture.empty() && !unwritten.any() && std::find(report.written.begin(), report.written.end(), picture) == report.written.end()) {
+  if (!picture.empty() && !unwritten.any() &&
+      std::find(report.written.begin(), report.written.end(), picture) == report.written.end()) {
     report.notes.push_back(picture + " was not written: the session ended before its picture was drawn" +
                            earlier_stays(picture));
   }
@@ -166,8 +167,8 @@ A gamepad or a SpaceMouse moves you, too, if roam was built with SDL2 or libspna
 looks, Start shows the menu.
 
 Keys, mouse and body can be changed in roam/settings.json in $XDG_CONFIG_HOME or ~/.config. Bookmarks are kept beside
-it. With --path, --screenshot, --turntable or --time the program ends by itself, and works with --headless. Exit status 3 if the
-body does not reach the end of its path.
+it. With --path, --screenshot, --turntable or --time the program ends by itself, and works with --headless. Exit status
+3 if the body does not reach the end of its path.
 
 Examples:
   roam view mine.dae

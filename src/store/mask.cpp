@@ -56,15 +56,6 @@ double rounding(const Box& box) {
   return 0x1p-30 * largest(box.size()) + 0x1p-50 * std::max(largest(box.lower), largest(box.upper));
 }
 
-constexpr int bit_of(int x, int y, int z) { return x + mask_cells * (y + mask_cells * z); }
-
-using Words = std::uint64_t[mask_cells * mask_cells * mask_cells / 64];
-
-bool has(const Words& mask, int x, int y, int z) {
-  const int bit = bit_of(x, y, z);
-  return (mask[bit / 64] >> (bit % 64) & 1U) != 0;
-}
-
 Box box_of(const Triangle& t) { return {glm::min(glm::min(t[0], t[1]), t[2]), glm::max(glm::max(t[0], t[1]), t[2])}; }
 
 /// The least and the greatest number. As signed ones, of which the oldest processors compare eight at once.
@@ -144,7 +135,7 @@ Mask::Mask(const Box& box, double margin) : grid_(box, margin + rounding(box)) {
 
 void Mask::add(const Triangle& triangle) {
   grid_.visit(triangle, [&](int x, int y, int z) {
-    const int bit = bit_of(x, y, z);
+    const int bit = x + mask_cells * (y + mask_cells * z);
     words[static_cast<std::size_t>(bit / 64)] |= std::uint64_t{1} << (bit % 64);
     return true;
   });
@@ -170,7 +161,9 @@ const char* check_place(const TileEntry& entry, const TileView& tile) {
       const Box extent = box_of(triangle);
       if (!holds(box, extent.lower, extent.upper)) return "a triangle lies outside its box";
       if (filled(entry, grid.range(extent.lower, extent.upper)) == Filled::all) continue;
-      if (!grid.visit(triangle, [&](int x, int y, int z) { return has(entry.mask, x, y, z); })) {
+      if (!grid.visit(triangle, [&](int x, int y, int z) {
+            return filled(entry, {{x, y, z}, {x, y, z}}) == Filled::all;
+          })) {
         return "a triangle lies outside its mask";
       }
     }

@@ -13,8 +13,8 @@ namespace {
 /// the perpendicular. Only speed depends on it: beyond it the edges are tried as well.
 constexpr double face_trust = 1.0 + 1e-9;
 
-/// Of the square of a triangle's longest edge, squared: the square of twice the area of a sliver is less. It is ten
-/// thousand times as long as wide, and its normal so inexact that a foot on its plane may lie beside it.
+/// A triangle is a sliver if the square of twice its area is less than this part of its longest edge to the fourth: it
+/// is ten thousand times as long as wide. Its normal is so inexact that a foot on its plane may lie beside it.
 constexpr double sliver_part = 1e-8;
 
 void improve(Closest& best, const Closest& other) {

@@ -213,7 +213,7 @@ TEST_F(HostileStore, APartWhoseFirstNamesAreGoodIsDamagedBehindThem) {
   EXPECT_NE(said(late).find("in no order"), std::string::npos) << "it was kept";
 }
 
-/// Whoever may read a manifest may lock it.
+/// The right to read a file is enough to lock it.
 TEST_F(HostileStore, ALockedManifestKeepsNobodyWaiting) {
   for (const auto& entry : std::filesystem::directory_iterator(folder_.path() / "manifests")) {
     const files::Descriptor held(::open(entry.path().c_str(), O_RDONLY | O_CLOEXEC));
