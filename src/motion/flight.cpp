@@ -70,6 +70,11 @@ bool fly_on(Move& move, Gait& gait, const Vec3& velocity, double seconds) {
   double left = 1.0;
   bool touched = false;
   for (int contact = 0; contact < slide_limit && left > 0.0; ++contact) {
+    if (!move.has_room()) {
+      seconds *= 1.0 - left;
+      if (whole.z != 0.0) rise_speed = -falling();
+      break;
+    }
     const Vec3 before = move.place;
     double share = left;
     const std::optional<double> until_disc =

@@ -43,8 +43,9 @@ constexpr double part_ahead = 1.0 / (1.0 + beyond_weight / gap_part);  // a nint
 /// 6.4e6 m. This many merges stay far below world_tolerance.
 constexpr int merge_limit = 64;
 
-/// Segments that one stride or one flight may add: slides, a step up (three), snapping to the ground, crouching.
-constexpr std::size_t segments_at_once = 24;
+/// Segments that may follow until the room is looked at again: a contact (2) with a step up (3), the ground after it
+/// (2), and of a body that is embedded there its new place (3), standing up (2) and another size (2).
+constexpr std::size_t segments_at_once = 14;
 
 /// Events of motion noted in one step; the rest of the list is kept for a fall and for events that end a step.
 constexpr std::size_t events_of_motion = 16;

@@ -129,7 +129,8 @@ class Move : public Mover, public Whereabouts {
   [[nodiscard]] Mark mark() const;
   /// Restores the state of the mark.
   void undo(const Mark& mark);
-  /// Whether another part of a step, which may add a handful of segments, still fits into the report.
+  /// Whether the segments of another contact, and what may follow it, still fit into the report. Otherwise the step
+  /// ends here, since a segment that is not in the report is checked by nobody.
   [[nodiscard]] bool has_room() const;
 
  private:

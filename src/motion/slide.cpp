@@ -13,6 +13,10 @@ Ending slide(Move& move, const Vec3& velocity, double dt) {
   const double seconds = wish * dt > longest_way ? longest_way / wish : dt;
   double left = seconds;
   for (int contact = 0; contact < slide_limit && left > 0.0; ++contact) {
+    if (!move.has_room()) {
+      move.time = start + (seconds - left);
+      return Ending::throttled;
+    }
     const Vec3 before = move.place;
     const Advance a = move.advance(v * left, left);
     left -= a.fraction * left;

@@ -50,6 +50,10 @@ bool stride(Move& move, Gait& gait, const Vec3& velocity, double seconds) {
   double left = seconds;
   std::optional<Vec3> in_vain;  // the motion that led nowhere from the present position
   for (int contact = 0; contact < slide_limit && left > 0.0 && wish > 0.0; ++contact) {
+    if (!move.has_room()) {
+      seconds -= left;
+      break;
+    }
     const Vec3 before = move.place;
     const Vec3 motion = over_grounds(v, grounds) * left;
     if (motion == in_vain) {

@@ -34,8 +34,8 @@ Ending walk(Move& move, Gait& gait, const Vec3& velocity, double dt, Refuge& las
   const double end = move.time + dt;
   double left = dt, careful = 0.0;  // seconds; `careful`: time left for fine strides
   for (int count = 0; left > 0.0; ++count) {
-    if (count >= stride_limit || !move.has_room()) return Ending::throttled;
     adapt(move, gait, sizes);
+    if (count >= stride_limit || !move.has_room()) return Ending::throttled;
     const double longest = stride_seconds(move, velocity), finest = fine_stride_seconds(move, velocity);
     const double begin = move.time;
     const bool striding = gait.grounded();

@@ -126,10 +126,13 @@ class Judge {
 };
 
 /// The least margin, in metres, of two promises at the corners of a step and along its pieces: the true clearance is at
-/// least the radius - 1e-6 m, and at least the certified one. A negative value is a violation. The way to the place
-/// where a body was put has no promise. Each piece is judged by the radius that it reports.
+/// least the radius - 1e-6 m, and at least the certified one. A negative value is a violation; so is a step with a
+/// piece that its report does not hold. The way to the place where a body was put has no promise. Each piece is judged
+/// by the radius that it reports.
 inline double margin(const Judge& judge, const roam::StepReport& step) {
   constexpr double promise = 1e-6;
+  const Vec3& end = step.segments.empty() ? step.from : step.segments.back().position;
+  if (step.segments.total() > step.segments.size() || end != step.to) return -std::numeric_limits<double>::infinity();
   double least = std::numeric_limits<double>::infinity();
   Vec3 at = step.from;
   for (const roam::Segment& c : step.segments) {

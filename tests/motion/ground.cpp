@@ -51,6 +51,28 @@ TEST(Ground, StairsAreClimbedAndComeDownAtAnySpeed) {
   }
 }
 
+/// A slope of 86 degrees in ledges: each is a step up, of several pieces.
+TEST(Ground, AStepOverManyLedgesEndsWhereItsReportIsFull) {
+  Mesh m;
+  constexpr double tread = 0.019, rise = 0.3;
+  add_floor(m, -100.0, -500.0, 0.0, 500.0, 0.0);
+  for (int i = 0; i < 60; ++i) {
+    add_wall(m, tread * i, -500.0, tread * i, 500.0, rise * i, rise * (i + 1));
+    add_floor(m, tread * i, -500.0, tread * (i + 1), 500.0, rise * (i + 1));
+  }
+  const WalkerSettings settings{.height = 1.4, .eye = 1.3, .step = 0.5, .slope_degrees = 75.0};
+  Walk w(m, settings, Mode::walk, {-0.6, 0.0, 0.72});
+  for (int i = 0; i < 4; ++i) {
+    const Vec3 from = w.walker.position();
+    const StepReport& r = w.step({1.4, 0.0, 0.0}, 0.5);
+    EXPECT_EQ(r.segments.total(), r.segments.size());
+    EXPECT_TRUE(r.has(EventKind::throttled));
+    // Over each ledge a step up moves the body a little farther than its speed does.
+    EXPECT_NEAR(w.walker.position().x - from.x, 1.4 * r.elapsed, 0.05);
+    EXPECT_GT(w.walker.position().z - from.z, 3.0);
+  }
+}
+
 TEST(Ground, StepsOntoAKerbOfStepHeightAtAnySpeedButNotOntoAHigherOne) {
   for (const double speed : {0.05, 0.5, 1.4, 7.0}) {
     for (const double height : {0.05, 0.15, 0.29, 0.31, 0.5}) {
