@@ -217,11 +217,11 @@ const StepReport& Walker::State::step(const WalkerInput& wish, double dt) {
                 number_text(wish.braking) + " m/s^2; both must be more than 0");
   }
   WalkerInput input = wish;
-  const double most = largest(wish.velocity);
+  if (mode_ == Mode::walk) input.velocity.z = 0.0;
+  const double most = largest(input.velocity);
   if (most > fastest_wish) input.velocity *= fastest_wish / most;
   std::optional<walking::Pace> change;
   if (walking::limits(wish)) {
-    if (mode_ == Mode::walk) input.velocity.z = 0.0;
     change = walking::change(pace(), input);
     if (dt > 0.0) input.velocity = change->mean(dt);
   }
@@ -243,8 +243,7 @@ const StepReport& Walker::State::step(const WalkerInput& wish, double dt) {
   } else {
     const bool changed = revision() != looked_at_;
     // A free way that starts at the body's position proves that nothing has come there.
-    const Vec3 way(input.velocity.x, input.velocity.y, mode_ == Mode::fly ? input.velocity.z : 0.0);
-    if (!held() && changed && way * dt != Vec3(0.0)) {
+    if (!held() && changed && input.velocity * dt != Vec3(0.0)) {
       at_.known.fit = walking::Fit::unproven;
       looked_at_ = revision();
       resized_ = false;

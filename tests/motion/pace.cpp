@@ -30,6 +30,40 @@ Vec3 start_of(Mode mode) { return {-15.0, 0.0, mode == Mode::walk ? 0.91 : 2.0};
 
 constexpr Mode moving[] = {Mode::walk, Mode::fly, Mode::ghost};
 
+/// A world with a limit of speed, as a store has while it loads.
+class Limited final : public roam::Space {
+ public:
+  explicit Limited(const World& world) : world_(world) {}
+  [[nodiscard]] roam::SpaceFacts facts() const override {
+    roam::SpaceFacts facts = world_.facts();
+    facts.speed_limit = 0.5;
+    return facts;
+  }
+  [[nodiscard]] roam::Object object(roam::TriangleId triangle) const override { return world_.object(triangle); }
+
+ protected:
+  [[nodiscard]] roam::FirstImpact find_first(const roam::Query& query, roam::Vicinity* vicinity) const override {
+    return find_first_of(world_, query, vicinity);
+  }
+  void find_near(const roam::Query& query, roam::Collector& collector, roam::Vicinity* vicinity) const override {
+    find_near_of(world_, query, collector, vicinity);
+  }
+
+ private:
+  const World& world_;
+};
+
+TEST(Pace, ALimitOfSpeedDoesNotCountTheVerticalPartOfAWalkersWish) {
+  const World world = build(floor_mesh());
+  const Limited space(world);
+  for (const Mode mode : {Mode::walk, Mode::fly}) {
+    Walker w(space, {}, mode, start_of(mode));
+    for (int i = 0; i < 60; ++i) w.step({{0.4, 0.0, 4.0}}, frame);
+    EXPECT_EQ(w.report().has(EventKind::slowed), mode == Mode::fly);
+    EXPECT_NEAR(w.position().x - start_of(mode).x, mode == Mode::walk ? 0.4 : 0.5 * 0.4 / std::hypot(0.4, 4.0), 1e-6);
+  }
+}
+
 TEST(Pace, ABodyStopsInTheDistanceThatPhysicsSays) {
   const Mesh m = floor_mesh();
   const World world = build(m);
