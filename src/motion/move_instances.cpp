@@ -155,8 +155,11 @@ void Walker::State::take(const walking::InstanceMotion& shift, const walking::Re
 void Walker::State::append(const walking::InstanceMotion& shift, const walking::Response& to) {
   const double infinity = std::numeric_limits<double>::infinity();
   auto& segments = report_.segments;
+  // Instances move one after the other. Time does not go back to where the one before began.
+  const double before_it = segments.empty() ? 0.0 : segments.back().time;
+  const double begin = std::max(shift.begin, before_it), end = std::max(shift.begin + shift.seconds, before_it);
   if (rested_ < infinity) {
-    segments.push({at_.place, at_.height, settings_.radius, shift.begin, to.rested, false});
+    segments.push({at_.place, at_.height, settings_.radius, begin, to.rested, false});
     rested_ = infinity;
   } else if (!segments.empty()) {
     // Straight on: a deviation of 1e-12 of the way is no bend.
@@ -166,16 +169,16 @@ void Walker::State::append(const walking::InstanceMotion& shift, const walking::
     const double begun = segments.size() > 1 ? segments[segments.size() - 2].time : 0.0, length = glm::length(gone);
     const double straight = 1e-12 * length * glm::length(to.way);
     // The speed must be the same too, because a segment stands for uniform motion.
-    const double even = length * shift.seconds - glm::length(to.way) * (last.time - begun);
-    const bool goes_on = last.time == shift.begin && std::abs(even) <= 1e-9 * length * shift.seconds;
+    const double even = length * (end - begin) - glm::length(to.way) * (last.time - begun);
+    const bool goes_on = last.time == begin && std::abs(even) <= 1e-9 * length * shift.seconds;
     if (goes_on && glm::dot(gone, to.way) > 0.0 && glm::length(glm::cross(gone, to.way)) <= straight) {
       last.position = at_.place + to.way;
-      last.time = shift.begin + shift.seconds;
+      last.time = end;
       last.axis_clearance = std::min(last.axis_clearance, to.clearance);
       return;
     }
   }
-  segments.push({at_.place + to.way, at_.height, settings_.radius, shift.begin + shift.seconds, to.clearance, false});
+  segments.push({at_.place + to.way, at_.height, settings_.radius, end, to.clearance, false});
 }
 
 void Walker::State::end_shifts(const Vec3& ground_velocity, double dt) {

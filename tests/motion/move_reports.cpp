@@ -109,6 +109,26 @@ TEST(MoveReports, KeepAReportWithinItsRoom) {
   EXPECT_EQ(walker.report().segments.back().position, walker.position());
 }
 
+TEST(MoveReports, GoOnInTimeWhereTwoInstancesPushOneBody) {
+  Stage stage(ground());
+  Mesh along_y, along_x;
+  scenes::add_box(along_y, {-0.1, -1.0, 0.0}, {0.1, 1.0, 2.0});
+  scenes::add_box(along_x, {-1.0, -0.1, 0.0}, {1.0, 0.1, 2.0});
+  const ObjectId one = stage.scene.add(along_y, {{-0.5, 0.0, 0.0}});
+  const ObjectId other = stage.scene.add(along_x, {{0.0, -0.5, 0.0}});
+  Walker& walker = stage.add({}, Mode::walk, {0.0, 0.0, 0.0});
+  stage.scene.space.set_velocity(one, {{2.0, 0.0, 0.0}});
+  stage.scene.space.set_velocity(other, {{0.0, 2.0, 0.0}});
+  EXPECT_TRUE(
+      roam::move_instances(stage.scene.space, stage.list, 0.2).empty());  // one after the other: not judged in time
+  const auto& segments = walker.report().segments;
+  EXPECT_GT(walker.position().x, 0.1);
+  EXPECT_GT(walker.position().y, 0.1);
+  ASSERT_GE(segments.size(), 2U);
+  for (std::size_t i = 1; i < segments.size(); ++i) EXPECT_GE(segments[i].time, segments[i - 1].time) << i;
+  EXPECT_LE(segments.back().time, 0.2);
+}
+
 TEST(MoveReports, KeepThePaceOfABodyThatIsBlockedInATrain) {
   Stage stage(ground());
   const ObjectId train = stage.scene.add(car(), {{0.0, 0.0, 0.5}});
