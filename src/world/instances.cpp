@@ -134,8 +134,11 @@ struct Instances::State {
       query.from = of.to_instance(original.from);
       query.motion = of.to_instance_way(original.motion);
     }
-    [[nodiscard]] query::Part part(const WorldData& data, double reach) const {
-      return query::part_of(query, query::reached(query, reach).meets(data.reach));
+    /// The part of the motion that can concern it, if there is one.
+    [[nodiscard]] std::optional<query::Part> part(const WorldData& data, double reach) const {
+      const Interval when = query::reached(query, reach).meets(data.reach);
+      if (when.empty()) return std::nullopt;
+      return query::part_of(query, when);
     }
   };
 
@@ -153,8 +156,8 @@ struct Instances::State {
     collector.enter(&seen.frame);
     if (collector.only() != nullptr) {
       query::collect_one(it.data->index, seen.query, collector);
-    } else {
-      query::collect(*it.data, seen.query, seen.part(*it.data, collector.initial_reach()), 0, collector);
+    } else if (const auto part = seen.part(*it.data, collector.initial_reach())) {
+      query::collect(*it.data, seen.query, *part, 0, collector);
     }
     collector.enter(nullptr);
     if (floor != nullptr) collector.take_floor_only(*floor);
@@ -271,7 +274,9 @@ FirstImpact Instances::find_first(const Query& query, Vicinity* vicinity) const 
     if (s.is_ignored(i, query)) return;
     const State::Instance& it = s.instances[i];
     const State::Seen seen(it.frame, query);
-    FirstImpact met = query::first_impact(*it.data, seen.query, seen.part(*it.data, query::hit_reach));
+    const auto part = seen.part(*it.data, query::hit_reach);
+    if (!part) return;
+    FirstImpact met = query::first_impact(*it.data, seen.query, *part);
     if (!met.hit) return;
     met.triangle |= it.frame.triangles;
     met.object = it.frame.object;
