@@ -287,7 +287,10 @@ Run Planner::clear(const Candidate& candidate, std::uint32_t units, const Tracke
   });
   if (own_page) return {};
   const std::lock_guard lock(handover_.mutex);
-  if (handover_.messages.room() < spare_messages + items) return {};
+  if (handover_.messages.room() < spare_messages + items) {
+    changed_ = true;  // when the body's thread has taken some, there may be room
+    return {};
+  }
   for (const bool pages : {false, true}) {
     units_.for_each(run, [&](const Run& of, const PagedItem& item) {
       if (item.is_page() != pages) return;
