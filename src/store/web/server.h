@@ -26,7 +26,7 @@ using Clock = std::chrono::steady_clock;
 
 struct Manners {
   bool redirects = false;  ///< follow them to other hosts and folders
-  double patience = 20.0;  ///< s: how long a request is tried again, since it last brought anything
+  double patience = 20.0;  ///< s: how long a request is tried again, since its first try last brought anything
 };
 
 /// The end of a request.
