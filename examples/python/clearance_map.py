@@ -49,7 +49,10 @@ room = room.reshape(len(y), len(x))
 
 print(f"{grid**2 * np.sum(room >= 0.3):.1f} m2 of floor have room for a person 0.6 m wide")
 
-# Only the part of the grid that has a floor.
+if np.isnan(room).all():
+    raise SystemExit(f"There is no room for anybody on the floor below {level:.1f} m")
+
+# Only the part of the grid that has room.
 columns, rows = (np.flatnonzero((~np.isnan(room)).any(axis=axis)) for axis in (0, 1))
 room = room[rows[0]:rows[-1] + 1, columns[0]:columns[-1] + 1]
 x, y = x[columns[0]:columns[-1] + 1], y[rows[0]:rows[-1] + 1]
@@ -60,6 +63,6 @@ shown = axes.imshow(room, origin="lower", extent=(x[0] - half, x[-1] + half, y[0
 axes.set(title=f"Room around a person, on the floor below {level:.1f} m", xlabel="x, m", ylabel="y, m")
 bar = figure.colorbar(shown, label="radius of the widest body, m (0.9: or wider)", shrink=0.8)
 bar.ax.axhline(0.3, color="red")
-if room.shape > (1, 1) and np.nanmin(room) < 0.3 < np.nanmax(room):
+if min(room.shape) > 1 and np.nanmin(room) < 0.3 < np.nanmax(room):
     axes.contour(x, y, room, levels=[0.3], colors="red", linewidths=0.5)  # where a person of 0.6 m must stop
 figure.savefig(options.picture, dpi=110)

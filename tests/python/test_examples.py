@@ -80,6 +80,26 @@ def test_the_map_of_a_flat(flat, tmp_path):
     assert lost.returncode == 1 and "no floor below -5.0 m" in lost.stderr
 
 
+def test_the_maps_of_narrow_and_of_full_floors(tmp_path):
+    def scene(name, *parts):
+        lines, first = [], 1
+        for corners, triangles in parts:
+            lines += ["v {} {} {}".format(*corner) for corner in corners]
+            lines += ["f {} {} {}".format(*(first + i for i in triangle)) for triangle in triangles]
+            first += len(corners)
+        (tmp_path / name).write_text("\n".join(lines) + "\n")
+        return tmp_path / name
+
+    beam = [[0, 0, 0], [9, 0, 0], [9, 0.15, 0], [0, 0.15, 0]], [[0, 1, 2], [0, 2, 3]]
+    run("clearance_map.py", scene("beam.obj", beam, wall(4, 0, 4, 1)), "--grid", 0.2, "--level", 1.5,
+        tmp_path / "beam.png")
+    shelves = [([[x, y, z] for x, y in ((0, 0), (3, 0), (3, 3), (0, 3))], [[0, 1, 2], [0, 2, 3]]) for z in (0, 1.2)]
+    full = subprocess.run([sys.executable, str(EXAMPLES / "clearance_map.py"), str(scene("full.obj", *shelves)),
+                           str(tmp_path / "full.png"), "--level", "1.1"], capture_output=True, text=True, check=False)
+    assert full.returncode == 1 and "no room for anybody on the floor below 1.1 m\n" in full.stderr
+    assert "Traceback" not in full.stderr
+
+
 def test_the_map_of_a_gallery(gallery, tmp_path):
     said = run("clearance_map.py", gallery, "--grid", 2, tmp_path / "map.png")
     assert 500 < float(said.split()[0]) < 2000  # some 500 m of tunnel; a mesh so coarse narrows it
