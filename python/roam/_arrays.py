@@ -27,11 +27,17 @@ def check_memory(wanted: int, name: str) -> None:
                           "pass less at a time")
 
 
-def _array(value: Any, name: str, kinds: str, wanted: str) -> NDArray[Any]:
+def _converted(value: Any, name: str, wanted: str) -> NDArray[Any]:
+    if isinstance(value, np.ma.MaskedArray):
+        raise TypeError(f"{name} must be {wanted}, without a mask; pass {name}.compressed() or {name}.filled(...)")
     try:
-        array = np.asarray(value)
+        return np.asarray(value)
     except ValueError as error:
         raise ValueError(f"{name} must be {wanted}; its parts differ in length") from error
+
+
+def _array(value: Any, name: str, kinds: str, wanted: str) -> NDArray[Any]:
+    array = _converted(value, name, wanted)
     if array.dtype.kind not in kinds:
         kind = "integers" if kinds == "iu" else "numbers"
         raise TypeError(f"{name} must be {wanted}, of {kind}; it has the type {array.dtype}, shape {array.shape}")
@@ -83,6 +89,15 @@ def number(value: Any, name: str) -> float:
         return float(value)
     except (TypeError, ValueError) as error:
         raise TypeError(f"{name} must be a number; it is a {type(value).__name__}") from error
+    except OverflowError as error:
+        raise ValueError(f"{name} must be a number below 1.8e308; it is larger") from error
+
+
+def positive(value: Any, name: str) -> float:
+    result = number(value, name)
+    if not result > 0.0:
+        raise ValueError(f"{name} must be above 0; it is {value}")
+    return result
 
 
 def whole(value: Any, name: str, least: int = 0, most: int = 2**31 - 1) -> int:
@@ -99,15 +114,18 @@ def mesh(name: str, vertices: ArrayLike, triangles: ArrayLike) -> Tuple[str, Flo
     """Packed float64 of shape (V, 3) and uint32 of shape (T, 3)."""
     if not isinstance(name, str):
         raise TypeError(f"the name of a mesh must be a str; it is a {type(name).__name__}")
+    if "\0" in name:
+        raise ValueError(f"the name {name!r} of a mesh has a null byte")
     corners = _array(vertices, "vertices", "fiu", "an array of shape (V, 3)")
     if corners.size == 0:
         corners = np.empty((0, 3))
     if corners.ndim != 2 or corners.shape[1] != 3:
         raise ValueError(f"vertices must be an array of shape (V, 3); it has the shape {corners.shape}")
-    indices: NDArray[Any] = np.asarray(triangles)
+    wanted = "an array of shape (T, 3)"
+    indices = _converted(triangles, "triangles", wanted)
     if indices.size == 0:
         indices = np.empty((0, 3), np.uint32)
-    indices = _array(indices, "triangles", "iu", "an array of shape (T, 3)")
+    indices = _array(indices, "triangles", "iu", wanted)
     if indices.ndim != 2 or indices.shape[1] != 3:
         raise ValueError(f"triangles must be an array of shape (T, 3); it has the shape {indices.shape}")
     # As packed copies here, and for a world and its construction.
@@ -131,6 +149,8 @@ def meshes(value: Iterable[Tuple[str, ArrayLike, ArrayLike]]) -> List[Tuple[str,
 
 
 def objects(value: Iterable[int], name: str) -> List[int]:
+    if not isinstance(value, Iterable):
+        raise TypeError(f"{name} must be a list of numbers of objects; it is a {type(value).__name__}")
     return sorted({whole(item, name, 0, 2**32 - 1) for item in value})
 
 

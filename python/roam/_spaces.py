@@ -226,7 +226,7 @@ class Store(Space):
                                         loaders=_arrays.whole(loaders, "loaders", 0, 16),
                                         cache=None if cache is None else _arrays.path_text(cache),
                                         cache_bytes=_arrays.memory_bytes(cache_size, "cache_size"),
-                                        patience=_arrays.number(web_patience, "web_patience"),
+                                        patience=_arrays.positive(web_patience, "web_patience"),
                                         redirects=bool(redirects))
         text, made = _arrays.path_text(path), SpaceHandle(threading.Lock(), patience)
         run(None, lambda note: call("roam_store_open", text, ctypes.byref(options), made.handle.address))

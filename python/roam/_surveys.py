@@ -143,7 +143,7 @@ class Survey:
         options = _structs.ProbeOptions(
             to=_arrays.vec3(_arrays.position(to, "to")), radius=_arrays.number(radius, "radius"),
             height=_arrays.number(height, "height"), mode=_arrays.one_of(mode, MODES, "mode"), step=step or -1.0,
-            spacing=_arrays.number(spacing, "spacing"))
+            spacing=_arrays.positive(spacing, "spacing"))
         setattr(options, "from", _arrays.vec3(_arrays.position(from_, "from_")))
         answer, way = _structs.ProbeAnswer(), Handle("path")
 
@@ -172,8 +172,9 @@ class Survey:
         options = _structs.TrainOptions(
             mode=_arrays.one_of(mode, MODES, "mode"), height=_arrays.number(height, "height"),
             paths=_arrays.whole(paths, "paths"), seed=_arrays.whole(seed, "seed", 1, 2**63),
-            radius_min=_arrays.number(radius_min, "radius_min"), radius_max=_arrays.number(radius_max, "radius_max"),
-            spacing=_arrays.number(spacing, "spacing"), threads=_arrays.whole(threads, "threads"))
+            radius_min=_arrays.positive(radius_min, "radius_min"),
+            radius_max=_arrays.positive(radius_max, "radius_max"), spacing=_arrays.positive(spacing, "spacing"),
+            threads=_arrays.whole(threads, "threads"))
         facts, profile = _structs.Training(), Handle("profile")
 
         def work(note: Any) -> None:

@@ -135,11 +135,9 @@ class Walker:
 
         acceleration, braking   m/s2, > 0: how fast the body approaches that velocity
         """
-        for name, limit in (("acceleration", acceleration), ("braking", braking)):
-            if not _arrays.number(limit, name) > 0.0:
-                raise ValueError(f"{name} must be above 0; it is {limit}")
         wish = _structs.WalkerInput(velocity=_arrays.vec3(_arrays.position(velocity, "velocity")),
-                                    acceleration=acceleration, braking=braking, jump=bool(jump), crouch=bool(crouch))
+                                    acceleration=_arrays.positive(acceleration, "acceleration"),
+                                    braking=_arrays.positive(braking, "braking"), jump=bool(jump), crouch=bool(crouch))
         return self._call("roam_walker_step", ctypes.byref(wish), ctypes.c_double(_arrays.number(dt, "dt")))
 
     def place(self, centre: ArrayLike) -> Step:
@@ -161,9 +159,7 @@ class Walker:
         path = np.ascontiguousarray(np.atleast_2d(_arrays.positions(waypoints, "waypoints")))
         options, end = _structs.RouteOptions(), _structs.RouteResult()
         for name, value in (("speed", speed), ("dt", dt), ("patience", patience), ("wait", wait)):
-            if not _arrays.number(value, name) > 0.0:
-                raise ValueError(f"{name} must be above 0; it is {value}")
-            setattr(options, name, value)
+            setattr(options, name, _arrays.positive(value, name))
 
         def work(note: Any) -> None:
             options.progress = note

@@ -30,6 +30,8 @@ def test_shapes_and_types_are_named(room):
         room.sweep(0.3, np.zeros((4, 3), complex), [1, 0, 0])
     with raises(TypeError, "from_", "object"):
         room.sweep(0.3, [None, 1, 2], [1, 0, 0])
+    with raises(TypeError, "from_", "without a mask"):
+        room.sweep(0.3, np.ma.masked_less(np.zeros((4, 3)), 1), [1, 0, 0])
     with raises(ValueError, "from_", "differ in length"):
         room.sweep(0.3, [[1, 2, 3], [1, 2]], [1, 0, 0])
     with raises(ValueError, "radius", r"\(2, 2\)"):
@@ -51,9 +53,18 @@ def test_values_are_named(room):
         room.clearance(0.3, [0, 0, 0], 2000)
     with raises(ValueError, "ignored", "-1"):
         room.sweep(0.3, [0, 0, 0], [1, 0, 0], ignored=[-1])
+    with raises(TypeError, "ignored", "int"):
+        room.sweep(0.3, [0, 0, 0], [1, 0, 0], ignored=3)
+    with raises(ValueError, "reach must be a number below"):
+        room.clearance(0.3, [0, 0, 0], 10**400)
     survey = roam.Survey.from_arrays([[0, 0, 0], [9, 0, 0], [0, 9, 0]], [[0, 1, 2]])
     with raises(ValueError, "spacing is 5e-324 m", "at least 0.001"):
         survey.probe([1, 1, 1], [2, 2, 1], spacing=5e-324)
+    with raises(ValueError, "spacing must be above 0"):
+        survey.probe([1, 1, 1], [2, 2, 1], spacing=0)
+    for name in ("radius_min", "radius_max", "spacing"):
+        with raises(ValueError, f"{name} must be above 0; it is 0"):
+            survey.train(**{name: 0})
 
 
 def test_meshes_are_checked():
@@ -64,6 +75,10 @@ def test_meshes_are_checked():
         roam.World.from_arrays(corners, [[0, 1, -1]])
     with raises(TypeError, "triangles", "integers", "float64"):
         roam.World.from_arrays(corners, [[0.0, 1, 2]])
+    with raises(ValueError, "triangles", "differ in length"):
+        roam.World.from_arrays(corners, [[0, 1, 2], [0, 1]])
+    with raises(ValueError, "name", "null byte"):
+        roam.World.from_arrays(corners, [[0, 1, 2]], name="a\0b")
     with raises(ValueError, "vertices", r"\(3, 2\)"):
         roam.World.from_arrays(corners[:, :2], [[0, 1, 2]])
     with raises(ValueError, "finite"):
@@ -127,8 +142,9 @@ def test_a_store_answers_as_its_scene(room, store, tmp_path):
         roam.Store.open(store, cache_size="much")
     with raises(ValueError, "4 MiB"):
         roam.Store.open("http://127.0.0.1:1/x.roam", cache=tmp_path / "web.cache", cache_size="1M")
-    with raises(ValueError, "patience"):
-        roam.Store.open("http://127.0.0.1:1/x.roam", web_patience=-1)
+    for wrong in (-1, 0):
+        with raises(ValueError, "web_patience must be above 0"):
+            roam.Store.open("http://127.0.0.1:1/x.roam", web_patience=wrong)
     begin = time.monotonic()
     with raises(OSError, "no connection"):
         roam.Store.open("http://127.0.0.1:1/x.roam", web_patience=0.1)
