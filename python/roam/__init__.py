@@ -7,7 +7,7 @@
 
 Lengths are metres, times seconds, +z is up. A body is a sphere, or an upright capsule whose axis has the length
 2 * half_height. Arrays of positions have the shape (N, 3); a single position of shape (3,) gives results without N.
-float64 arrays are used as they are, with any strides; other numbers and lists are converted.
+float64 arrays whose x, y and z lie side by side are used as they are; other numbers and lists are converted.
 
 Errors: ValueError for a value or shape out of range, TypeError for other things than numbers, FileNotFoundError,
 OSError for a file that cannot be read, MemoryError before the machine runs out of memory. Long calls run on all cores

@@ -35,7 +35,7 @@ class Step:
         self.end: Floats = array3(facts.to)  #: (3,): the centre now
         self.radius: float = facts.radius  #: of the body now
         self.height: float = facts.height  #: of the body now
-        self.gap: float = facts.gap  #: certified, at `end`
+        self.gap: float = facts.gap  #: certified, at `end`; <= 0: none, as of a ghost, or of a body that overlaps
         self.least_gap: float = facts.least_gap  #: certified, over the whole move
         self.length: float = facts.length  #: of the way
         self.elapsed: float = facts.elapsed  #: simulated time: dt, or a part of it
@@ -156,7 +156,7 @@ class Walker:
         speed      m/s;  dt  seconds of a step;  patience  seconds without progress after which the body is blocked
         wait       seconds of real time to wait for a store
         """
-        path = np.ascontiguousarray(np.atleast_2d(_arrays.positions(waypoints, "waypoints")))
+        path = np.require(np.atleast_2d(_arrays.positions(waypoints, "waypoints")), requirements="CA")
         options, end = _structs.RouteOptions(), _structs.RouteResult()
         for name, value in (("speed", speed), ("dt", dt), ("patience", patience), ("wait", wait)):
             setattr(options, name, _arrays.positive(value, name))
