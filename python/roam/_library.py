@@ -21,11 +21,11 @@ _EXCEPTIONS = {1: ValueError, 2: FileNotFoundError, 3: OSError, 4: MemoryError}
 
 
 def _load() -> ctypes.CDLL:
-    here = pathlib.Path(__file__).resolve().parent
+    above = pathlib.Path(__file__).resolve().parent.parent.parent
     name = "libroam.so.0"
     # Of a build; of an installation, in lib or in lib/<architecture>; or wherever the system looks.
-    places = [here.parents[1] / name, here.parents[2] / name]
-    places.append(here.parents[2] / (sysconfig.get_config_var("MULTIARCH") or "") / name)
+    places = [above / name, above.parent / name]
+    places.append(above.parent / (sysconfig.get_config_var("MULTIARCH") or "") / name)
     path = next((str(place) for place in places if place.is_file()), name)
     try:
         library = ctypes.CDLL(path)

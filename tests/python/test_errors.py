@@ -231,3 +231,9 @@ begun.wait()
 def test_a_daemon_thread_at_work_ends_with_the_program():
     ended = subprocess.run([sys.executable, "-c", PROGRAM_THAT_ENDS], capture_output=True, text=True)
     assert (ended.returncode, ended.stdout, ended.stderr) == (0, "", "")
+def test_the_module_may_lie_in_a_folder_below_the_root(monkeypatch):
+    module = sys.modules["roam._library"]
+    monkeypatch.setattr(module, "__file__", "/app/roam/_library.py")
+    assert module._load().roam_version() == roam.__version__.encode()  # which is loaded already
+
+
