@@ -7,7 +7,7 @@ import pathlib
 import queue
 import sysconfig
 import threading
-from typing import Any, Callable, Dict, List, Optional
+from typing import Any, Callable, Dict, List, Optional, Union
 
 from ._structs import PROGRESS
 
@@ -47,15 +47,49 @@ def _load() -> ctypes.CDLL:
 library = _load()
 
 
-class Handle:
-    """A handle of the library, freed with the last reference to it."""
+class StoreLock:
+    """The lock of a store, which one thread uses at a time, in the process that opened it.
 
-    def __init__(self, kind: str) -> None:
+    A forked process lacks the store's threads: a query would wait for them, and so would the end of the store.
+    """
+
+    def __init__(self) -> None:
+        self._lock = threading.Lock()
+        self._process = os.getpid()
+
+    @property
+    def is_of_this_process(self) -> bool:
+        return os.getpid() == self._process
+
+    def check(self) -> None:
+        if not self.is_of_this_process:
+            raise RuntimeError("a store cannot be used in a process that was forked after Store.open; open it there")
+
+    def acquire(self, timeout: float = -1) -> bool:
+        self.check()
+        return self._lock.acquire(timeout=timeout)
+
+    def release(self) -> None:
+        self._lock.release()
+
+    def __enter__(self) -> None:
+        self.acquire()
+
+    def __exit__(self, *_: object) -> None:
+        self.release()
+
+
+class Handle:
+    """A handle of the library, freed with the last reference to it; that of a store, with `lock`, not after a fork."""
+
+    def __init__(self, kind: str, lock: Optional[StoreLock] = None) -> None:
         self.value = ctypes.c_void_p()
+        self.lock = lock
         self._free = getattr(library, f"roam_{kind}_free")
 
     def __del__(self) -> None:
-        self._free(self.value)
+        if self.lock is None or self.lock.is_of_this_process:
+            self._free(self.value)
 
     @property
     def address(self) -> Any:
@@ -82,10 +116,14 @@ class _Running:
     """
 
     def __init__(self) -> None:
+        self._closed = False
+        self.forget()
+        atexit.register(self.close)
+
+    def forget(self) -> None:
+        """After a fork the child has no other threads."""
         self._lock = threading.Lock()
         self._cancelled_of: Dict[threading.Event, threading.Event] = {}
-        self._closed = False
-        atexit.register(self.close)
 
     def ends_here(self) -> bool:
         """Whether the interpreter is about to end this daemon thread. Functions at exit still work."""
@@ -143,12 +181,12 @@ class _Helper:
         helper._work.put(all_of_it)
 
 
-# After a fork the child has no other threads.
 os.register_at_fork(after_in_child=_Helper.idle.clear)
+os.register_at_fork(after_in_child=_running.forget)
 
 
 def run(progress: Optional[Callable[[float], object]], work: Callable[[Any], None],
-        lock: Optional[threading.Lock] = None) -> None:
+        lock: "Optional[Union[threading.Lock, StoreLock]]" = None) -> None:
     """Runs `work` in another thread, with `lock` if given, and passes it a PROGRESS.
 
     Meanwhile this thread takes signals and calls `progress` with the fraction done. An exception of either ends the

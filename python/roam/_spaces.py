@@ -1,22 +1,27 @@
 """Spaces that bodies move in."""
 
 import ctypes
-import threading
-from typing import Any, Iterable, List, Optional, Tuple, Union
+import contextlib
+import time
+from typing import Any, Iterable, List, Optional, Sequence, Tuple, Union
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _arrays, _queries, _structs
 from ._arrays import Floats, Path, Progress
-from ._library import Handle, call, library, run
+from ._library import Handle, StoreLock, call, library, run
+
+_NO_TRIANGLE = 2**64 - 1
+# Seconds in which a store reads a name, if its disk is not slow.
+_FOR_A_NAME = 0.1
 
 
 class SpaceHandle:
     """The handle of a space. A store is used by one thread at a time, which holds `lock`."""
 
-    def __init__(self, lock: Optional[threading.Lock] = None, patience: float = 0.0) -> None:
-        self.handle = Handle("space")
+    def __init__(self, lock: Optional[StoreLock] = None, patience: float = 0.0) -> None:
+        self.handle = Handle("space", lock)
         self.lock = lock
         self.patience = patience
 
@@ -29,7 +34,19 @@ class SpaceHandle:
         call("roam_space_get_facts", self.handle.value, ctypes.byref(facts))
         return facts
 
-    def name_of(self, triangle: int) -> str:
+    def name_of(self, triangle: int, not_yet: Sequence[str] = ("",)) -> str:
+        """A store has another thread read the name; waits a moment while it is one of `not_yet`."""
+        if self.lock is not None:
+            self.lock.check()
+        name = self._known_name_of(triangle)
+        if self.lock is not None and triangle != _NO_TRIANGLE:
+            end = time.monotonic() + _FOR_A_NAME
+            while name in not_yet and time.monotonic() < end:
+                time.sleep(0.002)
+                name = self._known_name_of(triangle)
+        return name
+
+    def _known_name_of(self, triangle: int) -> str:
         number = ctypes.c_uint64(triangle)
         room = 256
         while True:
@@ -43,6 +60,12 @@ class SpaceHandle:
         """Loads what surrounds a body and its motion; nothing to do in a world."""
         call("roam_space_load", self.handle.value, ctypes.byref(query), ctypes.c_double(self.patience), note, None,
              ctypes.byref(ctypes.c_int32()))
+
+    def reason_if_unreadable(self, triangle: int) -> str:
+        """Why a part of a store cannot be read, from the number of an unknown triangle; "" if it can."""
+        not_yet = ("", "not loaded yet")
+        reason = self.name_of(triangle, not_yet) if self.facts().failed else ""
+        return "" if reason in not_yet else reason
 
 
 def world_options(note: Any, threads: int, lossless: bool = False, up: Optional[str] = None,
@@ -72,6 +95,7 @@ class Space:
         if not isinstance(handle, SpaceHandle):
             raise TypeError(f"make a {type(self).__name__} by World.from_arrays, World.open or Store.open")
         self._handle = handle
+        self._facts = handle.facts()  # of a store they cannot be read beside a query; those shown never change
 
     def sweep(self, radius: ArrayLike, from_: ArrayLike, motion: ArrayLike, half_height: ArrayLike = 0.0, *,
               ignored: Iterable[int] = (), progress: Progress = None) -> _queries.Sweep:
@@ -119,36 +143,39 @@ class Space:
         """This space without these objects. It shares the triangles."""
         numbers = np.array(_arrays.objects(objects, "objects"), np.uint32)
         made = SpaceHandle(self._handle.lock, self._handle.patience)
-        call("roam_filtered_create", self._handle.handle.value, made.handle.address)
-        call("roam_filtered_ignore_only", made.handle.value, ctypes.c_void_p(numbers.ctypes.data),
-             ctypes.c_size_t(len(numbers)))
-        return Space(made)
+        with self._handle.lock or contextlib.nullcontext():
+            call("roam_filtered_create", self._handle.handle.value, made.handle.address)
+            call("roam_filtered_ignore_only", made.handle.value, ctypes.c_void_p(numbers.ctypes.data),
+                 ctypes.c_size_t(len(numbers)))
+            return Space(made)
 
     def object_name(self, triangle: int) -> str:
-        """The name of the object of a triangle; "" if there is none."""
-        return self._handle.name_of(_arrays.whole(triangle, "triangle", -1, 2**64 - 1) % 2**64)
+        """The name of the object of a triangle; "" if there is none, or a slow store has not read it yet.
+
+        Of a triangle that is `unknown` it is the reason.
+        """
+        return self._handle.name_of(_arrays.whole(triangle, "triangle", -2**63, 2**64 - 1) % 2**64)
 
     @property
     def bounds(self) -> Floats:
         """The box of all triangles, metres: (2, 3), the lower and the upper corner. NaN for an empty world."""
-        facts = self._handle.facts()
-        box = np.array([_arrays.array3(facts.lower), _arrays.array3(facts.upper)])
+        box = np.array([_arrays.array3(self._facts.lower), _arrays.array3(self._facts.upper)])
         return box if (box[0] <= box[1]).all() else np.full((2, 3), np.nan)
 
     @property
     def triangles(self) -> int:
         """The number of triangles."""
-        return self._handle.facts().triangles
+        return self._facts.triangles
 
     @property
     def objects(self) -> int:
         """The number of objects."""
-        return self._handle.facts().objects
+        return self._facts.objects
 
     @property
     def bytes(self) -> int:
         """Memory for triangles and index; of a store all that it may take."""
-        return self._handle.facts().bytes
+        return self._facts.bytes
 
     def __repr__(self) -> str:
         return f"<roam.{type(self).__name__} of {self.triangles} triangles>"
@@ -228,6 +255,11 @@ class Store(Space):
                                         cache_bytes=_arrays.memory_bytes(cache_size, "cache_size"),
                                         patience=_arrays.positive(web_patience, "web_patience"),
                                         redirects=bool(redirects))
-        text, made = _arrays.path_text(path), SpaceHandle(threading.Lock(), patience)
-        run(None, lambda note: call("roam_store_open", text, ctypes.byref(options), made.handle.address))
+        text, made = _arrays.path_text(path), SpaceHandle(StoreLock(), patience)
+
+        def work(note: Any) -> None:
+            options.progress = note
+            call("roam_store_open", text, ctypes.byref(options), made.handle.address)
+
+        run(None, work)
         return cls(made)

@@ -98,7 +98,7 @@ class Walker:
             call("roam_profile_apply", profile._handle.value, ctypes.byref(settings))
         for name, value in others.items():
             setattr(settings, name, _arrays.number(value, name))
-        self.space, self._handle = space, Handle("walker")
+        self.space, self._handle = space, Handle("walker", space._handle.lock)
         # In a store, walkers and queries wait for each other.
         self._lock = space._handle.lock or threading.Lock()
 
@@ -173,7 +173,7 @@ class Walker:
     def copy(self) -> "Walker":
         """A second body in the same state, such as a snapshot to return to."""
         made = Walker.__new__(Walker)
-        made.space, made._handle = self.space, Handle("walker")
+        made.space, made._handle = self.space, Handle("walker", self._handle.lock)
         made._lock = self.space._handle.lock or threading.Lock()
         with self._lock:
             call("roam_walker_copy", self._handle.value, made._handle.address)

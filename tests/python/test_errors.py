@@ -206,6 +206,18 @@ PROGRAM_THAT_UNLOADS = """
 import _ctypes, numpy as np, roam
 from roam._library import library
 world = roam.World.from_arrays(np.random.default_rng(1).random((30000, 3)), np.arange(30000).reshape(-1, 3))
+def test_a_store_names_its_objects_and_why_space_is_unknown(store):
+    opened = roam.Store.open(store)
+    hit = opened.sweep(0.3, [1, 0, 1.5], [8, 0, 0])
+    assert opened.object_name(hit.triangle) == "wall"
+    assert opened.object_name(-1) == ""
+    hasty = roam.Store.open(store, patience=0).sweep(0.3, [1, 0, 1.5], [8, 0, 0])
+    assert hasty.unknown and hasty.triangle < -1
+    assert roam.Store.open(store).object_name(hasty.triangle) == "not loaded yet"
+    with raises(ValueError, "triangle"):
+        opened.object_name(2**64)
+
+
 _ctypes.dlclose(library._handle)
 print("libroam.so.0" in open("/proc/self/maps").read())
 """
@@ -237,3 +249,39 @@ def test_the_module_may_lie_in_a_folder_below_the_root(monkeypatch):
     assert module._load().roam_version() == roam.__version__.encode()  # which is loaded already
 
 
+FORKED_WHILE_A_THREAD_IS_AT_WORK = PROGRAM_THAT_ENDS + """
+import os, signal, sys
+child = os.fork()
+if child == 0:
+    signal.alarm(20)
+    here = world.sweep(0.3, corners, [1, 0, 0]).hit
+    sys.exit(0 if here.shape == (3000,) else 1)
+print(os.waitpid(child, 0)[1])
+"""
+
+FORKED_WITH_A_STORE = """
+import os, signal, sys, roam
+store = roam.Store.open(sys.argv[1])
+walker = roam.Walker(store.without([]), [1, 0, 1])
+child = os.fork()
+if child == 0:
+    signal.alarm(20)
+    try:
+        for use in (lambda: store.fits(0.3, [1, 0, 1]), lambda: walker.step([1, 0, 0]), lambda: store.object_name(0)):
+            try:
+                use()
+                sys.exit(1)
+            except RuntimeError as error:
+                assert "forked" in str(error)
+        assert store.triangles == 4 and roam.Store.open(sys.argv[1]).fits(0.3, [1, 0, 1])
+    finally:
+        del store, walker
+    sys.exit(0)
+print(os.waitpid(child, 0)[1], store.fits(0.3, [1, 0, 1]))
+"""
+
+
+def test_a_forked_process_needs_no_thread_of_its_parent(store):
+    for program, said in ((FORKED_WHILE_A_THREAD_IS_AT_WORK, "0\n"), (FORKED_WITH_A_STORE, "0 True\n")):
+        ended = subprocess.run([sys.executable, "-c", program, store], capture_output=True, text=True)
+        assert (ended.returncode, ended.stdout, ended.stderr) == (0, said, "")

@@ -197,3 +197,11 @@ def test_bounds_and_counts(room):
     assert room.bounds == pytest.approx(np.array([[0, -4, 0], [9, 5, 3]]), abs=1e-3)
     assert (room.triangles, room.objects) == (4, 2)
     assert room.bytes > 0 and "4 triangles" in repr(room)
+
+
+def test_facts_of_a_store_are_not_read_beside_its_queries(store, monkeypatch):
+    from roam._spaces import SpaceHandle
+    opened = roam.Store.open(store)
+    monkeypatch.delattr(SpaceHandle, "facts")
+    assert (opened.triangles, opened.objects) == (4, 2) and opened.bytes > 0 and "4 triangles" in repr(opened)
+    assert opened.bounds == pytest.approx(np.array([[0, -4, 0], [9, 5, 3]]), abs=1e-3)
