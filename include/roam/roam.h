@@ -60,7 +60,7 @@ extern "C" {
 /* ------------------------------------------------------------------------------------------ versions and errors --- */
 
 /** The interface of this header. It grows whenever a function or a member is added. */
-#define ROAM_INTERFACE 2
+#define ROAM_INTERFACE 3
 
 /** The interface of the library that runs. A program needs one that is >= the ROAM_INTERFACE it was compiled with. */
 ROAM_API uint32_t roam_interface(void);
@@ -144,6 +144,9 @@ typedef struct roam_store_options {
   int32_t redirects;    /**< not 0: redirects to other hosts and folders are followed */
   int32_t reserved_2;   /**< 0 */
 } roam_store_options;
+  /* Since interface 3. */
+  roam_progress progress; /**< while a web server is waited for; gets 0 */
+  void* progress_data;
 
 /**
  * Opens a store, a folder that `roam build` or roam/store_build.h has made, or its address on a web server. Its tiles

@@ -12,7 +12,7 @@ from typing import Any, Callable, Dict, List, Optional, Union
 from ._structs import PROGRESS
 
 # The ROAM_INTERFACE of roam.h that this package is written for.
-_INTERFACE = 2
+_INTERFACE = 3
 # Seconds between two looks at signals.
 _BETWEEN_SIGNALS = 0.03
 

@@ -35,7 +35,7 @@ class StoreOptions(_Sized):
     _fields_ = [("size", ctypes.c_size_t), ("memory", ctypes.c_uint64), ("loaders", ctypes.c_int32),
                 ("reserved", ctypes.c_int32), ("horizon", ctypes.c_double), ("cache", ctypes.c_char_p),
                 ("cache_bytes", ctypes.c_uint64), ("patience", ctypes.c_double), ("redirects", ctypes.c_int32),
-                ("reserved_2", ctypes.c_int32)]
+                ("reserved_2", ctypes.c_int32), ("progress", PROGRESS), ("progress_data", ctypes.c_void_p)]
 
 
 class Facts(_Sized):

@@ -4,13 +4,17 @@
 #include <algorithm>
 #include <chrono>
 #include <cstring>
+#include <future>
+#include <glm/geometric.hpp>
 #include <limits>
 
 #include "c/meshes.h"
 #include "c/space.h"
 #include "c/structs.h"
 #include "c/walker.h"
+#include "process/thread_without_signals.h"
 #include "roam/version.h"
+#include "store/bytes.h"
 #include "store/web_files.h"
 
 namespace roam::c {
@@ -29,6 +33,24 @@ roam_space* new_world(std::span<const Mesh> meshes, const roam_world_options& op
   handle->world = world.get();
   handle->space = std::move(world);
   return handle.release();
+}
+
+/// Opens a store on a web server. A server may be silent for long; so another thread waits for it.
+std::shared_ptr<const Store> opened_there(const char* address, const WebAccess& web, Progress& progress) {
+  constexpr std::chrono::milliseconds between_calls{10};
+  std::stop_source stop;
+  std::packaged_task<std::shared_ptr<const Store>()> task([&] {
+    const store::WebStore there = store::web_store(address, web, stop.get_token());
+    return store::open_store(there.bytes, there.name);
+  });
+  std::future<std::shared_ptr<const Store>> opened = task.get_future();
+  std::thread opening = process::thread_without_signals(std::move(task));
+  while (opened.wait_for(between_calls) != std::future_status::ready) {
+    if (!progress.goes_on(0.0)) stop.request_stop();
+  }
+  opening.join();
+  if (stop.stop_requested()) throw Cancelled();
+  return opened.get();
 }
 
 }  // namespace
@@ -76,7 +98,8 @@ roam_status roam_store_open(const char* path, const roam_store_options* options,
     if (how.patience != 0.0) web.patience = how.patience;
     web.redirects = how.redirects != 0;
     about_arguments([&] { roam::store::check(web); });
-    auto opened = roam::Store::open(path, roam::Store::usual_memory, web);
+    Progress progress(how.progress, how.progress_data);
+    auto opened = roam::Store::is_address(path) ? opened_there(path, web, progress) : roam::Store::open(path);
     auto space = about_arguments([&] { return std::make_shared<StoreSpace>(std::move(opened), pager); });
     auto handle = std::make_unique<roam_space>();
     handle->store = space.get();

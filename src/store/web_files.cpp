@@ -33,8 +33,8 @@ bool is_asked_for(std::string_view file) {
 
 class WebFiles : public StoreBytes {
  public:
-  WebFiles(const web::Address& address, const WebAccess& access)
-      : name_(address.shown()), server_(address, {access.redirects, access.patience}) {
+  WebFiles(const web::Address& address, const WebAccess& access, std::stop_token stop)
+      : name_(address.shown()), stop_(std::move(stop)), server_(address, {access.redirects, access.patience}) {
     if (!access.cache.empty()) cache_.emplace(access.cache, access.cache_bytes);
   }
 
@@ -48,7 +48,7 @@ class WebFiles : public StoreBytes {
     }
     std::vector<std::byte> bytes;
     const web::Answer answer =
-        server_.get({.file = file, .whole = &bytes, .limit = limit, .anew = file == current_file});
+        server_.get({.file = file, .whole = &bytes, .limit = limit, .anew = file == current_file}, stop_);
     const std::string place = name_ + "/" + file;
     if (answer.problem) {
       const bool is_none = answer.missing && file == current_file;
@@ -99,6 +99,7 @@ class WebFiles : public StoreBytes {
   }
 
   std::string name_;
+  std::stop_token stop_;
   std::optional<web::DiskCache> cache_;
   web::Server server_;
 };
@@ -114,14 +115,14 @@ void check(const WebAccess& access) {
   }
 }
 
-WebStore web_store(const std::string& text, const WebAccess& access) {
+WebStore web_store(const std::string& text, const WebAccess& access, std::stop_token stop) {
   check(access);
   web::Address address(text);
   if (!access.query.empty()) {
     if (!address.query().empty()) throw Error(address.shown(), "the address has a query already; give it one");
     address = web::Address(address.shown() + "?" + access.query);
   }
-  return {std::make_shared<WebFiles>(address, access), address.shown()};
+  return {std::make_shared<WebFiles>(address, access, std::move(stop)), address.shown()};
 }
 
 }  // namespace roam::store

@@ -62,6 +62,14 @@ TEST(CErrors, ACacheIsForWebServersAndHasASize) {
   EXPECT_NE(std::string(roam_error()).find("patience"), std::string::npos) << roam_error();
 }
 
+TEST(CErrors, AServerThatIsWaitedForCanBeLeft) {
+  roam_store_options options{};
+  options.size = sizeof options;
+  options.progress = [](double done, void*) { return done == 0.0 ? 1 : 0; };
+  roam_space* store = nullptr;
+  EXPECT_EQ(roam_store_open("http://127.0.0.1:1/x.roam", &options, &store), ROAM_CANCELLED) << roam_error();
+}
+
 TEST(CErrors, AddressesOfTheWrongKind) {
   roam_space* space = nullptr;
   EXPECT_NE(roam_world_open("http://127.0.0.1:1/x.roam?sig=SECRET", nullptr, &space), ROAM_OK);

@@ -39,6 +39,8 @@ int main(void) {
   MEMBER(roam_store_options, patience);
   MEMBER(roam_store_options, redirects);
   MEMBER(roam_store_options, reserved_2);
+  MEMBER(roam_store_options, progress);
+  MEMBER(roam_store_options, progress_data);
   SIZE(roam_space_facts);
   MEMBER(roam_space_facts, size);
   MEMBER(roam_space_facts, lower);

@@ -242,6 +242,10 @@ begun.wait()
 
 def test_a_daemon_thread_at_work_ends_with_the_program():
     ended = subprocess.run([sys.executable, "-c", PROGRAM_THAT_ENDS], capture_output=True, text=True)
+def test_ctrl_c_ends_the_wait_for_a_web_server():
+    assert interrupted(lambda: roam.Store.open("http://127.0.0.1:1/x.roam", web_patience=60)) < 30
+
+
     assert (ended.returncode, ended.stdout, ended.stderr) == (0, "", "")
 def test_the_module_may_lie_in_a_folder_below_the_root(monkeypatch):
     module = sys.modules["roam._library"]
