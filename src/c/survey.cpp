@@ -161,7 +161,8 @@ roam_status roam_train(const roam_survey* survey, const roam_train_options* opti
 roam_status roam_profile_load(const char* file, roam_profile** profile) {
   return guarded(file, [&] {
     (void)needed(file, "the path");
-    needed(profile, "the address for the profile") = new roam_profile{roam::load_profile(file)};
+    (void)needed(profile, "the address for the profile");
+    *profile = new roam_profile{roam::load_profile(file)};
   });
 }
 

@@ -108,7 +108,10 @@ roam_status roam_walker_create(const roam_space* space, const roam_walker_settin
 }
 
 roam_status roam_walker_copy(const roam_walker* walker, roam_walker** copy) {
-  return guarded([&] { needed(copy, "the address for the walker") = new roam_walker(needed(walker, "the walker")); });
+  return guarded([&] {
+    (void)needed(copy, "the address for the walker");
+    *copy = new roam_walker(needed(walker, "the walker"));
+  });
 }
 
 void roam_walker_free(roam_walker* walker) { delete walker; }

@@ -161,6 +161,13 @@ TEST(CErrors, MeshesThatAreWrong) {
   roam_space_free(world);
 }
 
+TEST(CErrors, ANullForTheResultIsSeenFirst) {
+  EXPECT_EQ(roam_profile_load("/nowhere/house.json", nullptr), ROAM_INVALID);
+  EXPECT_STREQ(roam_error(), "the address for the profile is NULL; it is needed");
+  EXPECT_EQ(roam_walker_copy(nullptr, nullptr), ROAM_INVALID);
+  EXPECT_STREQ(roam_error(), "the address for the walker is NULL; it is needed");
+}
+
 TEST(CErrors, EachThreadHasItsText) {
   roam_space* world = nullptr;
   EXPECT_EQ(roam_world_open("/nowhere/a.obj", nullptr, &world), ROAM_NOT_FOUND);
