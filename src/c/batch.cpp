@@ -17,8 +17,8 @@
 namespace roam::c {
 namespace {
 
-/// Queries that one core takes at a time: some 0.1 ms.
-constexpr std::size_t at_a_time = 64;
+/// Results that one core computes at a time: some 0.1 ms.
+constexpr std::size_t results_at_a_time = 64;
 
 template <class T>
 T read(const roam_input& from, std::size_t i) {
@@ -105,6 +105,7 @@ void compute_all(const roam_batch& batch, const Compute& compute) {
   std::mutex refusing;
   std::string why;  // of the first; computed again, its input might have changed
   std::atomic<bool> cancelled{false};
+  const std::size_t at_a_time = std::max<std::size_t>(1, results_at_a_time / std::max<std::size_t>(1, batch.most));
   const auto compute_some = [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end && i < refused && !cancelled; ++i) {
       try {

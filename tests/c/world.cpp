@@ -156,6 +156,28 @@ TEST(CWorld, BatchesOfContactsFillAllTheirRoom) {
   EXPECT_GT(all, 100u);
 }
 
+TEST(CWorld, ABatchOfContactsThatAreManyCallsBackBetweenItsQueries) {
+  const c_rig::Room room;
+  const Vec3 from(1, 0, 1);
+  std::vector<std::uint8_t> hit(64 * 64);
+  std::vector<double> seen;
+  roam_batch batch{};
+  batch.size = sizeof batch;
+  batch.count = 64;
+  batch.from = {&from, 0};
+  batch.reach = 10.0;
+  batch.most = 64;
+  batch.hit = {hit.data(), 64};
+  batch.progress = [](double done, void* data) {
+    static_cast<std::vector<double>*>(data)->push_back(done);
+    return 0;
+  };
+  batch.progress_data = &seen;
+  ASSERT_EQ(roam_contacts_batch(room.handle, &batch), ROAM_OK) << roam_error();
+  ASSERT_FALSE(seen.empty());
+  EXPECT_LT(seen[0], 1.0);
+}
+
 TEST(CWorld, IgnoresObjects) {
   const c_rig::Room room;
   roam_query query{};
