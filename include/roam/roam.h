@@ -38,7 +38,8 @@
  *
  * Threads. Calls that take a handle as pointer to const may run at the same time in any threads. Calls that take it
  * otherwise need it alone. The library keeps no global state but the text of roam_error(), which each thread has.
- * It has threads of its own, so dlclose() does not unload it.
+ * It has threads of its own, so dlclose() does not unload it. A child of fork() lacks them: it must not use or free its
+ * parent's stores, nor what was made in them.
  *
  * Callbacks. A roam_progress is called by one thread at a time, not always the caller's, several times a second.
  * It returns 0 to go on, or another number to make the function return ROAM_CANCELLED soon. It must not throw.
@@ -143,10 +144,10 @@ typedef struct roam_store_options {
   double patience;      /**< seconds that a failing request is tried again; 0: 20 */
   int32_t redirects;    /**< not 0: redirects to other hosts and folders are followed */
   int32_t reserved_2;   /**< 0 */
-} roam_store_options;
   /* Since interface 3. */
   roam_progress progress; /**< while a web server is waited for; gets 0 */
   void* progress_data;
+} roam_store_options;
 
 /**
  * Opens a store, a folder that `roam build` or roam/store_build.h has made, or its address on a web server. Its tiles
@@ -177,8 +178,10 @@ typedef struct roam_space_facts {
 ROAM_API roam_status roam_space_get_facts(const roam_space* space, roam_space_facts* facts);
 
 /**
- * The name of the object of a triangle, as snprintf: writes at most `capacity` bytes with the final 0, and returns
- * the length of the whole name. 0: no name, or no memory for it. For unknown space it is the reason.
+ * The name of the object of a triangle, as snprintf: writes at most `capacity` bytes with the final 0, and returns the
+ * length of the whole name. 0: no name, or no memory for it. A thread of a store reads its names. It is 0 until then:
+ * call again some milliseconds later. For unknown space the name is the reason: "not loaded yet", or why it cannot be
+ * used.
  */
 ROAM_API size_t roam_object_name(const roam_space* space, uint64_t triangle, char* name, size_t capacity);
 
@@ -288,7 +291,8 @@ typedef struct roam_batch {
 /*
  * The functions above for all queries, on all cores. Results are, to the bit, those of single queries. A query with an
  * error is named by its number; after an error or a cancellation the outputs have unspecified values. A sweep without
- * the outputs gap, point, normal and feature is faster.
+ * the outputs gap, point, normal and feature is faster. For a body that does not fit, the other outputs say what is in
+ * the way.
  */
 ROAM_API roam_status roam_sweep_batch(const roam_space* space, const roam_batch* batch);
 ROAM_API roam_status roam_clearance_batch(const roam_space* space, const roam_batch* batch);
@@ -360,7 +364,7 @@ typedef struct roam_step {
   size_t size;
   roam_vec3 from, to;    /**< the centre before and after */
   double radius, height; /**< of the body now */
-  double gap;            /**< certified, at `to`; negative or 0: none */
+  double gap;            /**< certified, at `to`; negative or 0: none, as of a ghost, or of a body that overlaps */
   double least_gap;      /**< certified, over the whole move */
   double length;         /**< of the way, without being put elsewhere */
   double elapsed;        /**< simulated time: dt, or a part of it if the step was too complex */
@@ -404,7 +408,10 @@ ROAM_API roam_status roam_walker_place_feet(roam_walker* walker, roam_vec3 feet,
 ROAM_API roam_status roam_walker_set_mode(roam_walker* walker, int32_t mode, roam_step* step);
 ROAM_API roam_status roam_walker_get_state(const roam_walker* walker, roam_walker_state* state);
 ROAM_API roam_status roam_walker_get_settings(const roam_walker* walker, roam_walker_settings* settings);
-/** The contacts of the last call, at most 8, as roam_contacts(). */
+/**
+ * The contacts of the last call, each once, in the order in which they were last touched: the last one stops a blocked
+ * body. Of more than 8, the first 7 and the last. `gap` is to the plane of the contact where the body stopped.
+ */
 ROAM_API roam_status roam_walker_get_contacts(const roam_walker* walker, roam_contact* contacts, size_t capacity,
                                               size_t* count);
 
@@ -414,8 +421,10 @@ ROAM_API roam_status roam_walker_get_contacts(const roam_walker* walker, roam_co
  */
 ROAM_API roam_status roam_space_update(roam_space* space, const roam_walker* walker, int32_t* changed);
 /**
- * Loads the surroundings of a body and of its motion from a store, for at most `seconds`. Writes whether all of it is
- * known or known to be unreadable: 1 or 0. Always 1 in a world.
+ * Loads the surroundings of a body and of its motion from a store, for at most `seconds`: 4 m around the body, or the
+ * motion's length if that is more. Before roam_clearance() and roam_contacts() add their reach to the radius. Writes
+ * whether all of it is known or known to be unreadable: 1 or 0. 0 for a motion longer than 1000 m, of which it loads no
+ * more. Always 1 in a world.
  */
 ROAM_API roam_status roam_space_load(roam_space* space, const roam_query* query, double seconds, roam_progress progress,
                                      void* progress_data, int32_t* complete);
@@ -428,7 +437,7 @@ typedef struct roam_route_options {
   double dt;              /**< of one step; 0: 1/60 */
   double patience;        /**< time without progress after which the body is blocked; 0: 1 */
   double wait;            /**< real time to wait for a store after its last change; 0: 10 */
-  roam_progress progress; /**< gets the fraction of the waypoints reached */
+  roam_progress progress; /**< gets the fraction of the waypoints reached; in a store 0 */
   void* progress_data;
 } roam_route_options;
 

@@ -176,6 +176,8 @@ roam_status roam_contacts_batch(const roam_space* space, const roam_batch* batch
 
 roam_status roam_fits_batch(const roam_space* space, const roam_batch* batch) {
   return run(space, batch, [](const roam::Space& in, const Batch& all, std::size_t i) {
-    write(all.it.hit, i, 0, static_cast<std::uint8_t>(fits_at(in, all.query(i))));
+    const Fit found(in, all.query(i));
+    all.put(i, 0, c_of(found.nearest));
+    write(all.it.hit, i, 0, static_cast<std::uint8_t>(found.fits));
   });
 }

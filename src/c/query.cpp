@@ -110,6 +110,6 @@ roam_status roam_contacts(const roam_space* space, const roam_query* query, doub
 roam_status roam_fits(const roam_space* space, const roam_query* query, int32_t* fits) {
   return guarded([&] {
     (void)needed(fits, "the address for the result");
-    *fits = fits_at(*needed(space, "the space").space, Given(query).it) ? 1 : 0;
+    *fits = Fit(*needed(space, "the space").space, Given(query).it).fits ? 1 : 0;
   });
 }

@@ -20,10 +20,15 @@ void put_contacts(std::span<const Contact> contacts, roam_contact* to, std::size
 /// Throws Invalid unless ObjectFilter can search them.
 void check_ascending(std::span<const ObjectId> objects);
 
-/// Space::fits, with a filter.
-[[nodiscard]] inline bool fits_at(const Space& space, const Query& query) {
-  constexpr double least_gap = 1e-6;
-  return space.clearance({query.body, query.from, Vec3(0.0), query.ignored}, least_gap).distance >= least_gap;
-}
+/// Space::fits, with a filter: whether the body fits, and what is in the way.
+struct Fit {
+  Fit(const Space& space, const Query& query)
+      : nearest(space.clearance({query.body, query.from, Vec3(0.0), query.ignored}, least_gap)),
+        fits(nearest.distance >= least_gap) {}
+
+  static constexpr double least_gap = 1e-6;
+  Clearance nearest;
+  bool fits;
+};
 
 }  // namespace roam::c

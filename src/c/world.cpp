@@ -207,6 +207,6 @@ roam_status roam_space_load(roam_space* space, const roam_query* query, double s
       if (known || left <= 0.0) break;
       goes_on.check(std::min(1.0, 1.0 - left / seconds));
     }
-    *complete = known ? 1 : 0;
+    *complete = known && glm::length(cpp_of(what.motion)) <= roam::Space::reach_limit ? 1 : 0;
   });
 }

@@ -119,6 +119,12 @@ TEST(CWalker, WalksInAStore) {
   EXPECT_EQ(impact.hit, 1);
   EXPECT_EQ(impact.unknown, 0);
   EXPECT_NEAR(8.0 * impact.time, 3.7, 0.003);
+  query.motion = {1000, 0, 0};
+  ASSERT_EQ(roam_space_load(store, &query, 20.0, nullptr, nullptr, &complete), ROAM_OK) << roam_error();
+  EXPECT_EQ(complete, 1);
+  query.motion = {1001, 0, 0};
+  ASSERT_EQ(roam_space_load(store, &query, 20.0, nullptr, nullptr, &complete), ROAM_OK) << roam_error();
+  EXPECT_EQ(complete, 0) << "of a motion longer than it can load";
 
   const roam_walker_settings settings = person();
   roam_walker* walker = nullptr;

@@ -210,6 +210,31 @@ TEST(CWorld, IgnoresObjects) {
   roam_space_free(without);
 }
 
+TEST(CWorld, ABatchOfFitsSaysWhatIsInTheWay) {
+  const c_rig::Room room;
+  const Vec3 from[2] = {{1, 0, 1}, {4.9, 0, 1}};
+  const double radius = 0.3;
+  std::uint8_t fits[2] = {7, 7}, unknown[2] = {7, 7};
+  std::uint64_t triangle[2] = {};
+  std::uint32_t object[2] = {};
+  roam_batch batch{};
+  batch.size = sizeof batch;
+  batch.count = 2;
+  batch.from = {from, sizeof(Vec3)};
+  batch.radius = {&radius, 0};
+  batch.hit = {fits, 1};
+  batch.unknown = {unknown, 1};
+  batch.triangle = {triangle, sizeof(std::uint64_t)};
+  batch.object = {object, sizeof(std::uint32_t)};
+  ASSERT_EQ(roam_fits_batch(room.handle, &batch), ROAM_OK) << roam_error();
+  EXPECT_EQ(fits[0], 1);
+  EXPECT_EQ(triangle[0], ROAM_NO_TRIANGLE);
+  EXPECT_EQ(fits[1], 0);
+  EXPECT_TRUE(triangle[1] == 2 || triangle[1] == 3) << triangle[1];
+  EXPECT_EQ(object[1], 1u);
+  EXPECT_EQ(unknown[0] + unknown[1], 0);
+}
+
 TEST(CWorld, NamesTheFirstQueryThatIsRefused) {
   const c_rig::Room room;
   std::vector<Vec3> from(5000, Vec3(1, 0, 1));
