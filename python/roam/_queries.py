@@ -11,7 +11,7 @@ from . import _structs
 from ._arrays import Floats, Progress, check_memory, lengths, number, objects, positions
 from ._library import call, run
 
-# So few queries are done before a thread has begun.
+# So few results are there before a thread has begun.
 _FEW = 256
 
 
@@ -90,8 +90,8 @@ class Batch:
             setattr(batch, member, _structs.Output(array.ctypes.data, array.strides[0]))
         kept = (self, results, left_out)  # as long as the work, which knows only their addresses
         if space.is_store:
-            run(progress, lambda note, kept=kept: _in_store(space, function, batch, note), space.lock)
-        elif self.count <= _FEW and progress is None:
+            run(progress, lambda note, kept=kept: _in_store(space, function, batch, results, note), space.lock)
+        elif self.count * most <= _FEW and progress is None:
             call(function, space.handle.value, ctypes.byref(batch))
         else:
             def work(note: Any, kept: Any = kept) -> None:
@@ -112,35 +112,49 @@ class Batch:
         return {name: array[0] for name, array in results.items()} if self.single else results
 
 
-def _in_store(space: Any, function: str, batch: _structs.Batch, note: Any) -> None:
-    """One query after another: each first loads what it needs."""
+def _in_store(space: Any, function: str, batch: _structs.Batch, results: Dict[str, NDArray[Any]], note: Any) -> None:
+    """One query after another: each that meets unknown space loads what it needs, and is made again."""
     columns = [(name, kind, getattr(batch, name).data, getattr(batch, name).stride)
                for name, kind in batch._fields_ if kind in (_structs.Input, _structs.Output)]
     count, batch.count = batch.count, 1
+    i = 0
+    loading = _structs.PROGRESS(lambda _done, _data: note(i / count, None))  # of queries, not of the time to load
+
+    def met_unknown() -> Optional[int]:
+        """Makes query i. Returns the first number of unknown space in its results."""
+        try:
+            call(function, space.handle.value, ctypes.byref(batch))
+        except ValueError as error:
+            raise ValueError(str(error).replace("query 0", f"query {i}", 1)) from None
+        met = np.flatnonzero(results["unknown"][i])
+        return int(np.ravel(results["triangle"][i])[met[0]]) % 2**64 if len(met) > 0 else None
+
     for i in range(count):
         if note(i / count, None):
             return
         for name, kind, data, stride in columns:
             if data:
                 setattr(batch, name, kind(data + i * stride, stride))
-        query = _structs.Query(radius=_value(batch.radius), half_height=_value(batch.half_height))
-        setattr(query, "from", _structs.Vec3.from_address(getattr(batch, "from").data))
-        if batch.motion.data:
-            query.motion = _structs.Vec3.from_address(batch.motion.data)
-        space.load(query, note)
-        call(function, space.handle.value, ctypes.byref(batch))
-        impact = _structs.Impact()
-        if space.facts().failed and _meets_unknown(space, query, impact):
-            raise OSError(f"query {i} meets a part of the store that cannot be read: {space.name_of(impact.triangle)}")
+        if met_unknown() is None:
+            continue
+        space.load(_surroundings(batch), loading)
+        triangle = met_unknown()
+        reason = "" if triangle is None else space.reason_if_unreadable(triangle)
+        if reason:
+            raise OSError(f"query {i} meets a part of the store that cannot be read: {reason}")
+
+
+def _surroundings(batch: _structs.Batch) -> _structs.Query:
+    """The body and motion of one query, with a radius that contains all within its reach."""
+    body = _structs.Query(radius=min(1000.0, _value(batch.radius) + batch.reach), half_height=_value(batch.half_height))
+    setattr(body, "from", _structs.Vec3.from_address(getattr(batch, "from").data))
+    if batch.motion.data:
+        body.motion = _structs.Vec3.from_address(batch.motion.data)
+    return body
 
 
 def _value(column: _structs.Input) -> float:
     return ctypes.c_double.from_address(column.data).value if column.data else 0.0
-
-
-def _meets_unknown(space: Any, query: _structs.Query, impact: _structs.Impact) -> bool:
-    call("roam_sweep", space.handle.value, ctypes.byref(query), ctypes.byref(impact))
-    return bool(impact.unknown)
 
 
 _NEAR = {"gap": np.float64, "point": (np.float64, 3), "normal": (np.float64, 3), "triangle": np.int64,
@@ -178,6 +192,7 @@ def contacts(space: Any, batch: Batch, reach: float, most: int, ignored: Iterabl
 
 
 def fits(space: Any, batch: Batch, ignored: Iterable[int], progress: Progress) -> Any:
-    results = batch.room({"hit": np.bool_})
+    in_the_way = {"triangle": np.int64, "unknown": np.bool_} if space.is_store else {}
+    results = batch.room({"hit": np.bool_, **in_the_way})
     batch.run(space, "roam_fits_batch", results, ignored, progress)
     return batch.shaped(results)["hit"]

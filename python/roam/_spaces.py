@@ -233,8 +233,8 @@ class Store(Space):
     """A scene on disk or on a web server, of any size, in fixed memory. `roam build` makes one.
 
     Each query first loads what it needs; so queries run one after another. Space that does not fit into memory, or does
-    not come within `patience` seconds, is `unknown` in the results, and hit as if it were solid. OSError if it cannot
-    be read.
+    not come within `patience` seconds, is `unknown` in the results, and hit as if it were solid; so is what lies more
+    than 1000 m from the start of a motion. OSError if it cannot be read. After os.fork(), open a store anew.
     """
 
     @classmethod

@@ -155,6 +155,7 @@ class Walker:
         waypoints  (N, 3): positions of the centre
         speed      m/s;  dt  seconds of a step;  patience  seconds without progress after which the body is blocked
         wait       seconds of real time to wait for a store
+        progress   gets the fraction of the waypoints reached; in a store 0
         """
         path = np.require(np.atleast_2d(_arrays.positions(waypoints, "waypoints")), requirements="CA")
         options, end = _structs.RouteOptions(), _structs.RouteResult()

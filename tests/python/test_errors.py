@@ -151,18 +151,71 @@ def test_a_store_answers_as_its_scene(room, store, tmp_path):
     assert time.monotonic() - begin < 10
 
 
+def test_a_store_loads_all_that_is_within_reach(room, store):
+    opened, place = roam.Store.open(store), [[4, 0, 30]]
+    near = opened.clearance(0.0, place, reach=50)
+    assert not near.unknown.any() and near.gap == pytest.approx(room.clearance(0.0, place, reach=50).gap, abs=1e-3)
+    opened = roam.Store.open(store)
+    contacts = opened.contacts(0.0, place, reach=50)
+    assert contacts.count == [4] and not contacts.unknown.any()
+
+
+def test_a_bad_row_of_a_store_is_named_before_anything_loads(store):
+    opened = roam.Store.open(store, patience=1e6)
+    from_ = np.array([[1, 0, 1.5]] * 9)
+    motion = np.array([[0, 0, 100.0]] * 9)
+    motion[7, 0] = np.nan
+    with raises(ValueError, "query 7: cannot answer a query: the motion is not finite"):
+        opened.sweep(0.3, from_, motion)
+    motion[3] = 2e6
+    with raises(ValueError, "query 3: .*motion"):
+        opened.sweep(0.3, from_, motion)
+
+
+def test_progress_in_a_store_counts_queries(store, monkeypatch):
+    from roam._spaces import SpaceHandle
+    seen = []
+
+    def load(_self, _query, note):
+        for _ in range(4):
+            note(0.9, None)  # of the time
+            time.sleep(0.05)
+
+    monkeypatch.setattr(SpaceHandle, "load", load)
+    roam.Store.open(store).fits(0.3, [1, 0, 1.5], progress=seen.append)
+    assert seen and max(seen) == 0
+
+
 def test_a_store_whose_files_are_cut_off(store):
     opened = roam.Store.open(store)
     for pack in pathlib.Path(store).glob("packs/*"):
         os.chmod(pack, 0o644)
         os.truncate(pack, 0)
-    with raises(OSError, "query 0", "cannot be read"):
+    with raises(OSError, "query 0", "cannot be read: .* cannot be used: "):
         opened.sweep(0.3, [[1, 0, 1.5]], [[8, 0, 0]])
+    assert opened.fits(0.3, [4, 0, 30]) and opened.clearance(0.3, [4, 0, 30], 5).gap == 5
+    with raises(OSError, "cannot be read: .* cannot be used: "):
+        opened.fits(0.3, [1, 0, 1.5])
+    for query in opened.clearance, opened.contacts:
+        with raises(OSError, "query 1", "cannot be read: .* cannot be used: "):
+            query(0.3, [[4, 0, 90], [4, 0, 30]], 50)
     shutil.rmtree(store)
     with pytest.raises(OSError):
         opened.sweep(0.3, [[1, 0, 1.5]], [[8, 0, 0]])
     with pytest.raises(FileNotFoundError):
         roam.Store.open(store)
+
+
+def test_a_store_names_its_objects_and_why_space_is_unknown(store):
+    opened = roam.Store.open(store)
+    hit = opened.sweep(0.3, [1, 0, 1.5], [8, 0, 0])
+    assert opened.object_name(hit.triangle) == "wall"
+    assert opened.object_name(-1) == ""
+    hasty = roam.Store.open(store, patience=0).sweep(0.3, [1, 0, 1.5], [8, 0, 0])
+    assert hasty.unknown and hasty.triangle < -1
+    assert roam.Store.open(store).object_name(hasty.triangle) == "not loaded yet"
+    with raises(ValueError, "triangle"):
+        opened.object_name(2**64)
 
 
 def interrupted(call):
@@ -189,6 +242,10 @@ def test_ctrl_c_ends_a_batch(clutter_world):
     assert min(interrupted(lambda: clutter_world.fits(0.3, from_, 0.2)) for _ in range(3)) < 1.0
 
 
+def test_ctrl_c_ends_the_wait_for_a_web_server():
+    assert interrupted(lambda: roam.Store.open("http://127.0.0.1:1/x.roam", web_patience=60)) < 30
+
+
 def test_an_exception_in_progress_ends_the_call(clutter, clutter_world):
     seen = []
 
@@ -202,22 +259,16 @@ def test_an_exception_in_progress_ends_the_call(clutter, clutter_world):
     assert len(seen) == 2 and all(0 <= done <= 1 for done in seen)
 
 
+def test_the_module_may_lie_in_a_folder_below_the_root(monkeypatch):
+    module = sys.modules["roam._library"]
+    monkeypatch.setattr(module, "__file__", "/app/roam/_library.py")
+    assert module._load().roam_version() == roam.__version__.encode()  # which is loaded already
+
+
 PROGRAM_THAT_UNLOADS = """
 import _ctypes, numpy as np, roam
 from roam._library import library
 world = roam.World.from_arrays(np.random.default_rng(1).random((30000, 3)), np.arange(30000).reshape(-1, 3))
-def test_a_store_names_its_objects_and_why_space_is_unknown(store):
-    opened = roam.Store.open(store)
-    hit = opened.sweep(0.3, [1, 0, 1.5], [8, 0, 0])
-    assert opened.object_name(hit.triangle) == "wall"
-    assert opened.object_name(-1) == ""
-    hasty = roam.Store.open(store, patience=0).sweep(0.3, [1, 0, 1.5], [8, 0, 0])
-    assert hasty.unknown and hasty.triangle < -1
-    assert roam.Store.open(store).object_name(hasty.triangle) == "not loaded yet"
-    with raises(ValueError, "triangle"):
-        opened.object_name(2**64)
-
-
 _ctypes.dlclose(library._handle)
 print("libroam.so.0" in open("/proc/self/maps").read())
 """
@@ -242,15 +293,7 @@ begun.wait()
 
 def test_a_daemon_thread_at_work_ends_with_the_program():
     ended = subprocess.run([sys.executable, "-c", PROGRAM_THAT_ENDS], capture_output=True, text=True)
-def test_ctrl_c_ends_the_wait_for_a_web_server():
-    assert interrupted(lambda: roam.Store.open("http://127.0.0.1:1/x.roam", web_patience=60)) < 30
-
-
     assert (ended.returncode, ended.stdout, ended.stderr) == (0, "", "")
-def test_the_module_may_lie_in_a_folder_below_the_root(monkeypatch):
-    module = sys.modules["roam._library"]
-    monkeypatch.setattr(module, "__file__", "/app/roam/_library.py")
-    assert module._load().roam_version() == roam.__version__.encode()  # which is loaded already
 
 
 FORKED_WHILE_A_THREAD_IS_AT_WORK = PROGRAM_THAT_ENDS + """

@@ -180,6 +180,16 @@ def test_ten_thousand_calls_leave_no_memory(room):
     assert resident() - before < 10_000 * 100  # bytes a call
 
 
+def test_a_batch_of_many_contacts_can_be_interrupted(room, monkeypatch):
+    from roam import _queries
+    began, run = [], _queries.run
+    monkeypatch.setattr(_queries, "run", lambda *arguments: (began.append(1), run(*arguments)))
+    room.contacts(0.1, np.zeros((2, 3)), 5.0, most=10)
+    assert not began
+    room.contacts(0.1, np.zeros((2, 3)), 1000.0, most=1000)
+    assert began  # in another thread, while this one takes signals
+
+
 def test_references_are_given_back(room):
     from_, motion = np.zeros((300, 3)), np.ones((300, 3))
     before = sys.getrefcount(from_), sys.getrefcount(motion)
