@@ -174,6 +174,9 @@ class Manipulator : public osgGA::CameraManipulator {
   [[nodiscard]] const Controls& controls() const;
   /// Called with the name of a command of Kind::pressed that is not the manipulator's own, when its key goes down.
   void setCommandCallback(std::function<void(const std::string& name)> callback);
+  /// Does what a press of its key does, for menus and buttons. False if it is no command of Kind::pressed, or nothing
+  /// is done.
+  bool run(std::string_view command);
   /// Whether a key of the command is down.
   [[nodiscard]] bool down(std::string_view command) const;
   void releaseKeys();

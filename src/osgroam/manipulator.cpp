@@ -237,6 +237,16 @@ void Manipulator::setCommandCallback(std::function<void(const std::string& name)
   _state->on_command = std::move(callback);
 }
 
+bool Manipulator::run(std::string_view command) {
+  State& s = *_state;
+  const Controls::Command* const found = s.keys.find(command);
+  if (!found || found->kind != Controls::Kind::pressed) return false;
+  const double now = s.last_time.value_or(0.0);
+  const bool taken = s.press(*found, now);
+  if (std::exchange(s.home_wanted, false)) home(now);
+  return taken;
+}
+
 bool Manipulator::down(std::string_view command) const { return _state->keyboard.is_down(_state->keys, command); }
 
 void Manipulator::releaseKeys() {

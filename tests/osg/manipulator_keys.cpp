@@ -36,6 +36,27 @@ TEST(ManipulatorKeys, EachKeyGoesItsWay) {
   }
 }
 
+TEST(ManipulatorKeys, DoWhatTheirCommandsDoByName) {
+  Standing r;
+  std::string called;
+  r->setCommandCallback([&](const std::string& name) { called = name; });
+  r->controls().add("plan", "L", "shows a plan", osgRoam::Controls::Kind::pressed);
+  EXPECT_TRUE(r->run("plan"));
+  EXPECT_EQ(called, "plan");
+  int jumps = 0;
+  r->setStepCallback(
+      [&](const roam::StepReport& report, double) { jumps += report.has(roam::EventKind::jumped) ? 1 : 0; });
+  EXPECT_TRUE(r->run("jump"));
+  r.frames(1.0);
+  EXPECT_EQ(jumps, 1);
+  r->setHomePose({5.0, 0.0, 1.6}, 0.0, 0.0);
+  EXPECT_TRUE(r->run("home"));
+  EXPECT_NEAR(r.at().x, 5.0, 1e-6);
+  EXPECT_TRUE(r->run("gravity"));
+  EXPECT_EQ(r->mode(), roam::Mode::fly);
+  for (const char* no_press : {"forward", "look", "release", "nothing"}) EXPECT_FALSE(r->run(no_press)) << no_press;
+}
+
 TEST(ManipulatorKeys, FlyingGoesWhereOneLooksAndWalkingStaysLevel) {
   for (const roam::Mode mode : {roam::Mode::fly, roam::Mode::walk}) {
     Standing r(mode);

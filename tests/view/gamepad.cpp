@@ -155,18 +155,34 @@ TEST(Gamepad, TypesNothingIntoAQuestion) {
   d.begin();
   d.run(0.5);
   const osg::ref_ptr<Prompt> prompt = new Prompt(d.session->stage());
-  Controllers controllers(d.session->stage(), d.session->roamer(), *prompt, 1.0);
+  Controllers controllers(*d.session, *prompt, 1.0);
   PadState pad;
   pad.present = true;
   pad.left = {0.0, -1.0};
   pad.buttons[static_cast<std::size_t>(PadButton::start)] = true;
   prompt->ask("Name", {}, [](const std::string&) {});
-  d.events().clear();
-  controllers.take(pad, {}, true);
-  EXPECT_TRUE(d.events().empty());
+  controllers.take(pad, {});
+  EXPECT_FALSE(d.session->stage().hud().help_shown());
   const double before = d.place().x;
   d.run(0.5);
   EXPECT_DOUBLE_EQ(d.place().x, before) << "nor does it lead";
+}
+
+TEST(Gamepad, TypesNothingIntoAList) {
+  view_stores::Driven d;
+  d.write_scene();
+  d.options.size = "640x360";
+  d.begin();
+  const osg::ref_ptr<Prompt> prompt = new Prompt(d.session->stage());
+  Controllers controllers(*d.session, *prompt, 1.0);
+  d.session->run("layers");
+  PadState pad;
+  pad.present = true;
+  pad.buttons[static_cast<std::size_t>(PadButton::x)] = true;
+  controllers.take(pad, {});
+  d.run(0.1);
+  EXPECT_EQ(d.session->roamer().mode(), roam::Mode::fly);
+  EXPECT_TRUE(contains(d.hud(), "[x] ceiling")) << "the letter of the button's key finds no ceiling: " << d.hud();
 }
 
 #ifdef ROAM_WITH_SDL

@@ -480,6 +480,30 @@ TEST(Menu, ReachesCommandsWithCtrl) {
   std::filesystem::current_path(before);
 }
 
+TEST(Menu, ReachesCommandsWithCtrlInEveryCamera) {
+  Tooled d;
+  choose(d, "cameras");
+  choose(d, "layers");
+  EXPECT_TRUE(contains(d.hud(), "Objects: ")) << d.hud();
+  EXPECT_EQ(d.session->tools().plan().size(), graphics::PlanSize::none) << "which is on the same key without Ctrl";
+}
+
+TEST(Menu, TypesNothingIntoQuestionsAndLists) {
+  Tooled d;
+  d.tap('b');
+  d.session->run("name_bookmark");
+  choose(d, "measure");
+  EXPECT_TRUE(d.session->tools().is_measuring());
+  EXPECT_TRUE(contains(d.hud(), "Name of the bookmark: _")) << d.hud();
+  d.tap(osgGA::GUIEventAdapter::KEY_Escape);
+  d.session->run("layers");
+  choose(d, "measure");
+  EXPECT_FALSE(d.session->tools().is_measuring());
+  choose(d, "cameras");
+  EXPECT_FALSE(d.session->roamer_leads());
+  EXPECT_TRUE(contains(d.hud(), "[x] ceiling")) << "the letters are not searched: " << d.hud();
+}
+
 TEST(Menu, HasAllCommandsInASmallWindow) {
   Tooled d;  // of 640 x 360
   graphics::Hud& hud = d.session->stage().hud();

@@ -1,5 +1,6 @@
 #include "view/cameras.h"
 
+#include <algorithm>
 #include <osgGA/DriveManipulator>
 #include <osgGA/FirstPersonManipulator>
 #include <osgGA/FlightManipulator>
@@ -8,6 +9,7 @@
 #include <osgGA/TerrainManipulator>
 #include <osgGA/TrackballManipulator>
 
+#include "view/body.h"
 #include "view/commands.h"
 
 namespace roam::app {
@@ -17,7 +19,7 @@ constexpr int first_key = '1';
 
 }  // namespace
 
-Cameras::Cameras(osgRoam::Manipulator& roamer) {
+Cameras::Cameras(Stage& stage, osgRoam::Manipulator& roamer) : stage_(stage), roamer_(roamer) {
   osgGA::CameraManipulator* const cameras[] = {
       &roamer,
       new osgGA::TrackballManipulator,
@@ -42,13 +44,25 @@ std::string Cameras::present() const {
   return {};
 }
 
-int Cameras::key_for(const std::string& command) const {
-  if (command == body_camera) return first_key;
-  const int last = first_key + static_cast<int>(camera_names().size()) - 1;
-  for (int key = first_key; key < last; ++key) {
-    if (camera_names()[static_cast<std::size_t>(key - first_key)] == present()) return key + 1;
-  }
-  return first_key + 1;
+void Cameras::select(std::size_t camera) {
+  selectMatrixManipulator(static_cast<unsigned>(camera));
+  // As its key does.
+  osgViewer::Viewer& viewer = stage_.viewer();
+  init(*viewer.getEventQueue()->getCurrentEventState(), viewer);
+}
+
+void Cameras::choose(const std::string& command) {
+  if (!lead()) return;
+  const std::vector<std::string>& names = camera_names();
+  const auto now = static_cast<std::size_t>(std::find(names.begin(), names.end(), present()) - names.begin());
+  select(command == body_camera ? 0 : now + 1 < names.size() ? now + 1 : 1);
+}
+
+void Cameras::return_to_body() {
+  if (!lead() || body_leads()) return;
+  const Pose stays = standing_pose_of(roamer_);
+  select(0);
+  go_to(roamer_, stays);
 }
 
 }  // namespace roam::app

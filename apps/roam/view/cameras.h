@@ -6,6 +6,7 @@
 #include <string>
 
 #include "osgRoam/Manipulator.h"
+#include "view/stage.h"
 
 namespace roam::app {
 
@@ -15,22 +16,30 @@ namespace roam::app {
 /// osgRoam::Manipulator needs that call: it picks clicked points in its camera's picture.
 class Cameras : public osgGA::KeySwitchMatrixManipulator {
  public:
-  explicit Cameras(osgRoam::Manipulator& roamer);
+  Cameras(Stage& stage, osgRoam::Manipulator& roamer);
 
   void updateCamera(osg::Camera& camera) override {
     if (osgGA::CameraManipulator* leading = getCurrentMatrixManipulator()) leading->updateCamera(camera);
   }
-  /// Whether this camera receives the keys.
-  [[nodiscard]] bool leads(const osgGA::CameraManipulator& camera) const {
-    return getCurrentMatrixManipulator() == &camera;
-  }
+  /// Whether they lead the viewer.
+  [[nodiscard]] bool lead() const { return stage_.viewer().getCameraManipulator() == this; }
+  /// Whether the body's camera receives the keys.
+  [[nodiscard]] bool body_leads() const { return lead() && getCurrentMatrixManipulator() == &roamer_; }
   /// The name of the camera that receives the keys.
   [[nodiscard]] std::string present() const;
-  /// The key of the body's camera, or of the next one of the others in a circle.
-  [[nodiscard]] int key_for(const std::string& command) const;
+  /// Does what the key of the body's camera does, or of the next one of the others in a circle, if they lead.
+  void choose(const std::string& command);
+  /// The body's camera leads from now on. The body stays, which its key would place where the other camera was.
+  void return_to_body();
 
  protected:
   ~Cameras() override = default;
+
+ private:
+  void select(std::size_t camera);
+
+  Stage& stage_;
+  osgRoam::Manipulator& roamer_;
 };
 
 }  // namespace roam::app

@@ -125,16 +125,6 @@ std::string key_of(const osgRoam::Controls& controls, const char* command) {
   return found == nullptr ? std::string() : Controls::keyText(*found);
 }
 
-void press_key_of(const osgRoam::Controls& controls, const std::string& command, osgGA::EventQueue& events) {
-  const Controls::Command* const chosen = controls.find(command);
-  if (chosen == nullptr || chosen->keys.empty()) return;
-  const auto [symbol, ctrl] = chosen->keys.front();
-  if (ctrl) events.keyPress(osgGA::GUIEventAdapter::KEY_Control_L);
-  events.keyPress(symbol);
-  events.keyRelease(symbol);
-  if (ctrl) events.keyRelease(osgGA::GUIEventAdapter::KEY_Control_L);
-}
-
 std::string first_hint(const osgRoam::Controls& controls) {
   const auto first_key = [&](const char* command) {
     const Controls::Command* const found = controls.find(command);

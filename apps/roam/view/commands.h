@@ -4,7 +4,6 @@
 
 #include <functional>
 #include <map>
-#include <osgGA/EventQueue>
 #include <string>
 #include <utility>
 #include <vector>
@@ -38,9 +37,6 @@ void set_up(osgRoam::Controls& controls, const ViewSettings& settings);
 
 /// The keys of a command, for display; empty if it has none.
 [[nodiscard]] std::string key_of(const osgRoam::Controls& controls, const char* command);
-
-/// Presses and releases the first key of a command; nothing if it has none.
-void press_key_of(const osgRoam::Controls& controls, const std::string& command, osgGA::EventQueue& events);
 
 /// The line that a window begins with: "H: help     W A S D: walk     drag: look".
 [[nodiscard]] std::string first_hint(const osgRoam::Controls& controls);

@@ -1,7 +1,9 @@
 #include "view/menu.h"
 
+#include <string>
+
 #include "osgroam/pointer.h"
-#include "view/commands.h"
+#include "view/session.h"
 
 namespace roam::app {
 namespace {
@@ -11,8 +13,8 @@ using Adapter = osgGA::GUIEventAdapter;
 }  // namespace
 
 bool Menu::handle(const Adapter& event, osgGA::GUIActionAdapter& /*action*/) {
-  if (event.getHandled() || roamer_.mouseGrab()) return false;
-  graphics::Hud& hud = stage_.hud();
+  if (event.getHandled() || session_.roamer().mouseGrab()) return false;
+  graphics::Hud& hud = session_.stage().hud();
   const std::string here = hud.help_at(event.getXnormalized(), event.getYnormalized());
   switch (event.getEventType()) {
     case Adapter::PUSH:
@@ -41,7 +43,7 @@ bool Menu::handle(const Adapter& event, osgGA::GUIActionAdapter& /*action*/) {
 
 /// The menu acts when the button goes down, so that the release of a drag that began before does nothing.
 bool Menu::push(const Adapter& event) {
-  graphics::Hud& hud = stage_.hud();
+  graphics::Hud& hud = session_.stage().hud();
   const double x = event.getXnormalized(), y = event.getYnormalized();
   const bool opens = hud.button_at(x, y);
   if (!hud.help_shown() && !opens) return false;
@@ -53,14 +55,7 @@ bool Menu::push(const Adapter& event) {
   hud.set_help_focus({});
   hud.show_help(opens);
   is_down_ = true;
-  osgGA::EventQueue& events = *stage_.viewer().getEventQueue();
-  if (is_camera(command)) {
-    const int key = cameras_.key_for(command);
-    events.keyPress(key);
-    events.keyRelease(key);
-  } else if (!command.empty() && command != "help") {
-    press_key_of(roamer_.controls(), command, events);
-  }
+  if (!command.empty() && command != "help") session_.press(command);
   return true;
 }
 

@@ -52,7 +52,7 @@ Session::Session(const ViewOptions& options, const ViewPlan& plan, const ViewSet
       plan_(with_bookmark(plan, options.bookmark, records_)),
       log_(options.trace, options.verify),
       stage_(options_, plan_),
-      cameras_(new Cameras(*roamer_)),
+      cameras_(new Cameras(stage_, *roamer_)),
       arrival_(options_, plan_, what_, *roamer_, news_),
       objects_(std::make_shared<SceneObjects>(options.hide)),
       scene_(stage_.viewer(), *stage_.frame().space(),
@@ -64,7 +64,7 @@ Session::Session(const ViewOptions& options, const ViewPlan& plan, const ViewSet
       layers_(new Layers(stage_, scene_, hidden_, *roamer_, news_)),
       bookmark_list_(new BookmarkList(stage_, *roamer_, records_)),
       tools_(new Tools(stage_, scene_, *roamer_, hidden_, what_, options.program, plan_.section)),
-      controllers_(stage_, *roamer_, *prompt_, plan_.sensitivity),
+      controllers_(*this, *prompt_, plan_.sensitivity),
       building_(what_, options.program, *roamer_, news_),
       rereading_(what_, options_, arrival_, *roamer_, display_, news_) {
   if (!plan_.note.empty()) {  // shown each time that it is true again
@@ -84,7 +84,7 @@ Session::Session(const ViewOptions& options, const ViewPlan& plan, const ViewSet
   roamer_->setCommandCallback([this](const std::string& name) { run(name); });
   stage_.viewer().addEventHandler(prompt_);
   stage_.viewer().addEventHandler(new SessionHandler(*this));
-  stage_.viewer().addEventHandler(new Menu(stage_, *roamer_, *cameras_));
+  stage_.viewer().addEventHandler(new Menu(*this));
   stage_.viewer().addEventHandler(layers_);
   stage_.viewer().addEventHandler(bookmark_list_);
   stage_.viewer().addEventHandler(tools_);
@@ -115,7 +115,7 @@ bool Session::frame() {
   news_.set_time(stage_.now());
 
   arrival_.fly_without_ground();
-  if (controllers_.update(roamer_leads())) show_keys();
+  if (controllers_.update()) show_keys();
   // Headless frames are not in real time: no step depends on the time that loading takes.
   if (stage_.headless() && roaming()) arrival_.wait_for_tiles(passed);
   stage_.see_events();
@@ -334,6 +334,17 @@ bool Session::run(const std::string& command) {
   if (it == std::end(shown)) return commands_.run(command);
   stage_.set_hud(HudMode::plain);
   return it->second || commands_.run(command);
+}
+
+void Session::press(const std::string& command) {
+  if (is_camera(command)) return cameras_->choose(command);
+  const osgRoam::Controls::Command* const known = roamer_->controls().find(command);
+  if (known == nullptr || known->keys.empty()) return;
+  if (roamer_leads()) {
+    roamer_->run(command);
+  } else {
+    run(command);
+  }
 }
 
 ViewReport Session::finish(Unwritten& unwritten) {

@@ -73,6 +73,8 @@ class Session {
 
   /// Commands::run; the display shows the effect at once.
   bool run(const std::string& command);
+  /// Does what the first key of a command does, or of a camera, for menus and buttons; nothing if it has none.
+  void press(const std::string& command);
 
   [[nodiscard]] osgRoam::Manipulator& roamer() { return *roamer_; }
   [[nodiscard]] Stage& stage() { return stage_; }
@@ -86,7 +88,7 @@ class Session {
   /// Whether the body is in the scene, led by the person or the path.
   [[nodiscard]] bool roaming() const { return arrival_.is_placed(); }
   /// Whether the body's camera receives the keys.
-  [[nodiscard]] bool roamer_leads() const { return roaming() && !options_.turntable && cameras_->leads(*roamer_); }
+  [[nodiscard]] bool roamer_leads() const { return cameras_->body_leads(); }
 
  private:
   void enter();

@@ -136,7 +136,12 @@ class Person {
     const osgRoam::Controls::Command& command = all[random_() % all.size()];
     if (command.kind != osgRoam::Controls::Kind::pressed) return;
     if (has(rereading, command.name) && random_() % 4 != 0) return;  // it takes long
-    press_key_of(controls, command.name, *events_);
+    if (command.keys.empty()) return;
+    const auto [symbol, ctrl] = command.keys.front();
+    constexpr int ctrl_key = osgGA::GUIEventAdapter::KEY_Control_L;
+    if (ctrl) events_->keyPress(ctrl_key, ctrl_key);
+    tap(symbol);
+    if (ctrl) events_->keyRelease(ctrl_key, ctrl_key);
   }
   /// Keys that are in no table: those of prompts, Escape, and the cameras.
   void press_another() {
