@@ -297,6 +297,16 @@ TEST(Layers, AreSearchedByTyping) {
   EXPECT_GT(glm::distance(d.place(), before), 0.5) << "without the list they do";
 }
 
+TEST(Layers, AreSearchedByTypingInEveryCamera) {
+  Layered d;
+  d.tap('2');
+  d.show_list();
+  d.tap('l');
+  EXPECT_TRUE(contains(d.hud(), "[x] left")) << d.hud();
+  EXPECT_FALSE(contains(d.hud(), "front")) << d.hud();
+  EXPECT_EQ(d.session->tools().plan().size(), graphics::PlanSize::none) << "which is on that key";
+}
+
 TEST(Layers, AreNamedWithoutTheIdentifiersOfIfc) {
   std::string obj = room_obj();
   for (const char* name :

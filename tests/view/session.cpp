@@ -361,6 +361,18 @@ TEST(Session, SwitchesToTheCamerasOfOsgviewerAndBack) {
   EXPECT_EQ(d.verified().violations, 0u);
 }
 
+TEST(Session, RunsACommandOncePerPressInEveryCamera) {
+  Driven d(room_obj(), {10, 0, 0.95, 0});
+  const auto size = [&] { return d.session->tools().plan().size(); };
+  d.tap('2');
+  for (int i = 0; i < 2; ++i) d.press('l');  // a held key repeats
+  d.run(0.1);
+  EXPECT_EQ(size(), graphics::PlanSize::small);
+  d.release('l');
+  d.tap('l');
+  EXPECT_EQ(size(), graphics::PlanSize::large);
+}
+
 TEST(Session, ShowsTheBodyAndWhatIsNear) {
   Driven d(room_obj(), {19, 0, 0.95, 0});
   d.press('w');

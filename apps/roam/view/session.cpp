@@ -83,11 +83,11 @@ Session::Session(const ViewOptions& options, const ViewPlan& plan, const ViewSet
   commands_.add("quit", [this] { quits_ = true; });
   roamer_->setCommandCallback([this](const std::string& name) { run(name); });
   stage_.viewer().addEventHandler(prompt_);
-  stage_.viewer().addEventHandler(new SessionHandler(*this));
   stage_.viewer().addEventHandler(new Menu(*this));
   stage_.viewer().addEventHandler(layers_);
   stage_.viewer().addEventHandler(bookmark_list_);
   stage_.viewer().addEventHandler(tools_);
+  stage_.viewer().addEventHandler(new SessionHandler(*this));  // after the list: letters search it
   tells_results_ = !options_.json && !options_.headless;
   // SessionHandler handles Escape; the viewer would end before any other use of the key.
   stage_.viewer().setKeyEventSetsDone(0);

@@ -14,8 +14,11 @@ bool SessionHandler::handle(const osgGA::GUIEventAdapter& event, osgGA::GUIActio
   const bool down = event.getEventType() == osgGA::GUIEventAdapter::KEYDOWN;
   const bool up = event.getEventType() == osgGA::GUIEventAdapter::KEYUP;
   const int key = event.getUnmodifiedKey() != 0 ? event.getUnmodifiedKey() : event.getKey();
+  // A held key repeats.
+  const bool fresh = down && std::exchange(down_, key) != key;
+  if (up && key == down_) down_ = 0;
   if ((down || up) && !event.getHandled() && key == osgGA::GUIEventAdapter::KEY_Escape) return handle_escape(down);
-  if (!down || event.getHandled() || session_.roamer_leads()) return false;
+  if (!fresh || event.getHandled() || session_.roamer_leads()) return false;
   const bool ctrl = (event.getModKeyMask() & osgGA::GUIEventAdapter::MODKEY_CTRL) != 0;
   const auto* command = session_.roamer().controls().lookup(key, ctrl);
   return command != nullptr && session_.run(command->name);

@@ -10,8 +10,9 @@ namespace roam::app {
 
 class Session;
 
-/// Runs the viewer's commands while another camera than the body's receives the keys, or none yet. Handles Escape,
-/// which closes the help, releases the mouse, or, the second time within 3 s, ends the session.
+/// Runs the viewer's commands while another camera than the body's receives the keys, or none yet: once a press, as the
+/// body's does. Handles Escape, which closes the help, releases the mouse, or, the second time within 3 s, ends the
+/// session.
 class SessionHandler : public osgGA::GUIEventHandler {
  public:
   explicit SessionHandler(Session& session) : session_(session) {}
@@ -27,6 +28,7 @@ class SessionHandler : public osgGA::GUIEventHandler {
   static constexpr double leave_seconds = 3.0;
 
   Session& session_;
+  int down_ = 0;               ///< the key that was pressed last, while it is down
   bool escape_spent_ = false;  ///< Escape acted when pressed; its release does not end the session
   Twice leave_{leave_seconds};
 };
