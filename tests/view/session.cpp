@@ -255,6 +255,32 @@ TEST(Session, TakesEachPressOfAFrame) {
   EXPECT_TRUE(contains(hud, "bookmark 2") && contains(hud, "Name of the bookmark")) << hud;
 }
 
+TEST(Session, GoesToABookmarkInEveryCamera) {
+  Driven d(room_obj(), {10, 1, 0.95, 0});
+  std::vector<Vec3> kept;
+  for (int i = 0; i < 3; ++i) {
+    d.run(0.5);
+    d.tap('b');
+    kept.push_back(d.place());
+    d.press('w');
+    d.run(1.0);
+    d.release('w');
+  }
+  constexpr int tab = osgGA::GUIEventAdapter::KEY_Tab, shift = osgGA::GUIEventAdapter::KEY_Shift_L;
+  d.tap('2');
+  d.tap(tab);
+  EXPECT_TRUE(d.session->roamer_leads()) << "one sees the bookmark";
+  EXPECT_LT(glm::distance(d.place(), kept[0]), 0.05);
+  d.tap('2');
+  d.tap(tab);
+  ASSERT_LT(glm::distance(d.place(), kept[1]), 0.05);
+  d.tap('2');
+  d.events().keyPress(shift, shift);
+  d.tap(tab);
+  d.events().keyRelease(shift, shift);
+  EXPECT_LT(glm::distance(d.place(), kept[0]), 0.05) << "backwards";
+}
+
 TEST(Session, ShowsNothingOfTheLoadingWithTheBody) {
   Driven d(room_obj(), {10, 1, 0.95, 0});
   EXPECT_FALSE(contains(d.session->stage().hud().text(), "oading")) << "it would be in a film";

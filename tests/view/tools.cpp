@@ -226,6 +226,16 @@ TEST(Tools, GoToWhatIsClickedOnThePlan) {
   EXPECT_FALSE(d.session->tools().plan().at(0.9, 0.0));
 }
 
+TEST(Tools, GoToWhatIsClickedOnThePlanInEveryCamera) {
+  Tooled d;
+  const double before = d.place().x;
+  d.tap('2');
+  ASSERT_TRUE(click_on_plan(d, before + 5.0, d.place().y));
+  EXPECT_TRUE(d.session->roamer_leads());
+  d.run(3.0);
+  EXPECT_NEAR(d.place().x, before + 5.0, 1.0);
+}
+
 /// A floor 6 m wide from (x, z) to (x, z).
 std::string floor_obj(const char* name, double x0, double z0, double x1, double z1) {
   return fmt::format("o {}\nv {} -3 {}\nv {} -3 {}\nv {} 3 {}\nv {} 3 {}\nf -4 -3 -2 -1\n", name, x0, z0, x1, z1, x1,

@@ -87,12 +87,12 @@ const std::vector<std::string>& camera_names() {
 
 bool is_camera(const std::string& command) { return command == body_camera || command == other_cameras; }
 
-bool Commands::run(const std::string& name) const {
+bool Commands::run(const std::string& name, bool shift) const {
   if (std::none_of(std::begin(lines), std::end(lines), [&](const Line& line) { return line.name == name; }))
     return false;
   const auto found = deeds_.find(name);
   try {
-    if (found != deeds_.end()) found->second();
+    if (found != deeds_.end()) found->second(shift);
   } catch (const Error& error) {
     news_.note(error.what());
   }

@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <map>
+#include <osgGA/GUIEventAdapter>
 #include <string>
 #include <utility>
 #include <vector>
@@ -21,15 +22,22 @@ class Commands {
  public:
   explicit Commands(News& news) : news_(news) {}
 
-  /// `name`: the command's name in the table of controls.
-  void add(const std::string& name, std::function<void()> deed) { deeds_[name] = std::move(deed); }
+  /// `name`: the command's name in the table of controls. `deed` gets whether Shift is down.
+  void add(const std::string& name, std::function<void(bool shift)> deed) { deeds_[name] = std::move(deed); }
+  void add(const std::string& name, const std::function<void()>& deed) {
+    add(name, [deed](bool) { deed(); });
+  }
   /// Runs the command, if it has an action now. Errors become news. False if it is no command of the viewer.
-  bool run(const std::string& name) const;
+  bool run(const std::string& name, bool shift = false) const;
 
  private:
   News& news_;
-  std::map<std::string, std::function<void()>> deeds_;
+  std::map<std::string, std::function<void(bool shift)>> deeds_;
 };
+
+[[nodiscard]] inline bool is_shift_down(const osgGA::GUIEventAdapter& event) {
+  return (event.getModKeyMask() & osgGA::GUIEventAdapter::MODKEY_SHIFT) != 0;
+}
 
 /// Adds the viewer's commands to the manipulator's, then assigns the keys of the settings. Throws roam::Error with the
 /// settings file's name for an unknown command or key, or for two commands on one key.

@@ -55,7 +55,7 @@ bool Menu::push(const Adapter& event) {
   hud.set_help_focus({});
   hud.show_help(opens);
   is_down_ = true;
-  if (!command.empty() && command != "help") session_.press(command);
+  if (!command.empty() && command != "help") session_.press(command, is_shift_down(event));
   return true;
 }
 

@@ -7,6 +7,7 @@
 #include "scenes/frame.h"
 #include "text/printable.h"
 #include "view/body.h"
+#include "view/cameras.h"
 #include "view/settings.h"
 
 namespace roam::app {
@@ -46,9 +47,10 @@ Pose Records::named(const std::string& name) {
                                                                               : "these: " + bookmarks_->names()));
 }
 
-void Records::add_to(Commands& commands) {
+void Records::add_to(Commands& commands, Cameras& cameras) {
+  cameras_ = &cameras;
   commands.add("bookmark", [this] { add_bookmark(); });
-  commands.add("next_bookmark", [this] { go_to_next_bookmark(roamer_.down("fast")); });
+  commands.add("next_bookmark", [this](bool shift) { go_to_next_bookmark(shift); });
   commands.add("record", [this] { recorder_ ? finish() : record("roam.path", files::Naming::numbered); });
 }
 
@@ -130,6 +132,7 @@ void Records::go_to_bookmark(const std::string& name) {
 
 void Records::go_to_present() {
   const Bookmark& bookmark = *bookmarks_->present();
+  if (cameras_ != nullptr) cameras_->return_to_body();
   go_to(roamer_, bookmark.pose);
   news_.tell(fmt::format("bookmark {} ({} of {})", bookmark.name, bookmarks_->number(), bookmarks_->all().size()));
 }

@@ -22,6 +22,8 @@
 
 namespace roam::app {
 
+class Cameras;
+
 /// Records the body's path, and keeps bookmarks. Needs no window. Call all members from one thread, between two frames.
 /// Recording and adding bookmarks need a walker.
 class Records {
@@ -48,8 +50,8 @@ class Records {
   /// Puts the body at the next bookmark, or the previous one; at first, at the first or the last.
   void go_to_next_bookmark(bool backwards);
   /// Adds both as "bookmark" and "next_bookmark". Adds "record", which ends the recording, or begins one in the current
-  /// folder under a new name.
-  void add_to(Commands& commands);
+  /// folder under a new name. From now on the body's camera leads at a bookmark.
+  void add_to(Commands& commands, Cameras& cameras);
 
   /// Begins to record the path. Throws roam::Error if the file cannot be written.
   void record(const std::filesystem::path& file, files::Naming naming = files::Naming::exact);
@@ -67,6 +69,7 @@ class Records {
 
   osgRoam::Manipulator& roamer_;
   News& news_;
+  Cameras* cameras_ = nullptr;       ///< null before add_to()
   std::optional<SceneFrame> frame_;  ///< of the scene; none: its files differ
   std::optional<Bookmarks> bookmarks_;
   std::optional<Error> problem_;  ///< why the bookmarks cannot be read

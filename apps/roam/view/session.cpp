@@ -63,7 +63,7 @@ Session::Session(const ViewOptions& options, const ViewPlan& plan, const ViewSet
       hidden_(scene_, arrival_, *roamer_, news_, plan_.path.empty() && !options.verify),
       layers_(new Layers(stage_, scene_, hidden_, *roamer_, news_)),
       bookmark_list_(new BookmarkList(stage_, *roamer_, records_)),
-      tools_(new Tools(stage_, scene_, *roamer_, hidden_, what_, options.program, plan_.section)),
+      tools_(new Tools(stage_, scene_, *roamer_, *cameras_, hidden_, what_, options.program, plan_.section)),
       controllers_(*this, *prompt_, plan_.sensitivity),
       building_(what_, options.program, *roamer_, news_),
       rereading_(what_, options_, arrival_, *roamer_, display_, news_) {
@@ -81,7 +81,7 @@ Session::Session(const ViewOptions& options, const ViewPlan& plan, const ViewSet
   commands_.add("name_bookmark", [this] { records_.ask_name(*prompt_); });
   rereading_.add_to(commands_);
   commands_.add("quit", [this] { quits_ = true; });
-  roamer_->setCommandCallback([this](const std::string& name) { run(name); });
+  roamer_->setCommandCallback([this](const std::string& name) { run(name, roamer_->down("fast")); });
   stage_.viewer().addEventHandler(prompt_);
   stage_.viewer().addEventHandler(new Menu(*this));
   stage_.viewer().addEventHandler(layers_);
@@ -151,7 +151,7 @@ void Session::enter() {
     learning_.emplace(options_, plan_, *scene, *roamer_, news_);
     learning_->add_to(commands_);
   }
-  records_.add_to(commands_);
+  records_.add_to(commands_, *cameras_);
   bookmark_list_->add_to(commands_, *layers_);
   tools_->add_to(commands_);
   arrival_.enter();
@@ -321,9 +321,9 @@ ListPanel* Session::shown_list() {
   return bookmark_list_->is_shown() ? bookmark_list_.get() : nullptr;
 }
 
-bool Session::run(const std::string& command) {
+bool Session::run(const std::string& command, bool shift) {
   display_.hurry();
-  if (stage_.hud().detail() != graphics::Detail::off) return commands_.run(command);
+  if (stage_.hud().detail() != graphics::Detail::off) return commands_.run(command, shift);
   // The results of these are parts of the display, which a person who gives them wants to see.
   const std::pair<std::string_view, bool> shown[] = {
       {"help", stage_.hud().help_shown()},       {"layers", layers_->is_shown()},
@@ -331,19 +331,19 @@ bool Session::run(const std::string& command) {
       {"measure", tools_->is_measuring()},       {"probe", false}};
   const auto it =
       std::find_if(std::begin(shown), std::end(shown), [&](const auto& one) { return one.first == command; });
-  if (it == std::end(shown)) return commands_.run(command);
+  if (it == std::end(shown)) return commands_.run(command, shift);
   stage_.set_hud(HudMode::plain);
-  return it->second || commands_.run(command);
+  return it->second || commands_.run(command, shift);
 }
 
-void Session::press(const std::string& command) {
+void Session::press(const std::string& command, bool shift) {
   if (is_camera(command)) return cameras_->choose(command);
   const osgRoam::Controls::Command* const known = roamer_->controls().find(command);
   if (known == nullptr || known->keys.empty()) return;
   if (roamer_leads()) {
     roamer_->run(command);
   } else {
-    run(command);
+    run(command, shift);
   }
 }
 

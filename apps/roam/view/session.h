@@ -72,9 +72,9 @@ class Session {
   [[nodiscard]] ViewReport finish(Unwritten& unwritten);
 
   /// Commands::run; the display shows the effect at once.
-  bool run(const std::string& command);
+  bool run(const std::string& command, bool shift = false);
   /// Does what the first key of a command does, or of a camera, for menus and buttons; nothing if it has none.
-  void press(const std::string& command);
+  void press(const std::string& command, bool shift = false);
 
   [[nodiscard]] osgRoam::Manipulator& roamer() { return *roamer_; }
   [[nodiscard]] Stage& stage() { return stage_; }

@@ -21,7 +21,7 @@ bool SessionHandler::handle(const osgGA::GUIEventAdapter& event, osgGA::GUIActio
   if (!fresh || event.getHandled() || session_.roamer_leads()) return false;
   const bool ctrl = (event.getModKeyMask() & osgGA::GUIEventAdapter::MODKEY_CTRL) != 0;
   const auto* command = session_.roamer().controls().lookup(key, ctrl);
-  return command != nullptr && session_.run(command->name);
+  return command != nullptr && session_.run(command->name, is_shift_down(event));
 }
 
 /// Closes the help, else releases the mouse, else closes the list. False if there is none of these.

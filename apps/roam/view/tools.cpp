@@ -31,11 +31,12 @@ bool is_left(const Adapter& event) { return event.getButton() == Adapter::LEFT_M
 
 }  // namespace
 
-Tools::Tools(Stage& stage, SceneGraph& scene, osgRoam::Manipulator& roamer, const HiddenSpace& hidden,
+Tools::Tools(Stage& stage, SceneGraph& scene, osgRoam::Manipulator& roamer, Cameras& cameras, const HiddenSpace& hidden,
              const SceneAndStore& what, const std::filesystem::path& program, SectionShape section)
     : stage_(stage),
       scene_(scene),
       roamer_(roamer),
+      cameras_(cameras),
       hidden_(hidden),
       measuring_(roamer),
       probing_(program, what, roamer),
@@ -297,6 +298,7 @@ void Tools::release(const Adapter& event) {
   if (!is_click) return;
   if (is_on_plan_) {
     constexpr double seconds = 4.0;
+    cameras_.return_to_body();
     if (const std::string reason = plan_.go(at.x, at.y); !reason.empty()) stage_.hint(reason, seconds);
   } else if (tool_ != Tool::none) {
     click(at);

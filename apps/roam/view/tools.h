@@ -6,6 +6,7 @@
 
 #include "graphics/overlay.h"
 #include "osgRoam/Manipulator.h"
+#include "view/cameras.h"
 #include "view/commands.h"
 #include "view/hidden_space.h"
 #include "view/live_plan.h"
@@ -21,14 +22,14 @@ namespace roam::app {
 
 /// Recognizes clicks of the left button: pressed and released at one place. Drags still look around. While a tool is
 /// on, clicks are its own, and a double click does not lead the body. The section stays while one measures.
-/// With a grabbed mouse, a click is at the middle of the picture. A click on the plan leads the body there, and the
-/// wheel zooms it.
+/// With a grabbed mouse, a click is at the middle of the picture. A click on the plan leads the body there, seen by its
+/// own camera, and the wheel zooms it.
 ///
 /// Call all members from the thread that draws, between two frames. add_to() needs a body in the scene.
 class Tools : public osgGA::GUIEventHandler {
  public:
   /// `program`: path of roam; empty: the running program. `section`: at first.
-  Tools(Stage& stage, SceneGraph& scene, osgRoam::Manipulator& roamer, const HiddenSpace& hidden,
+  Tools(Stage& stage, SceneGraph& scene, osgRoam::Manipulator& roamer, Cameras& cameras, const HiddenSpace& hidden,
         const SceneAndStore& what, const std::filesystem::path& program, SectionShape section);
 
   /// Adds "measure", "section" and "section_box", which turn these tools on or off; "probe", which searches a way
@@ -82,6 +83,7 @@ class Tools : public osgGA::GUIEventHandler {
   Stage& stage_;
   SceneGraph& scene_;
   osgRoam::Manipulator& roamer_;
+  Cameras& cameras_;
   const HiddenSpace& hidden_;
   Tool tool_ = Tool::none;
   Measuring measuring_;
