@@ -187,6 +187,23 @@ TEST(LeaveOut, EndsTheSessionWithThePatternOfTheObjectAhead) {
   EXPECT_GT(d.place().x, 20.0) << "nothing stops the body there";
 }
 
+TEST(LeaveOut, TakesTheObjectInTheMiddleOfThePictureOfEveryCamera) {
+  DrivenSession d;
+  d.write_scene();
+  d.options.at = {10, 0, 0.95, 0};
+  d.begin();
+  d.tap('2');
+  const Vec3 origin = d.session->scene().origin();
+  const osg::Vec3d eye = osg::Vec3d(10.0, 0.0, 1.5) - osg::Vec3d(origin.x, origin.y, origin.z);
+  osg::Matrixd view;
+  view.makeLookAt(eye, eye + osg::Vec3d(0.0, 1.0, 0.0), osg::Vec3d(0.0, 0.0, 1.0));
+  d.session->stage().viewer().getCameraManipulator()->setByInverseMatrix(view);
+  d.run(0.2);
+  d.session->run("leave_out");
+  ASSERT_TRUE(d.session->next());
+  EXPECT_EQ(d.session->next()->leave_out, "left") << "the body's eye looks at another wall";
+}
+
 /// Of a scene without other objects, whose section may be open.
 void expect_it_stays(const std::vector<std::string>& section) {
   DrivenSession d;

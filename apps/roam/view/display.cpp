@@ -185,6 +185,10 @@ osg::Matrixd Display::view() const {
   return leading != nullptr ? leading->getInverseMatrix() : viewer.getCamera()->getViewMatrix();
 }
 
+std::optional<Sightline> Display::middle() const {
+  return sightline({view(), stage_.viewer().getCamera()->getProjectionMatrix(), scene_.origin()}, 0.0, 0.0);
+}
+
 void Display::light(bool has_body) {
   // Pages of other formats are photogrammetry, which takes no shadows.
   sun_.set_shadows(!scene_.is_paged() || scene_.pages().by_error());

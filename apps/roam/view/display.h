@@ -2,10 +2,13 @@
 /// \file
 /// Everything that a session shows besides the scene: head-up display, marks, overview before the body arrives.
 
+#include <optional>
+
 #include "graphics/sun.h"
 #include "osgRoam/Manipulator.h"
 #include "view/daylight.h"
 #include "view/news.h"
+#include "view/pick.h"
 #include "view/scene_graph.h"
 #include "view/stage.h"
 #include "view/status.h"
@@ -49,6 +52,8 @@ class Display {
   void look_from_above() { look_from(overview()); }
   /// Moves the camera. Degrees.
   void look_from(const Pose& pose);
+  /// The line of sight in the middle of the next frame's picture, of whichever camera.
+  [[nodiscard]] std::optional<Sightline> middle() const;
   /// Width divided by height of the picture.
   [[nodiscard]] double aspect() const;
 

@@ -273,8 +273,8 @@ void Session::show(bool at_once) {
   Status status = display_.status(roaming());
   if (roaming()) {
     const Space* const visible = hidden_.visible();
-    status.around =
-        surroundings(*roamer_, visible != nullptr ? *visible : roamer_->walker()->space(), tools_->section().hidden());
+    status.around = surroundings(*roamer_, visible != nullptr ? *visible : roamer_->walker()->space(),
+                                 display_.middle(), tools_->section().hidden());
   }
   if (roaming() && !roamer_leads()) status.camera = cameras_->present();
   if (!options_.origin.empty()) {

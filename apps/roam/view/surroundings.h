@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The surroundings of a body: the floor below, and the object that the eye looks at.
+/// The surroundings of a body: the floor below, and the object in the middle of the picture.
 
 #include <optional>
 #include <span>
@@ -8,6 +8,7 @@
 
 #include "osgRoam/Manipulator.h"
 #include "roam/space.h"
+#include "view/pick.h"
 
 namespace roam::app {
 
@@ -19,10 +20,10 @@ struct Surroundings {
   std::string ahead;                  ///< name of that surface's object; may be empty
 };
 
-/// The floor is that of the body's own space. The surface ahead is one of `visible` outside of the half spaces. Needs a
-/// walker; the spaces must not change meanwhile.
+/// The floor is that of the body's own space. The surface ahead is the first along `ahead` of `visible`, outside of the
+/// half spaces. Needs a walker; the spaces must not change meanwhile.
 [[nodiscard]] Surroundings surroundings(const osgRoam::Manipulator& roamer, const Space& visible,
-                                        std::span<const HalfSpace> hidden = {});
+                                        const std::optional<Sightline>& ahead, std::span<const HalfSpace> hidden = {});
 
 /// The unit vector of a gaze. Radians, as in osgRoam::Manipulator.
 [[nodiscard]] Vec3 gaze(double yaw, double pitch);
