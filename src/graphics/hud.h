@@ -22,7 +22,7 @@
 
 namespace roam::graphics {
 
-/// Amount of display. full: status, message, crosshair. minimal: the first status line, message,
+/// Amount of display, from most to least. full: status, message, crosshair. minimal: the first status line, message,
 /// crosshair. off: nothing, not even help; only a hint.
 enum class Detail : std::uint8_t { full, minimal, off };
 /// Kind of a text. A warning is amber with a bar at its side; an info is white.

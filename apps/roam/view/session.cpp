@@ -322,18 +322,34 @@ ListPanel* Session::shown_list() {
 }
 
 bool Session::run(const std::string& command, bool shift) {
+  using graphics::Detail;
   display_.hurry();
-  if (stage_.hud().detail() != graphics::Detail::off) return commands_.run(command, shift);
   // The results of these are parts of the display, which a person who gives them wants to see.
-  const std::pair<std::string_view, bool> shown[] = {
-      {"help", stage_.hud().help_shown()},       {"layers", layers_->is_shown()},
-      {"bookmarks", bookmark_list_->is_shown()}, {"plan", tools_->plan().size() != graphics::PlanSize::none},
-      {"measure", tools_->is_measuring()},       {"probe", false}};
-  const auto it =
-      std::find_if(std::begin(shown), std::end(shown), [&](const auto& one) { return one.first == command; });
-  if (it == std::end(shown)) return commands_.run(command, shift);
-  stage_.set_hud(HudMode::plain);
-  return it->second || commands_.run(command, shift);
+  struct Part {
+    std::string_view command;
+    Detail least;  ///< that shows it
+    bool is_on;
+  };
+  const Part parts[] = {{"help", Detail::minimal, false},
+                        {"layers", Detail::minimal, false},
+                        {"bookmarks", Detail::minimal, false},
+                        {"plan", Detail::minimal, tools_->plan().size() != graphics::PlanSize::none},
+                        {"measure", Detail::full, tools_->is_measuring()},
+                        {"probe", Detail::full, false}};
+  const auto* const part =
+      std::find_if(std::begin(parts), std::end(parts), [&](const Part& one) { return one.command == command; });
+  if (part != std::end(parts) && stage_.hud().detail() > part->least) {
+    stage_.set_hud(HudMode::plain);
+    if (part->is_on) return true;
+  }
+  const bool known = commands_.run(command, shift);
+  if (stage_.hud().detail() == Detail::off) {
+    // They would take keys and clicks.
+    stage_.hud().show_help(false);
+    layers_->close();
+    bookmark_list_->close();
+  }
+  return known;
 }
 
 void Session::press(const std::string& command, bool shift) {
