@@ -95,6 +95,19 @@ TEST(Tools, LeaveTheBodyWhereItIsWhileMeasuring) {
   EXPECT_EQ(d.measured().size(), 1u);
 }
 
+TEST(Tools, GoToNothingThatIsHidden) {
+  ViewOptions hidden, cut;
+  hidden.hide = {"front"};
+  cut.section = {"x<15"};
+  for (const ViewOptions& options : {hidden, cut}) {
+    Tooled d(options);
+    const Vec3 before = d.place();
+    d.click(0, 0, 2);
+    d.run(2.0);
+    EXPECT_LT(glm::distance(d.place(), before), 1e-3);
+  }
+}
+
 TEST(Section, LeavesTheHeightButHidesTheObjectAhead) {
   Tooled d;
   d.run(0.5);

@@ -17,10 +17,6 @@ using Adapter = osgGA::GUIEventAdapter;
 
 constexpr std::size_t most_passed = 1000;  // patterns that a command line has room for
 
-// A click is as short and still as the two of a double click are near each other.
-constexpr double longest_click = osgRoam::double_click_time;             // s
-constexpr double click_distance = 2.0 * osgRoam::double_click_distance;  // of half the picture
-
 /// Where a body of this radius is at a clicked surface: on a floor, or in front of a wall.
 Vec3 beside(const Pick& pick, double radius) {
   constexpr double gap = 0.05;  // metres
@@ -195,9 +191,8 @@ bool Tools::handle(const Adapter& event, osgGA::GUIActionAdapter& /*action*/) {
   if (event.getHandled() || stage_.hud().help_shown()) return false;
   switch (event.getEventType()) {
     case Adapter::PUSH:
-      return is_left(event) && press(event);
     case Adapter::DOUBLECLICK:
-      return is_left(event) && (is_on_plan_ || tool_ != Tool::none);
+      return is_left(event) && press(event);
     case Adapter::DRAG:
       return drag(event);
     case Adapter::RELEASE:
@@ -274,10 +269,7 @@ bool Tools::drag(const Adapter& event) {
 /// Whether this is no beginning of a drag and nothing for the body.
 bool Tools::press(const Adapter& event) {
   const Point at = point_of(event);
-  const bool again = event.getTime() - pressed_at_ <= longest_click &&
-                     std::hypot(at.x - pressed_.x, at.y - pressed_.y) <= click_distance;
-  pressed_ = at;
-  pressed_at_ = event.getTime();
+  const bool again = presses_.take(event, at.x, at.y);
   is_down_ = !again;
   is_on_plan_ = !roamer_.mouseGrab() && plan_.at(at.x, at.y).has_value();
   grip_.reset();
@@ -287,14 +279,19 @@ bool Tools::press(const Adapter& event) {
     from_ = sightline(camera(), at.x, at.y);
     if (grip_) return true;
   }
-  return is_on_plan_ || (again && tool_ != Tool::none);
+  return is_on_plan_ || (again && (tool_ != Tool::none || go(at)));
+}
+
+/// The body's own camera would also go to what is hidden.
+bool Tools::go(const Point& at) {
+  if (!cameras_.body_leads()) return false;
+  if (const auto found = pick_at(at)) roamer_.goTo(found->point, found->normal);
+  return true;
 }
 
 void Tools::release(const Adapter& event) {
   const Point at = point_of(event);
-  const bool is_click = is_down_ && event.getTime() - pressed_at_ <= longest_click &&
-                        std::hypot(at.x - pressed_.x, at.y - pressed_.y) <= click_distance;
-  is_down_ = false;
+  const bool is_click = std::exchange(is_down_, false) && presses_.is_near(event, at.x, at.y);
   if (!is_click) return;
   if (is_on_plan_) {
     constexpr double seconds = 4.0;

@@ -11,6 +11,7 @@
 #include "view/hidden_space.h"
 #include "view/live_plan.h"
 #include "view/measuring.h"
+#include "view/presses.h"
 #include "view/probing.h"
 #include "view/scene_graph.h"
 #include "view/section.h"
@@ -20,8 +21,8 @@
 
 namespace roam::app {
 
-/// Recognizes clicks of the left button: pressed and released at one place. Drags still look around. While a tool is
-/// on, clicks are its own, and a double click does not lead the body. The section stays while one measures.
+/// Recognizes clicks of the left button: pressed and released at one place. Drags still look around. A double click
+/// leads the body to what is seen there. While a tool is on, clicks are its own. The section stays while one measures.
 /// With a grabbed mouse, a click is at the middle of the picture. A click on the plan leads the body there, seen by its
 /// own camera, and the wheel zooms it.
 ///
@@ -67,6 +68,7 @@ class Tools : public osgGA::GUIEventHandler {
   bool press(const osgGA::GUIEventAdapter& event);
   bool scroll(const osgGA::GUIEventAdapter& event);
   void release(const osgGA::GUIEventAdapter& event);
+  bool go(const Point& at);
   void click(const Point& at);
   void toggle_measuring();
   void toggle_section();
@@ -93,8 +95,7 @@ class Tools : public osgGA::GUIEventHandler {
   std::optional<Grip> grip_;       ///< of the box, held by the mouse
   Box gripped_;                    ///< the box when it was pressed
   std::optional<Sightline> from_;  ///< then
-  Point pressed_;
-  double pressed_at_ = -1e9;  ///< s
+  Presses presses_;
   bool is_down_ = false;
   bool is_on_plan_ = false;  ///< the present press is
 };
