@@ -151,6 +151,23 @@ TEST(SectionBox, IsResizedAndMovedByItsGrips) {
   EXPECT_NE(d.session->roamer().yaw(), yaw) << "beside the grips one looks around";
 }
 
+TEST(SectionBox, LetsAGripGoUnderTheHelp) {
+  Tooled d(with_box_ahead());
+  tap_box(d);
+  const Box before = *box_of(d);
+  graphics::Hud& hud = d.session->stage().hud();
+  d.hold_at(grip_place(d, 5));
+  d.run(0.1);
+  hud.show_help(true);
+  d.let_go();
+  d.run(0.1);
+  hud.show_help(false);
+  const osgGA::GUIEventAdapter& now = *d.events().getCurrentEventState();
+  d.events().mouseButtonPress(now.getX(), now.getY(), 3);
+  d.drag_to({0.0, -0.5});
+  EXPECT_EQ(box_of(d)->upper, before.upper) << "another button drags no side";
+}
+
 TEST(SectionBox, IsShrunkByTheWheelAndMovedByAClick) {
   Tooled d(with_box_ahead());
   tap_box(d);

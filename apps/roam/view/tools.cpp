@@ -188,6 +188,8 @@ Tools::Point Tools::point_of(const Adapter& event) const {
 }
 
 bool Tools::handle(const Adapter& event, osgGA::GUIActionAdapter& /*action*/) {
+  // A side of the box is held no longer than the button, whatever lies over the picture by then.
+  if (event.getEventType() == Adapter::RELEASE && is_left(event) && std::exchange(grip_, std::nullopt)) return true;
   if (event.getHandled() || stage_.hud().help_shown()) return false;
   switch (event.getEventType()) {
     case Adapter::PUSH:
@@ -196,10 +198,7 @@ bool Tools::handle(const Adapter& event, osgGA::GUIActionAdapter& /*action*/) {
     case Adapter::DRAG:
       return drag(event);
     case Adapter::RELEASE:
-      if (is_left(event)) {
-        if (std::exchange(grip_, std::nullopt)) return true;
-        release(event);
-      }
+      if (is_left(event)) release(event);
       return false;
     case Adapter::SCROLL:
       return scroll(event);
