@@ -335,6 +335,18 @@ TEST(Session, NamesABookmarkByTyping) {
   EXPECT_TRUE(contains(d.hud(), "bookmark wx\u00fc (1 of 1)")) << d.hud();
 }
 
+TEST(Session, ShowsItsQuestionUntilTheAnswer) {
+  Driven d(room_obj(), {10, 1, 0.95, 0});
+  d.tap('b');
+  d.session->run("name_bookmark");
+  d.session->roamer().setSpeed(2.5);
+  d.run(0.2);
+  EXPECT_TRUE(contains(d.hud(), "Name of the bookmark: _")) << d.hud();
+  EXPECT_FALSE(contains(d.hud(), "speed 2.5 m/s")) << d.hud();
+  d.tap(osgGA::GUIEventAdapter::KEY_Escape);
+  EXPECT_FALSE(contains(d.hud(), "Name of the bookmark")) << d.hud();
+}
+
 TEST(Session, RecordsTheWayThatWasWalked) {
   Driven d(room_obj(), {10, 0, 0.95, 0});
   const auto before = std::filesystem::current_path();

@@ -44,7 +44,7 @@ void Prompt::ask(std::string question, std::string text, Answer answer) {
   show();
 }
 
-void Prompt::show() { stage_.hint(fmt::format("{}: {}_     Enter: keep     Escape: cancel", question_, text_)); }
+void Prompt::show() { stage_.ask(fmt::format("{}: {}_     Enter: keep     Escape: cancel", question_, text_)); }
 
 bool Prompt::handle(const Adapter& event, osgGA::GUIActionAdapter& /*action*/) {
   if (event.getEventType() == Adapter::KEYUP && event.getKey() == swallowed_) {
@@ -59,11 +59,10 @@ bool Prompt::handle(const Adapter& event, osgGA::GUIActionAdapter& /*action*/) {
 }
 
 void Prompt::press(int key) {
-  constexpr double answered = 0.0;  // seconds that the line stays
   const bool enters = key == Adapter::KEY_Return || key == Adapter::KEY_KP_Enter;
   if (key == Adapter::KEY_Escape || enters) {
     swallowed_ = key;
-    stage_.end_hint(answered);
+    stage_.ask({});
     const Answer answer = std::exchange(answer_, nullptr);
     if (enters && !text_.empty()) answer(text_);
     return;

@@ -202,7 +202,11 @@ void Stage::fade_hint() {
   constexpr double shades = 10.0;  // each is laid out anew
   const double opacity = std::clamp(std::ceil(shades * (hint_end_ - now_) / fading) / shades, 0.0, 1.0);
   if (opacity <= 0.0) hint_.clear();
-  hud_->set_hint(hint_, opacity);
+  if (question_.empty()) {
+    hud_->set_hint(hint_, opacity);
+  } else {
+    hud_->set_hint(question_);
+  }
 }
 
 void Stage::toggle_fullscreen() {
@@ -382,6 +386,7 @@ void Stage::say_what_is_finished() {
   if (what.empty() || headless()) return;
   tell("finishing " + what + " ...");
   if (!context_.window->isRealized()) return;
+  ask({});
   hint("Finishing ...");
   fade_hint();
   viewer_->updateTraversal();

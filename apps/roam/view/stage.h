@@ -10,6 +10,7 @@
 #include <optional>
 #include <osgViewer/Viewer>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "cli/histogram.h"
@@ -63,6 +64,8 @@ class Stage {
   void set_hud(HudMode mode);
   /// Shows a sentence in any mode for `seconds`, the last of them fading. Replaces the one before.
   void hint(const std::string& text, double seconds = std::numeric_limits<double>::infinity());
+  /// Shows a question in place of all hints; empty: no longer.
+  void ask(std::string question) { question_ = std::move(question); }
   /// Makes a hint that is shown end after `seconds`, if not before.
   void end_hint(double seconds) { hint_end_ = std::min(hint_end_, now_ + seconds); }
   /// Adds "help", "hud", "fullscreen", "picture" and "picture_with_display", which write numbered files.
@@ -126,7 +129,7 @@ class Stage {
   bool still_wanted_ = false, picture_wanted_ = false;  ///< of the next frame, the second with the display
   int enlarged_in_ = 0;  ///< frames, so that the window says it before; 0: none is wanted
   HudMode hud_mode_ = HudMode::plain;
-  std::string hint_;
+  std::string hint_, question_;
   double hint_end_ = 0.0;             ///< s
   std::vector<std::string> written_;  ///< names of film and picture
   const Clock::time_point begin_ = Clock::now();
