@@ -53,16 +53,16 @@ class Layered : public view_stores::Driven {
     ADD_FAILURE() << text << " is not to be seen";
   }
   /// Clicks the part of the list with this name.
-  void click_part(const std::string& name, unsigned button = 1) {
+  void click_part(const std::string& name, unsigned button = 1, int times = 1) {
     run(0.1);
     session->stage().draw();
     constexpr double x = 0.9;
     for (double y = 1.0; y > -1.0; y -= 0.005) {
-      if (session->stage().hud().list_at(x, y) == name) return press_at(x, y - 0.01, button);
+      if (session->stage().hud().list_at(x, y) == name) return press_at(x, y - 0.01, button, times);
     }
     ADD_FAILURE() << name << " is not to be seen";
   }
-  void press_at(double x, double y, unsigned button = 1) {
+  void press_at(double x, double y, unsigned button = 1, int times = 1) {
     const osgGA::GUIEventAdapter& now = *events().getCurrentEventState();
     const bool upwards = now.getMouseYOrientation() == osgGA::GUIEventAdapter::Y_INCREASING_UPWARDS;
     const auto place = [](double share, float least, float most) {
@@ -70,8 +70,10 @@ class Layered : public view_stores::Driven {
     };
     const float across = place(x, now.getXmin(), now.getXmax());
     const float up = place(upwards ? y : -y, now.getYmin(), now.getYmax());
-    events().mouseButtonPress(across, up, button);
-    events().mouseButtonRelease(across, up, button);
+    for (int i = 0; i < times; ++i) {
+      events().mouseButtonPress(across, up, button);
+      events().mouseButtonRelease(across, up, button);
+    }
     run(1.0 / 60.0);
   }
   void show_list() { session->run("layers"); }
@@ -349,6 +351,16 @@ TEST(Layers, AreScrolled) {
   EXPECT_FALSE(contains(d.hud(), "[x] floor")) << d.hud();
   EXPECT_FALSE(contains(d.hud(), "wheel: ")) << d.hud();
   EXPECT_EQ(d.session->roamer().speed(), speed) << "the wheel is the list's";
+}
+
+TEST(BookmarkList, TakesADoubleClickForOne) {
+  Layered d;
+  d.session->run("bookmarks");
+  d.click_part(graphics::Hud::list_search, 1, 2);
+  EXPECT_TRUE(contains(d.hud(), "Bookmarks: 1")) << d.hud();
+  d.tap('b');
+  d.click_part("0", 3, 2);
+  EXPECT_TRUE(contains(d.hud(), "Bookmarks: 1")) << "the other one stays: " << d.hud();
 }
 
 TEST(BookmarkList, LeadsToWhatIsClicked) {

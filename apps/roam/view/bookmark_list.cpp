@@ -23,11 +23,13 @@ graphics::HudList BookmarkList::head() {
 }
 
 void BookmarkList::click(const std::string& part) {
+  if (is_again()) return;
   if (part == graphics::Hud::list_search) return records_.add_bookmark();
   if (const std::string name = name_of(part); !name.empty()) records_.go_to_bookmark(name);
 }
 
 void BookmarkList::click_right(const std::string& part) {
+  if (is_again()) return;  // the next row has moved there
   if (const std::string name = name_of(part); !name.empty()) records_.remove_bookmark(name);
 }
 

@@ -10,8 +10,8 @@
 
 namespace roam::app {
 
-/// A click on a bookmark leads the body there; one with the right button deletes it; one on the field
-/// above keeps a new one.
+/// A click on a bookmark leads the body there; one with the right button deletes it; one on the field above keeps a new
+/// one. A double click is one click.
 class BookmarkList : public ListPanel {
  public:
   BookmarkList(Stage& stage, const osgRoam::Manipulator& roamer, Records& records)

@@ -42,6 +42,7 @@ bool ListPanel::handle(const Adapter& event, osgGA::GUIActionAdapter& /*action*/
     case Adapter::DOUBLECLICK:
       if (!here || event.getButton() == 0) return here;
       is_down_ = true;
+      again_ = presses_.take(event, x, y);
       if (event.getButton() == Adapter::RIGHT_MOUSE_BUTTON) {
         click_right(hud.list_at(x, y));
       } else {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "osgRoam/Manipulator.h"
+#include "view/presses.h"
 #include "view/stage.h"
 
 namespace roam::app {
@@ -40,6 +41,8 @@ class ListPanel : public osgGA::GUIEventHandler {
 
   /// The same with the right button.
   virtual void click_right(const std::string& part) { click(part); }
+  /// Whether the present click is the second of a double click.
+  [[nodiscard]] bool is_again() const { return again_; }
   /// Whether the person types for the list.
   [[nodiscard]] bool takes_keys() const { return shown_ && !roamer_.mouseGrab() && !stage_.hud().help_shown(); }
   void hint(const std::string& text) { stage_.hint(text, 4.0); }
@@ -52,7 +55,9 @@ class ListPanel : public osgGA::GUIEventHandler {
   Stage& stage_;
   const osgRoam::Manipulator& roamer_;
   bool shown_ = false;
-  bool is_down_ = false;   ///< a button of the mouse was pressed here
+  bool is_down_ = false;  ///< a button of the mouse was pressed here
+  Presses presses_;
+  bool again_ = false;
   std::size_t first_ = 0;  ///< of the rows that are seen
 };
 
