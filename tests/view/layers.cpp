@@ -385,4 +385,34 @@ TEST(BookmarkList, LeadsToWhatIsClicked) {
   EXPECT_FALSE(contains(d.hud(), "Bookmarks: ")) << d.hud();
 }
 
+TEST(BookmarkList, SaysWhatAClickCannotDo) {
+  Layered d;
+  d.tap('b');
+  d.session->run("bookmarks");
+  const std::string good = d.folder.read("config/roam/bookmarks.json");
+  d.folder.write("config/roam/bookmarks.json", "[");
+  d.click_part(graphics::Hud::list_search);
+  EXPECT_TRUE(contains(d.hud(), "correct the file")) << d.hud();
+  d.click_part("0", 3);
+  EXPECT_TRUE(contains(d.hud(), "Bookmarks: 1")) << "nothing is deleted: " << d.hud();
+  d.folder.write("config/roam/bookmarks.json", good);
+  d.click_part("0", 3);
+  EXPECT_TRUE(contains(d.hud(), "Bookmarks: 0")) << d.hud();
+}
+
+TEST(BookmarkList, SaysThatAPlaceIsNone) {
+  Layered d;
+  d.tap('b');
+  d.session.reset();
+  nlohmann::json kept = nlohmann::json::parse(d.folder.read("config/roam/bookmarks.json"));
+  kept[0]["bookmarks"][0]["position"] = {1e308, 1e308, 1e308};
+  d.folder.write("config/roam/bookmarks.json", kept.dump());
+  d.begin();
+  const Vec3 before = d.place();
+  d.session->run("bookmarks");
+  d.click_part("0");
+  EXPECT_TRUE(contains(d.hud(), "is not a finite number")) << d.hud();
+  EXPECT_EQ(d.place(), before);
+}
+
 }  // namespace

@@ -14,8 +14,8 @@ namespace roam::app {
 /// one. A double click is one click.
 class BookmarkList : public ListPanel {
  public:
-  BookmarkList(Stage& stage, const osgRoam::Manipulator& roamer, Records& records)
-      : ListPanel(stage, roamer), roamer_(roamer), records_(records) {}
+  BookmarkList(Stage& stage, const osgRoam::Manipulator& roamer, Records& records, News& news)
+      : ListPanel(stage, roamer, news), records_(records) {}
 
   /// Adds "bookmarks", which shows or hides the list in place of `other`. Needs a walker.
   void add_to(Commands& commands, ListPanel& other);
@@ -27,7 +27,6 @@ class BookmarkList : public ListPanel {
   void click_right(const std::string& part) override;
 
  private:
-  const osgRoam::Manipulator& roamer_;
   Records& records_;
   [[nodiscard]] std::string name_of(const std::string& part) const;
 };

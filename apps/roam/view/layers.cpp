@@ -61,7 +61,7 @@ ListRow row_of(const SceneObjects::Entry& entry, const std::string& name, bool i
 }  // namespace
 
 Layers::Layers(Stage& stage, SceneGraph& scene, HiddenSpace& hidden, const osgRoam::Manipulator& roamer, News& news)
-    : ListPanel(stage, roamer), scene_(scene), hidden_(hidden), news_(news) {}
+    : ListPanel(stage, roamer, news), scene_(scene), hidden_(hidden) {}
 
 void Layers::add_to(Commands& commands, ListPanel& other) {
   commands.add("layers", [this, &other] { toggle_instead_of(other); });

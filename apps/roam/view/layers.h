@@ -45,7 +45,6 @@ class Layers : public ListPanel {
 
   SceneGraph& scene_;
   HiddenSpace& hidden_;
-  News& news_;
   bool patterns_told_ = false;
 
   // The list.

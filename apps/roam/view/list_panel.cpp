@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "osgroam/pointer.h"
+#include "roam/error.h"
 
 namespace roam::app {
 namespace {
@@ -43,11 +44,7 @@ bool ListPanel::handle(const Adapter& event, osgGA::GUIActionAdapter& /*action*/
       if (!here || event.getButton() == 0) return here;
       is_down_ = true;
       again_ = presses_.take(event, x, y);
-      if (event.getButton() == Adapter::RIGHT_MOUSE_BUTTON) {
-        click_right(hud.list_at(x, y));
-      } else {
-        click(hud.list_at(x, y));
-      }
+      press(hud.list_at(x, y), event.getButton() == Adapter::RIGHT_MOUSE_BUTTON);
       return true;
     case Adapter::DRAG:
       return is_down_;
@@ -59,6 +56,14 @@ bool ListPanel::handle(const Adapter& event, osgGA::GUIActionAdapter& /*action*/
       return here;
     default:
       return false;
+  }
+}
+
+void ListPanel::press(const std::string& part, bool right) {
+  try {
+    right ? click_right(part) : click(part);
+  } catch (const Error& error) {
+    news_.note(error.what());
   }
 }
 

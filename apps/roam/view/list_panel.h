@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "osgRoam/Manipulator.h"
+#include "view/news.h"
 #include "view/presses.h"
 #include "view/stage.h"
 
@@ -30,13 +31,14 @@ class ListPanel : public osgGA::GUIEventHandler {
   bool handle(const osgGA::GUIEventAdapter& event, osgGA::GUIActionAdapter& action) override;
 
  protected:
-  ListPanel(Stage& stage, const osgRoam::Manipulator& roamer) : stage_(stage), roamer_(roamer) {}
+  ListPanel(Stage& stage, const osgRoam::Manipulator& roamer, News& news)
+      : roamer_(roamer), news_(news), stage_(stage) {}
   ~ListPanel() override = default;
 
   void scroll_to_top() { first_ = 0; }
   /// The list without rows. Brings rows_ up to date.
   [[nodiscard]] virtual graphics::HudList head() = 0;
-  /// A click on a row, its arrow, or Hud::list_search, by name.
+  /// A click on a row, its arrow, or Hud::list_search, by name. Errors become news.
   virtual void click(const std::string& part) = 0;
 
   /// The same with the right button.
@@ -47,13 +49,15 @@ class ListPanel : public osgGA::GUIEventHandler {
   [[nodiscard]] bool takes_keys() const { return shown_ && !roamer_.mouseGrab() && !stage_.hud().help_shown(); }
   void hint(const std::string& text) { stage_.hint(text, 4.0); }
 
+  const osgRoam::Manipulator& roamer_;
+  News& news_;
   std::vector<graphics::ListRow> rows_;  ///< all of them
 
  private:
+  void press(const std::string& part, bool right);
   void scroll(double notches);
 
   Stage& stage_;
-  const osgRoam::Manipulator& roamer_;
   bool shown_ = false;
   bool is_down_ = false;  ///< a button of the mouse was pressed here
   Presses presses_;

@@ -62,7 +62,7 @@ Session::Session(const ViewOptions& options, const ViewPlan& plan, const ViewSet
       prompt_(new Prompt(stage_)),
       hidden_(scene_, arrival_, *roamer_, news_, plan_.path.empty() && !options.verify),
       layers_(new Layers(stage_, scene_, hidden_, *roamer_, news_)),
-      bookmark_list_(new BookmarkList(stage_, *roamer_, records_)),
+      bookmark_list_(new BookmarkList(stage_, *roamer_, records_, news_)),
       tools_(new Tools(stage_, scene_, *roamer_, *cameras_, hidden_, what_, options.program, plan_.section)),
       controllers_(*this, *prompt_, plan_.sensitivity),
       building_(what_, options.program, *roamer_, news_),
