@@ -82,6 +82,9 @@ std::optional<NextSession> run_session(const ViewOptions& options, const ViewPla
     // Write, verify and report what there is so far.
     cancelled = true;
     give_time_to_write(longest_writing);
+  } catch (const Error&) {
+    if (!session.roaming()) throw;
+    unwritten.attempt([] { throw; });  // after what there is
   }
   report = session.finish(unwritten);
   return cancelled ? std::nullopt : session.next();

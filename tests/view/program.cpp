@@ -380,6 +380,20 @@ TEST(ViewMissing, PictureLeavesTheWalls) {
   EXPECT_TRUE(contains(all(view.json()["notes"]), "can be seen")) << view.json()["notes"];
 }
 
+TEST(ViewReport, IsPrintedThoughAnErrorEndsTheSession) {
+  View view;
+  const std::string folder = view.folder.file("out");
+  std::filesystem::create_directory(folder);
+  view.set_reader("rmdir '" + folder + "' 2> /dev/null\nexec \"$real\" \"$@\"\n");
+  view.run({"--headless", "--time", "1", "--json", "--trace", view.folder.file("t.csv"), "--record-path",
+            folder + "/way.path"});
+  EXPECT_EQ(view.result.status, 1);
+  EXPECT_TRUE(contains(view.result.err, folder + "/way.path")) << view.result.err;
+  ASSERT_TRUE(view.json().is_object()) << view.result.out;
+  EXPECT_EQ(view.json()["roamed"], true);
+  EXPECT_EQ(view.json()["written"], nlohmann::json({view.folder.file("t.csv")})) << view.result.out;
+}
+
 // ----------------------------------------------------------------------------------------------------- interrupts
 
 TEST(ViewInterrupt, WhileLoadingEndsAtOnceAndLeavesNoReader) {
