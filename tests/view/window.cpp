@@ -95,16 +95,16 @@ class Window {
   bool focus() { return try_xdo("search --name '^roam: ' windowfocus"); }
 
   /// Ends it by a key, and gives its report.
-  nlohmann::json end() {
+  nlohmann::json end(int status = 0) {
     eventually([&] {
       if (!ended_ && focus()) try_xdo("key F10");
       return ended_.load();
     });
-    return report();
+    return report(status);
   }
-  nlohmann::json report() {
+  nlohmann::json report(int status = 0) {
     if (program_.joinable()) program_.join();
-    EXPECT_EQ(result.status, 0) << result.err;
+    EXPECT_EQ(result.status, status) << result.err;
     return nlohmann::json::parse(result.out, nullptr, false);
   }
   [[nodiscard]] bool ended() const { return ended_; }
@@ -177,6 +177,17 @@ TEST(ViewWindow, ShowsAllOfItselfWhenItIsResized) {
   EXPECT_GT(picture.colours(), 8u);
   const nlohmann::json report = w.end();
   EXPECT_EQ(report["written"][0], "./roam-1.png");
+}
+
+TEST(ViewWindow, SaysThatItsFilmEndsWhenItIsResized) {
+  Window w({"--at", "2,0,0.95,0", "--record", "film.mp4"});
+  xdo("search --name '^roam: ' windowsize 500 400");
+  wait(1.0);
+  const nlohmann::json report = w.end(1);
+  EXPECT_TRUE(contains(all(report["notes"]), "the film film.mp4 ends after ")) << report["notes"];
+  EXPECT_TRUE(contains(w.result.err, "the size of the window has changed")) << w.result.err;
+  EXPECT_EQ(report["written"], nlohmann::json({"film.mp4"})) << "as far as it goes";
+  EXPECT_GT(w.folder.read("film.mp4").size(), 1000u);
 }
 
 TEST(ViewWindow, WritesPicturesWithoutTheDisplayUnlessAsked) {

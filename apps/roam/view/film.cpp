@@ -1,5 +1,7 @@
 #include "view/film.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <mutex>
 #include <optional>
@@ -13,6 +15,11 @@ struct Film::State {
   std::optional<graphics::Video> video;
   int width = 0, height = 0;
   std::string problem;
+
+  /// `why` the film has no more pictures.
+  void end(const std::string& name, double seconds, const std::string& why) {
+    if (problem.empty()) problem = fmt::format("the film {} ends after {:.1f} s: {}", name, seconds, why);
+  }
 };
 
 Film::Film(graphics::Frame& frame, const std::filesystem::path& path, int rate)
@@ -32,12 +39,12 @@ bool Film::is_due(double seconds) const { return begin_ < 0.0 || index(seconds) 
 void Film::before_frame(double seconds) {
   if (begin_ < 0.0) begin_ = seconds;
   next_ = index(seconds) + 1;
-  const auto add = [state = state_, time = seconds - begin_](osg::ref_ptr<osg::Image> image) {
+  const std::string name = path_.string();
+  const auto add = [state = state_, name, time = seconds - begin_](osg::ref_ptr<osg::Image> image) {
     const std::lock_guard lock(state->mutex);
     if (!state->video || !state->problem.empty()) return;
     if (image->s() != state->width || image->t() != state->height) {
-      state->problem = "the film has ended: the size of the window has changed";
-      return;
+      return state->end(name, time, "the size of the window has changed, and a film has one");
     }
     try {
       state->video->add(std::move(image), time);
@@ -45,9 +52,9 @@ void Film::before_frame(double seconds) {
       state->problem = error.what();
     }
   };
-  const auto fail = [state = state_](const std::string& reason) {
+  const auto fail = [state = state_, name, time = seconds - begin_](const std::string& reason) {
     const std::lock_guard lock(state->mutex);
-    state->problem = reason;
+    state->end(name, time, reason);
   };
   frame_.request_picture(true, add, fail);
 }

@@ -23,7 +23,7 @@ class Film {
   /// Whether before_frame() would capture a frame at this time. Pictures are due at multiples of 1 / rate after the
   /// first.
   [[nodiscard]] bool is_due(double seconds) const;
-  /// Why the film has stopped, for display; empty while it runs.
+  /// Why the film has no more pictures, as a sentence; empty: it goes on, or has ended as it should.
   [[nodiscard]] std::string problem() const;
   /// Ends the film and gives the file its name. Throws roam::Error if the film could not be written.
   void finish();

@@ -243,6 +243,12 @@ std::vector<Picture> Stage::poll_pictures() {
     }
     return true;
   });
+  if (film_ && !film_stopped_) {
+    if (std::string problem = film_->problem(); !problem.empty()) {
+      film_stopped_ = true;
+      told.push_back({film_->path(), std::move(problem)});
+    }
+  }
   return told;
 }
 
@@ -414,6 +420,7 @@ void Stage::finish(Unwritten& unwritten) {
   unwritten.attempt([&] {
     film_->finish();
     written_.insert(written_.begin(), film);
+    if (const std::string problem = film_->problem(); !problem.empty()) throw Error::at(film, problem);
   });
   film_.reset();
 }

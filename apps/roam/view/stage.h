@@ -74,7 +74,7 @@ class Stage {
 
   /// Whether the next frame is one for a picture without the display, which no tool's marks belong to.
   [[nodiscard]] bool is_still_next() const { return still_wanted_ || enlarged_in_ > 0; }
-  /// The pictures finished since the last call.
+  /// The pictures finished since the last call, and the film if it has stopped since.
   [[nodiscard]] std::vector<Picture> poll_pictures();
 
   /// Begins a frame. Returns its seconds: by the clock in a window. Headless: 1/60 if the session `runs`, else 0, so
@@ -121,7 +121,7 @@ class Stage {
   std::optional<graphics::Hud> hud_;
   std::optional<graphics::Overlay> overlay_;
   std::optional<Film> film_;
-  bool film_held_ = false;
+  bool film_held_ = false, film_stopped_ = false;
   std::vector<graphics::Screenshot> pictures_;
   std::vector<Picture> failed_;              ///< pictures that could not be drawn
   std::optional<std::array<int, 2>> large_;  ///< pixels, of a picture larger than the window
