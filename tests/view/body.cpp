@@ -230,4 +230,19 @@ TEST(Replay, EndsWhereThePersonTakesOver) {
   EXPECT_TRUE(replay.left());
 }
 
+TEST(Replay, EndsWhereThePersonPutsTheBodyElsewhere) {
+  const World world = hall(2.0);
+  std::istringstream text("2 0 0.3\n18 0 0.3\n");
+  Walker walker(world, WalkerSettings::sphere(0.3), Mode::walk, {2, 0, 0.3});
+  Replay replay(walker, read_path(text, "p"), {});
+  ASSERT_NE(replay.advance(), nullptr);
+  walker.place({15, 0, 0.3});
+  replay.go_on_here();
+  ASSERT_NE(replay.advance(), nullptr) << "a lesson may put it elsewhere";
+  walker.place({17.9, 0, 0.3});
+  EXPECT_EQ(replay.advance(), nullptr);
+  EXPECT_TRUE(replay.left());
+  EXPECT_FALSE(replay.ended());
+}
+
 }  // namespace

@@ -76,10 +76,11 @@ void Learning::watch(const Vec3& wish, double seconds) {
   }
 }
 
-void Learning::update() {
+bool Learning::update() {
   const bool wanted = std::exchange(accepted_, false) || takes_;
-  if (!wanted || !lesson_ || roamer_.walker() == nullptr) return;
+  if (!wanted || !lesson_ || roamer_.walker() == nullptr) return false;
   take(*std::exchange(lesson_, std::nullopt));
+  return true;
 }
 
 void Learning::take(const Lesson& lesson) {

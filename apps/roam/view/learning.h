@@ -30,8 +30,8 @@ class Learning {
   void add_to(Commands& commands) {
     commands.add("adapt", [this] { accepted_ = true; });
   }
-  /// Call it between two frames: applies an accepted size to the walker, and saves it.
-  void update();
+  /// Call it between two frames: applies an accepted size to the walker, and saves it. Returns whether there was one.
+  bool update();
   /// Applies the accepted sizes to a new walker.
   void resize();
 

@@ -25,7 +25,8 @@ Replay::Replay(Walker& walker, const std::vector<Waypoint>& path, const RouteOpt
       path_(path),
       route_(walker, positions(path), options),
       speed_(options.speed),
-      mode_(walker.mode()) {}
+      mode_(walker.mode()),
+      place_(walker.position()) {}
 
 void Replay::lead(osgRoam::Manipulator& roamer) {
   roamer.setPilot([this](Walker&, double) { return advance(); });
@@ -40,8 +41,11 @@ void Replay::look(osgRoam::Manipulator& roamer, double seconds) {
 }
 
 const StepReport* Replay::advance() {
-  if (walker_->mode() != mode_) left_ = true;
-  return done() ? nullptr : &route_.advance();
+  left_ = left_ || walker_->mode() != mode_ || walker_->position() != place_;
+  if (done()) return nullptr;
+  const StepReport& report = route_.advance();
+  place_ = walker_->position();
+  return &report;
 }
 
 Vec3 Replay::wish() const {

@@ -21,14 +21,16 @@ class Replay {
   void lead(osgRoam::Manipulator& roamer);
   void look(osgRoam::Manipulator& roamer, double seconds);
 
-  /// Performs one step. Returns its report, or null after the end of the path.
+  /// Performs one step. Returns its report, or null after the end of the path, or where it was left.
   const StepReport* advance();
   [[nodiscard]] bool done() const { return route_.done() || left_; }
   /// Whether the path has ended by itself; result() has its outcome.
   [[nodiscard]] bool ended() const { return route_.done(); }
   [[nodiscard]] const RouteResult& result() const { return route_.result(); }
-  /// Whether the person has changed the mode, which ends the replay.
+  /// Whether the person has changed the mode or put the body elsewhere, which ends the replay.
   [[nodiscard]] bool left() const { return left_; }
+  /// Makes the way go on from where the body was put.
+  void go_on_here() { place_ = walker_->position(); }
 
   /// The velocity towards the next waypoint, m/s. Its length is approximate.
   [[nodiscard]] Vec3 wish() const;
@@ -51,6 +53,7 @@ class Replay {
   Route route_;
   double speed_;
   Mode mode_;
+  Vec3 place_;  ///< of the body after the last step
   bool left_ = false;
   std::optional<Vec3> direction_;  ///< unit vector of the gaze
 };

@@ -120,7 +120,7 @@ bool Session::frame() {
   if (stage_.headless() && roaming()) arrival_.wait_for_tiles(passed);
   stage_.see_events();
   arrival_.fly_without_ground();
-  if (learning_) learning_->update();
+  if (learning_ && learning_->update() && replay_) replay_->go_on_here();
   if (quits_ || next() || stage_.viewer().done()) return false;
   if (roaming()) {
     if (replay_) replay_->look(*roamer_, passed);
