@@ -8,6 +8,7 @@
 
 #include "roam/collector.h"
 #include "roam/error.h"
+#include "roam/world.h"
 #include "view_tooled.h"
 
 namespace {
@@ -48,6 +49,20 @@ TEST(LivePlan, SaysOnceThatItsSpaceCannotBeRead) {
   }
   EXPECT_EQ(plan.take_problem(), "");
   EXPECT_EQ(unreadable->queries, queries) << "the same place is not read again";
+}
+
+TEST(LivePlan, KeepsNoSpaceWhileItIsNotShown) {
+  view_stores::Tooled d;
+  app::LivePlan plan(d.session->stage().frame(), d.session->roamer());
+  plan.cycle();
+  auto space = std::make_shared<const World>();
+  const std::weak_ptr<const World> seen = space;
+  plan.update(true, {std::move(space), {}}, {});
+  EXPECT_FALSE(seen.expired());
+  EXPECT_TRUE(d.until([&] {
+    plan.update(false, {d.session->roamer().space(), {}}, {});
+    return seen.expired();
+  }));
 }
 
 TEST(LivePlan, BreaksItsTrailWhereTheBodyIsPut) {

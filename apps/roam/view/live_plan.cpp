@@ -183,12 +183,13 @@ void LivePlan::set_way(const ProbedWay& way) {
 void LivePlan::update(bool visible, HiddenSpace::Met met, const std::vector<graphics::PlanPlace>& places) {
   if (roamer_.walker() == nullptr) return;
   follow();
+  receive();
   graphics::PlanView view;
   if (!visible || size_ == PlanSize::none) {
+    wished_.reset();  // it keeps the space, which may be gigabytes that nothing else needs
     panel_.set_view(view);
     return;
   }
-  receive();
   const Vec3 centre = roamer_.walker()->position();
   const Wish wish{std::move(met), centre, roamer_.walker()->feet().z + knee, margin_factor * half()};
   if (!cutting_.valid() && is_stale(wish)) {

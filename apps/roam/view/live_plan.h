@@ -73,7 +73,7 @@ class LivePlan {
   double half_ = 12.0;  ///< m, of the small plan
   std::atomic<bool> stops_ = false;
   std::future<graphics::PlanLines> cutting_;
-  std::optional<Wish> wished_;  ///< for the last cut, which is shown, running or failed
+  std::optional<Wish> wished_;  ///< for the last cut, which is shown, running or failed; none while nothing is shown
   std::optional<graphics::PlanLines> shown_;
   std::string problem_;
   struct TrailPoint {
