@@ -389,6 +389,19 @@ TEST(Bookmarks, KeepWhatAnotherSessionHasWrittenMeanwhile) {
   EXPECT_EQ(two.all().size(), 2u);
 }
 
+TEST(Bookmarks, OfSeveralEntriesAreKept) {
+  const TestFolder folder;
+  const std::string entry = R"({"scene": ["/mine.obj"], "bookmarks": [{"name": "NAME", "position": [1, 2, 3]}]})";
+  const auto named = [&](const char* name) { return std::string(entry).replace(entry.find("NAME"), 4, name); };
+  const std::string file = folder.write("b.json", "[" + named("door") + ", " + named("shaft") + "]");
+  Bookmarks mine(file, {"/mine.obj"}, {});
+  EXPECT_EQ(mine.names(), "door, shaft");
+  mine.add({{4, 5, 6}, 0, 0});
+  EXPECT_EQ(mine.names(), "door, shaft, 1");
+  mine.remove("shaft");
+  EXPECT_EQ(Bookmarks(file, {"/mine.obj"}, {}).names(), "door, 1");
+}
+
 TEST(Bookmarks, NeverWriteOverAFileThatTheyDoNotUnderstand) {
   const TestFolder folder;
   const std::string file = folder.write("b.json", "{\"mine\": 1}");

@@ -158,7 +158,13 @@ void Bookmarks::change(const std::function<void(std::vector<Bookmark>&)>& edit) 
                         {"bookmarks", Json::array()}});
     ours = std::prev(document.end());
   }
-  std::vector<Bookmark> bookmarks = bookmarks_of(*ours, file_);
+  std::vector<Bookmark> bookmarks;
+  for (Json& scene : document) {  // a file that a person put together may have several
+    if (!is_ours(scene)) continue;
+    const std::vector<Bookmark> more = bookmarks_of(scene, file_);
+    bookmarks.insert(bookmarks.end(), more.begin(), more.end());
+    scene["bookmarks"] = Json::array();
+  }
   edit(bookmarks);
   Json list = Json::array();
   for (const Bookmark& bookmark : bookmarks) list.push_back(to_json(bookmark));
