@@ -357,6 +357,21 @@ TEST(Bookmarks, AreGivenNames) {
   EXPECT_EQ(Bookmarks(file, {"mine.obj"}, {}).names(), "door, 1");
 }
 
+TEST(Bookmarks, AreReplacedInOneChange) {
+  const TestFolder folder;
+  const std::string file = folder.file("b.json");
+  Bookmarks mine(file, {"mine.obj"}, {});
+  for (const double x : {1.0, 2.0, 3.0}) mine.add({{x, 0, 0}, 0, 0});
+  Bookmarks(file, {"mine.obj"}, {}).remove("3");
+  EXPECT_TRUE(contains(error_of([&] { mine.rename("1", true); }), "no longer there"));
+  EXPECT_EQ(Bookmarks(file, {"mine.obj"}, {}).names(), "1, 2") << "the other one stays";
+  mine.find("2");
+  mine.rename("1", true);
+  EXPECT_EQ(mine.names(), "1");
+  EXPECT_EQ(mine.present()->pose.position.x, 2.0);
+  EXPECT_EQ(Bookmarks(file, {"mine.obj"}, {}).find("1")->pose.position.x, 2.0);
+}
+
 TEST(Bookmarks, OfAnotherFrameAreNotTakenButKnown) {
   const TestFolder folder;
   const std::filesystem::path file = folder.file("b.json");

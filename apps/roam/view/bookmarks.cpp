@@ -185,16 +185,16 @@ const Bookmark& Bookmarks::add(const Pose& pose) {
   return bookmarks_.back();
 }
 
-void Bookmarks::rename(const std::string& name) {
+void Bookmarks::rename(const std::string& name, bool replaces) {
   if (!present_) throw Error("there is no bookmark to name; keep one first");
   const std::string old = bookmarks_[*present_].name;
   if (name == old) return;
   change([&](std::vector<Bookmark>& bookmarks) {
-    if (has(bookmarks, name))
+    if (!replaces && has(bookmarks, name))
       throw Error(fmt::format("another bookmark has the name {}; take another", printable(name)));
-    const auto found = named(bookmarks, old);
-    if (found == bookmarks.end()) throw Error(fmt::format("the bookmark {} is no longer there", printable(old)));
-    found->name = name;
+    if (!has(bookmarks, old)) throw Error(fmt::format("the bookmark {} is no longer there", printable(old)));
+    std::erase_if(bookmarks, [&](const Bookmark& b) { return b.name == name; });
+    named(bookmarks, old)->name = name;
   });
   find(name);
 }

@@ -51,9 +51,9 @@ class Bookmarks {
   /// The present bookmark, and its number from 1; null if there is none.
   [[nodiscard]] const Bookmark* present() const { return present_ ? &bookmarks_[*present_] : nullptr; }
   [[nodiscard]] std::size_t number() const { return present_ ? *present_ + 1 : 0; }
-  /// Gives the present bookmark another name, and writes the file. Throws roam::Error if another has that name, or if
-  /// the file cannot be written; nothing changes then.
-  void rename(const std::string& name);
+  /// Gives the present bookmark another name, and writes the file. Throws roam::Error if another has that name and is
+  /// not to be replaced, or if the file cannot be written; nothing changes then.
+  void rename(const std::string& name, bool replaces = false);
   /// Whether another bookmark than the present one has that name.
   [[nodiscard]] bool is_taken(const std::string& name) const;
   /// Deletes the bookmark of that name, and writes the file. Throws roam::Error if that fails; nothing changes then.

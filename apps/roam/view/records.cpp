@@ -59,9 +59,9 @@ void Records::add_bookmark() {
   news_.tell("bookmark " + bookmarks_->add(standing_pose_of(roamer_)).name);
 }
 
-void Records::name_bookmark(const std::string& name) {
+void Records::name_bookmark(const std::string& name, bool replaces) {
   if (!bookmarks_) throw Error(*problem_);
-  bookmarks_->rename(name);
+  bookmarks_->rename(name, replaces);
   news_.tell("bookmark " + bookmarks_->present()->name);
 }
 
@@ -82,14 +82,11 @@ void Records::ask_name(Prompt& prompt, const std::string& question, const std::s
   prompt.ask(question, text, [this, &prompt, replaced](const std::string& typed) {
     const std::string name = typed;  // the prompt's, which another question changes
     try {
-      if (bookmarks_->is_taken(name)) {
-        if (name != replaced) {
-          ask_name(prompt, "Enter replaces the other bookmark of this name. Name", name, name);
-          return;
-        }
-        bookmarks_->remove(name);
+      if (bookmarks_->is_taken(name) && name != replaced) {
+        ask_name(prompt, "Enter replaces the other bookmark of this name. Name", name, name);
+      } else {
+        name_bookmark(name, name == replaced);
       }
-      name_bookmark(name);
     } catch (const Error& error) {
       news_.note(error.what());
     }

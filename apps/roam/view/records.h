@@ -36,8 +36,9 @@ class Records {
   [[nodiscard]] Pose named(const std::string& name);
   /// Adds the body's pose. Throws roam::Error on failure.
   void add_bookmark();
-  /// Gives the bookmark that was kept or visited last another name. Throws roam::Error on failure.
-  void name_bookmark(const std::string& name);
+  /// Gives the bookmark that was kept or visited last another name; `replaces`: also that of another. Throws
+  /// roam::Error on failure.
+  void name_bookmark(const std::string& name, bool replaces = false);
   /// The same with a name that the person types, who may replace another bookmark of that name. Errors become news.
   void ask_name(Prompt& prompt);
   /// All bookmarks, seen from above.
