@@ -71,7 +71,8 @@ verification::Verification verified(const ViewReport& report, const ViewOptions&
   return verify(*store, report.pieces, progress);
 }
 
-/// One session, to its end or Ctrl-C. Returns how the person wants to go on.
+/// One session, to its end or Ctrl-C. The report is that of the sessions before, and goes on. Returns how the person
+/// wants to go on.
 std::optional<NextSession> run_session(const ViewOptions& options, const ViewPlan& plan, const ViewSettings& settings,
                                        ViewReport& report, Unwritten& unwritten, bool& cancelled) {
   Session session(options, plan, settings);
@@ -83,10 +84,11 @@ std::optional<NextSession> run_session(const ViewOptions& options, const ViewPla
     cancelled = true;
     give_time_to_write(longest_writing);
   } catch (const Error&) {
-    if (!session.roaming()) throw;
+    if (!session.roaming() && !report.roamed) throw;
     unwritten.attempt([] { throw; });  // after what there is
   }
-  report = session.finish(unwritten);
+  ViewReport earlier = std::exchange(report, session.finish(unwritten));
+  add_earlier(report, std::move(earlier));
   return cancelled ? std::nullopt : session.next();
 }
 
@@ -115,19 +117,13 @@ ExitStatus view(ViewOptions options) {
   const std::vector<std::string> given = options.scene.ignore;
   std::optional<graphics::DisplayHold> hold;
   if (!options.headless) hold.emplace();
-  std::vector<std::string> notes, noted;  // of all sessions
   while (const std::optional<NextSession> next = run_session(options, plan, settings, report, unwritten, cancelled)) {
-    append(notes, report.notes);
-    append(noted, report.noted);
     const std::string note = go_on(options, *next, given);
     plan = make_plan(options, settings, std::nullopt, profile_for(options, std::nullopt));
     plan.note = note;
-    plan.noted = noted;
+    plan.noted = report.noted;
   }
   hold.reset();  // Xlib ends a program whose server goes away
-  append(notes, std::exchange(report.notes, {}));
-  append(noted, report.noted);
-  report.notes = std::move(notes);
   const std::string picture = options.screenshot.string();
   if (!picture.empty() && !unwritten.any() &&
       std::find(report.written.begin(), report.written.end(), picture) == report.written.end()) {
@@ -135,7 +131,7 @@ ExitStatus view(ViewOptions options) {
                            earlier_stays(picture));
   }
   for (const std::string& note : report.notes) {
-    if (std::find(noted.begin(), noted.end(), note) == noted.end()) tell("note: " + note);
+    if (std::find(report.noted.begin(), report.noted.end(), note) == report.noted.end()) tell("note: " + note);
   }
   if (options.verify && report.roamed) {
     Progress progress("verifying", "pieces");

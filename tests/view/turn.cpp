@@ -164,6 +164,34 @@ TEST(Turn, IsRefusedWhileSomethingIsWritten) {
   EXPECT_TRUE(contains(d.hud(), "is not read anew")) << d.hud();
 }
 
+/// Of a session that measured a point at `x` and wrote a file.
+ViewReport report_of(const SceneFrame& frame, double x, const std::string& file) {
+  ViewReport report;
+  report.frame = frame;
+  report.measurements = {{{Vec3(x, 0.0, 0.0), Vec3(0.0, 0.0, 1.0), {}}, {}}};
+  report.probes.resize(1);
+  report.written = {file};
+  report.notes = {"of both", file + " is good"};
+  report.learned = 1;
+  report.untold = written_line(file);
+  return report;
+}
+
+TEST(ViewReport, HasTheResultsOfTheSessionsBefore) {
+  ViewReport report = report_of({}, 2.0, "2.png");
+  add_earlier(report, report_of({}, 1.0, "1.png"));
+  ASSERT_EQ(report.measurements.size(), 2u);
+  EXPECT_EQ(report.measurements[0].a.point.x, 1.0);
+  EXPECT_EQ(report.probes.size(), 2u);
+  EXPECT_EQ(report.written, (std::vector<std::string>{"1.png", "2.png"}));
+  EXPECT_EQ(report.notes, (std::vector<std::string>{"of both", "1.png is good", "2.png is good"}));
+  EXPECT_EQ(report.learned, 2);
+  EXPECT_EQ(text_report(report), "written: 1.png\nwritten: 2.png\n");
+  add_earlier(report, report_of({.up = UpAxis::y}, 0.0, "0.png"));
+  EXPECT_EQ(report.measurements.size(), 2u) << "its places mean nothing here";
+  EXPECT_EQ(report.written.size(), 3u);
+}
+
 TEST(LeaveOut, EndsTheSessionWithThePatternOfTheObjectAhead) {
   DrivenSession d;
   d.write_scene();

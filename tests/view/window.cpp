@@ -352,12 +352,16 @@ TEST(ViewWindow, DragsASideOfTheSectionsBox) {
 
 TEST(ViewWindow, ComesBackWithTheSceneTurned) {
   Window w({"--at", "2,0,0.95,0"}, {}, true, true);
+  xdo("key p");
+  ASSERT_TRUE(eventually([&] { return std::filesystem::exists(w.folder.file("roam-1.png")); }));
   xdo("key u");
   wait(2.0);
   Display* const display = XOpenDisplay(nullptr);
   EXPECT_NE(XInternAtom(display, "ROAM_TEST", True), None) << "between two windows the server lost its last client";
   XCloseDisplay(display);
-  EXPECT_EQ(w.end()["frame"]["up"], "y");
+  const nlohmann::json report = w.end();
+  EXPECT_EQ(report["frame"]["up"], "y");
+  EXPECT_EQ(report["written"], nlohmann::json({"./roam-1.png"})) << "by the first window";
 }
 
 TEST(ViewWindow, GoesToWhatIsDoubleClicked) {

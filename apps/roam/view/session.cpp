@@ -379,12 +379,14 @@ ViewReport Session::finish(Unwritten& unwritten) {
   unwritten.attempt([&] { records_.finish(); });
   records_.fill(report);
   report.written = news_.files();
-  report.measurements_told = measurements_told_;
-  report.written_told = written_told_;
   unwritten.attempt([&] { log_.finish(); });
   log_.fill(report);
   stage_.finish(unwritten);
   stage_.fill(report);
+  for (std::size_t i = measurements_told_; i < report.measurements.size(); ++i) {
+    report.untold += measured_line(report.measurements[i]);
+  }
+  for (std::size_t i = written_told_; i < report.written.size(); ++i) report.untold += written_line(report.written[i]);
   return report;
 }
 

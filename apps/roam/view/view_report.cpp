@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "cli/progress.h"
 #include "cli/tell.h"
@@ -67,6 +68,21 @@ void append(std::vector<std::string>& all, const std::vector<std::string>& more)
   for (const std::string& one : more) {
     if (std::find(all.begin(), all.end(), one) == all.end()) all.push_back(one);
   }
+}
+
+void add_earlier(ViewReport& report, ViewReport earlier) {
+  using Report = ViewReport;
+  for (const auto list : {&Report::notes, &Report::noted, &Report::written}) {
+    append(earlier.*list, report.*list);
+    report.*list = std::move(earlier.*list);
+  }
+  if (report.frame == earlier.frame) {
+    const auto add = [](auto& all, const auto& before) { all.insert(all.begin(), before.begin(), before.end()); };
+    add(report.measurements, earlier.measurements);
+    add(report.probes, earlier.probes);
+  }
+  report.learned += earlier.learned;
+  report.untold = earlier.untold + report.untold;
 }
 
 Json json_report(const ViewReport& report) {
@@ -161,11 +177,7 @@ std::string text_report(const ViewReport& report) {
   if (report.verified) {
     text += fmt::format("verified: {}\n", summary(*report.verified));
   }
-  for (std::size_t i = report.measurements_told; i < report.measurements.size(); ++i) {
-    text += measured_line(report.measurements[i]);
-  }
-  for (std::size_t i = report.written_told; i < report.written.size(); ++i) text += written_line(report.written[i]);
-  return text;
+  return text + report.untold;
 }
 
 std::string measured_line(const Measurement& measurement) {

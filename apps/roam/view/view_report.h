@@ -68,14 +68,13 @@ struct ViewReport {
   std::vector<std::string> missing_texture_files;
   std::uint64_t missing_pages = 0;
   std::vector<Measurement> measurements;
-  std::size_t measurements_told = 0;  ///< the first ones, as text
   std::vector<ProbeReply> probes;
   SectionShape section;              ///< at the end
   std::size_t hidden_objects = 0;    ///< at the end
   bool passes_objects = false;       ///< the body passes through hidden objects, if there are any
   bool passes_section = false;       ///< the body passes through what the section hides
   std::vector<std::string> written;  ///< files
-  std::size_t written_told = 0;      ///< the first ones, as text
+  std::string untold;                ///< lines of measurements and files that the terminal lacks
   std::vector<Mesh> meshes;          ///< for --verify; none if the session began with a store
   verification::PieceLog pieces;     ///< for --verify
   std::optional<verification::Verification> verified;
@@ -83,6 +82,8 @@ struct ViewReport {
 
 /// Appends those sentences of `more` that `all` lacks.
 void append(std::vector<std::string>& all, const std::vector<std::string>& more);
+/// Adds the notes and results of the session before. Measurements and probes are left out if their frame was another.
+void add_earlier(ViewReport& report, ViewReport earlier);
 
 [[nodiscard]] Json json_report(const ViewReport& report);
 /// Without what was told.
