@@ -114,7 +114,7 @@ ExitStatus view(ViewOptions options) {
   ViewReport report;
   Unwritten unwritten;
   bool cancelled = false;
-  const std::vector<std::string> given = options.scene.ignore;
+  const ViewOptions given = options;
   std::optional<graphics::DisplayHold> hold;
   if (!options.headless) hold.emplace();
   while (const std::optional<NextSession> next = run_session(options, plan, settings, report, unwritten, cancelled)) {

@@ -164,6 +164,41 @@ TEST(Turn, IsRefusedWhileSomethingIsWritten) {
   EXPECT_TRUE(contains(d.hud(), "is not read anew")) << d.hud();
 }
 
+TEST(Turn, IsRefusedWhileAWayIsRecordedOrAStoreIsBuilt) {
+  DrivenSession d;
+  d.write_scene();
+  d.options.program = d.folder.write("roam", "#!/bin/sh\nexec sleep 100\n");
+  std::filesystem::permissions(d.options.program, std::filesystem::perms::owner_all);
+  d.begin();
+  const auto is_refused = [&](const char* why) {
+    for (const char* command : {"turn", "show_all"}) {
+      d.session->run(command);
+      EXPECT_FALSE(d.session->next()) << command;
+      EXPECT_TRUE(contains(d.hud(), why)) << d.hud();
+    }
+  };
+  const auto before = std::filesystem::current_path();
+  std::filesystem::current_path(d.folder.file(""));
+  d.session->run("record");
+  is_refused("a way is written");
+  d.session->run("record");
+  std::filesystem::current_path(before);
+  d.session->run("store");
+  d.session->run("store");
+  is_refused("while its store is built");
+}
+
+TEST(Turn, KeepsTheModeOfTheCommandLine) {
+  ViewOptions given, options;
+  NextSession next;
+  next.mode = Mode::fly;
+  static_cast<void>(go_on(options, next, given));
+  EXPECT_EQ(options.mode, "fly") << "nothing has moved";
+  next.frame = SceneFrame{.up = UpAxis::y};
+  static_cast<void>(go_on(options, next, given));
+  EXPECT_FALSE(options.mode);
+}
+
 /// Of a session that measured a point at `x` and wrote a file.
 ViewReport report_of(const SceneFrame& frame, double x, const std::string& file) {
   ViewReport report;

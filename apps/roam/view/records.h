@@ -58,6 +58,7 @@ class Records {
   void record(const std::filesystem::path& file, files::Naming naming = files::Naming::exact);
   /// Call it in each frame with a body. `now`: seconds since the session began.
   void add_frame(double now);
+  [[nodiscard]] bool is_recording() const { return recorder_.has_value(); }
   /// Ends the recording, if there is one.
   void finish();
 

@@ -20,10 +20,11 @@ SceneFrame next_unit(const SceneFrame& frame, std::optional<LengthUnit> stated) 
   return {frame.up, static_cast<LengthUnit>(next)};
 }
 
-std::string go_on(ViewOptions& options, const NextSession& next, const std::vector<std::string>& given) {
+std::string go_on(ViewOptions& options, const NextSession& next, const ViewOptions& given) {
   options.bookmark.clear();
   options.at.clear();
   if (next.frame) {
+    options.mode = given.mode;
     options.scene.up = to_string(next.frame->up);
     options.scene.unit = to_string(next.frame->unit);
     return fmt::format("read with {}{}{}", options_of(*next.frame), next.note.empty() ? "" : "; ", next.note);
@@ -32,7 +33,7 @@ std::string go_on(ViewOptions& options, const NextSession& next, const std::vect
   options.at = {place.x, place.y, place.z, next.at.yaw, next.at.pitch};
   options.mode = to_string(next.mode);
   if (next.leave_out.empty()) {
-    options.scene.ignore = given;
+    options.scene.ignore = given.scene.ignore;
     return "all objects are shown";
   }
   options.scene.ignore.push_back(next.leave_out);
@@ -53,9 +54,15 @@ void Rereading::add_to(Commands& commands) {
 /// Whether another session may follow this one. Says why not.
 bool Rereading::is_possible() {
   const bool writes = !options_.trace.empty() || !options_.record.empty() || !options_.record_path.empty();
-  if (options_.path.empty() && !options_.verify && !writes) return true;
-  news_.tell("the scene is not read anew on a path, or while a trace, a film or a way is written");
-  return false;
+  if (!options_.path.empty() || options_.verify || writes || records_.is_recording()) {
+    news_.tell("the scene is not read anew on a path, or while a trace, a film or a way is written");
+    return false;
+  }
+  if (building_.is_building()) {
+    news_.tell("the scene is not read anew while its store is built: stop that before, or wait");
+    return false;
+  }
+  return true;
 }
 
 /// In another frame, which the profile keeps.

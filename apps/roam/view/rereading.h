@@ -6,7 +6,6 @@
 #include <functional>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "osgRoam/Manipulator.h"
 #include "view/arrival.h"
@@ -15,6 +14,8 @@
 #include "view/news.h"
 #include "view/options.h"
 #include "view/pose.h"
+#include "view/records.h"
+#include "view/store_building.h"
 
 namespace roam::app {
 
@@ -30,14 +31,22 @@ struct NextSession {
 /// The same axis, and the unit that the file states; without one, the next of m, cm, mm, ft, in, in a circle.
 [[nodiscard]] SceneFrame next_unit(const SceneFrame& frame, std::optional<LengthUnit> stated);
 
-/// Sets the options for the next session. `given`: the patterns of the command line. Returns a sentence for the person.
-std::string go_on(ViewOptions& options, const NextSession& next, const std::vector<std::string>& given);
+/// Sets the options for the next session. `given`: those of the command line. Returns a sentence for the person.
+std::string go_on(ViewOptions& options, const NextSession& next, const ViewOptions& given);
 
 class Rereading {
  public:
   Rereading(const SceneAndStore& what, const ViewOptions& options, const Arrival& arrival,
-            const osgRoam::Manipulator& roamer, const Display& display, News& news)
-      : what_(what), options_(options), arrival_(arrival), roamer_(roamer), display_(display), news_(news) {}
+            const osgRoam::Manipulator& roamer, const Display& display, const Records& records,
+            const StoreBuilding& building, News& news)
+      : what_(what),
+        options_(options),
+        arrival_(arrival),
+        roamer_(roamer),
+        display_(display),
+        records_(records),
+        building_(building),
+        news_(news) {}
 
   /// Adds "turn", "unit", "leave_out" and "show_all".
   void add_to(Commands& commands);
@@ -56,6 +65,8 @@ class Rereading {
   const Arrival& arrival_;
   const osgRoam::Manipulator& roamer_;
   const Display& display_;
+  const Records& records_;
+  const StoreBuilding& building_;
   News& news_;
   std::optional<NextSession> next_;
 };

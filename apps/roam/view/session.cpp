@@ -66,7 +66,7 @@ Session::Session(const ViewOptions& options, const ViewPlan& plan, const ViewSet
       tools_(new Tools(stage_, scene_, *roamer_, *cameras_, hidden_, what_, options.program, plan_.section)),
       controllers_(*this, *prompt_, plan_.sensitivity),
       building_(what_, options.program, *roamer_, news_),
-      rereading_(what_, options_, arrival_, *roamer_, display_, news_) {
+      rereading_(what_, options_, arrival_, *roamer_, display_, records_, building_, news_) {
   if (!plan_.note.empty()) {  // shown each time that it is true again
     news_.tell(plan_.note, true);
     news_.note(plan_.note, {});

@@ -33,6 +33,7 @@ class StoreBuilding {
   /// position, or the expected one. A build begins with the second call within 5 s. The first one says where the store
   /// will be and how large, from the scene's `triangles`; 0: not known.
   void toggle(const Pager* used, const Vec3& place, std::uint64_t triangles);
+  [[nodiscard]] bool is_building() const { return build_.has_value(); }
   /// Call it in each frame with a body at `place`; reports a failed build.
   void follow(const Vec3& place);
   /// A pager on the new store, once, after the build; else null.

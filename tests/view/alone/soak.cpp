@@ -237,7 +237,7 @@ class Sessions {
     const std::optional<NextSession> next = session_->next();
     finish();
     // Without it, a click on the menu has ended the program, which is begun again.
-    if (next) static_cast<void>(go_on(options_, *next, given_.scene.ignore));
+    if (next) static_cast<void>(go_on(options_, *next, given_));
     begin();
   }
   void finish() {
