@@ -122,6 +122,7 @@ ExitStatus view(ViewOptions options) {
     plan = make_plan(options, settings, std::nullopt, profile_for(options, std::nullopt));
     plan.note = note;
     plan.noted = report.noted;
+    keep_view(plan, *next);
   }
   hold.reset();  // Xlib ends a program whose server goes away
   const std::string picture = options.screenshot.string();

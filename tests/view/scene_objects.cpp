@@ -52,6 +52,27 @@ TEST(SceneObjects, AreATreeOfNames) {
   EXPECT_EQ(objects.count().objects, 4u);
 }
 
+TEST(SceneObjects, AreHiddenAsThePersonDecidedBefore) {
+  SceneObjects before({"Roof", "Wall"});
+  static_cast<void>(before.add(house_names));
+  before.set_hidden(node_of(before, "floor 1"), true);
+  before.set_hidden(node_of(before, "Door_1"), false);
+  before.set_hidden(node_of(before, "Roof"), false);
+  SceneObjects objects({"Roof", "Wall"}, before.decisions());
+  EXPECT_EQ(shown(objects), "");
+  EXPECT_EQ(shown(objects, {}, "o"), "") << "none has come yet";
+  EXPECT_FALSE(objects.flags()->any);
+  static_cast<void>(objects.add({house_names[0], house_names[1], house_names[2]}));
+  EXPECT_EQ(shown(objects, {node_of(objects, "floor 1")}), "floor 1 (2) -;   Door_1;   Wall x; floor 2 (1) x");
+  static_cast<void>(objects.add(house_names));
+  EXPECT_EQ(shown(objects), "floor 1 (2) -; Roof; floor 2 (1) x");
+  EXPECT_EQ(objects.decisions().size(), 3u);
+  before.show_all();
+  SceneObjects all({"Wall"}, before.decisions());
+  static_cast<void>(all.add(house_names));
+  EXPECT_EQ(all.count().hidden, 0u);
+}
+
 TEST(SceneObjects, AreHiddenWithTheirGroups) {
   SceneObjects objects;
   const auto numbers = objects.add(house_names);

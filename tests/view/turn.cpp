@@ -291,6 +291,41 @@ TEST(LeaveOut, KeepsTheOnlyObject) {
   expect_it_stays({"z<2.5"});
 }
 
+TEST(LeaveOut, LeavesTheViewAsItIs) {
+  DrivenSession d;
+  d.write_scene();
+  d.options.at = {10, 0, 0.95, 0};
+  d.begin();
+  const ViewOptions given = d.options;
+  for (const char* command : {"section_box", "pass_hidden", "hud", "edges"}) d.session->run(command);
+  d.session->roamer().setSpeed(2.5);
+  d.run(0.2);
+  const std::optional<Box> box = d.session->tools().section().box;
+  ASSERT_TRUE(box);
+  d.session->run("show_all");
+  NextSession next = d.session->next().value();
+  next.hidden = {{{"left"}, true}};
+  d.session.reset();
+  static_cast<void>(go_on(d.options, next, given));
+  ViewPlan plan = make_plan(d.options, {});
+  keep_view(plan, next);
+  d.session.emplace(d.options, plan, ViewSettings{});
+  ASSERT_TRUE(d.until([&] { return d.session->roaming(); }));
+  EXPECT_EQ(d.session->tools().section().box->lower, box->lower);
+  EXPECT_EQ(d.session->tools().section().box->upper, box->upper);
+  EXPECT_TRUE(d.session->hidden().passes());
+  EXPECT_EQ(d.session->stage().hud_mode(), HudMode::full);
+  EXPECT_FALSE(d.session->stage().edges());
+  EXPECT_EQ(d.session->roamer().speed(), 2.5);
+  EXPECT_TRUE(contains(d.hud(), "hidden: 1 of 6 objects")) << d.hud();
+  next.frame = SceneFrame{.up = UpAxis::y};
+  plan = make_plan(given, {});
+  keep_view(plan, next);
+  EXPECT_TRUE(plan.section.empty()) << "it means nothing in another frame";
+  EXPECT_EQ(plan.walker.speed, 1.4);
+  EXPECT_EQ(plan.hidden, next.hidden);
+}
+
 TEST(LeaveOut, ShowsAllAgain) {
   DrivenSession d;
   d.write_scene();

@@ -15,6 +15,7 @@
 #include "scenes/scene_profile.h"
 #include "view/page_source.h"
 #include "view/pose.h"
+#include "view/scene_objects.h"
 #include "view/section.h"
 #include "view/settings.h"
 
@@ -73,6 +74,7 @@ struct ViewPlan {
   bool edges = true;
   double picture_scale = 1.0;  ///< of the pictures of the key P, times the window
   SectionShape section;
+  SceneObjects::Decisions hidden;  ///< on the same scene, before; make_plan leaves it empty
   PageSettings pages;
   int width = 0, height = 0;   ///< pixels
   int film_rate = 30;          ///< pictures a second

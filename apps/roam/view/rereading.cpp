@@ -23,6 +23,7 @@ SceneFrame next_unit(const SceneFrame& frame, std::optional<LengthUnit> stated) 
 std::string go_on(ViewOptions& options, const NextSession& next, const ViewOptions& given) {
   options.bookmark.clear();
   options.at.clear();
+  options.pass_hidden = next.passes;
   if (next.frame) {
     options.mode = given.mode;
     options.scene.up = to_string(next.frame->up);
@@ -38,6 +39,15 @@ std::string go_on(ViewOptions& options, const NextSession& next, const ViewOptio
   }
   options.scene.ignore.push_back(next.leave_out);
   return fmt::format("left out: {}", printable(next.leave_out));
+}
+
+void keep_view(ViewPlan& plan, const NextSession& next) {
+  plan.hidden = next.hidden;
+  plan.hud = next.hud;
+  plan.edges = next.edges;
+  if (next.frame) return;
+  plan.section = next.section;
+  plan.walker.speed = next.speed;
 }
 
 void Rereading::add_to(Commands& commands) {
@@ -73,7 +83,7 @@ void Rereading::read_with(const std::function<SceneFrame(const SceneFrame&)>& ch
   } else if (!frame) {
     news_.tell("these scenes have different axes up, so no key changes them: give --up and --unit, or view one alone");
   } else if (is_possible()) {
-    next_ = NextSession{changed(*frame), {}, {}, Mode::walk, {}};
+    next_.emplace().frame = changed(*frame);
     if (what_.scene.no_profile) return;
     try {
       const std::filesystem::path file = profile_path(what_.scene.scenes);
@@ -104,7 +114,10 @@ void Rereading::show_all() {
 }
 
 void Rereading::leave_out(const std::string& pattern) {
-  next_ = NextSession{std::nullopt, pattern, standing_pose_of(roamer_), roamer_.mode(), {}};
+  next_.emplace();
+  next_->leave_out = pattern;
+  next_->at = standing_pose_of(roamer_);
+  next_->mode = roamer_.mode();
 }
 
 }  // namespace roam::app

@@ -26,6 +26,14 @@ struct NextSession {
   Pose at;                          ///< the body at the end
   Mode mode = Mode::walk;
   std::string note;  ///< a message for the person; empty: none
+
+  // As the person left it; see Session::next.
+  SectionShape section;
+  double speed = 0.0;  ///< m/s
+  SceneObjects::Decisions hidden;
+  bool passes = false;  ///< the body, through what is hidden
+  HudMode hud = HudMode::plain;
+  bool edges = true;
 };
 
 /// The same axis, and the unit that the file states; without one, the next of m, cm, mm, ft, in, in a circle.
@@ -33,6 +41,8 @@ struct NextSession {
 
 /// Sets the options for the next session. `given`: those of the command line. Returns a sentence for the person.
 std::string go_on(ViewOptions& options, const NextSession& next, const ViewOptions& given);
+/// Makes the next session begin as the person left this one; without its lengths, if the frame is another.
+void keep_view(ViewPlan& plan, const NextSession& next);
 
 class Rereading {
  public:
@@ -50,7 +60,7 @@ class Rereading {
 
   /// Adds "turn", "unit", "leave_out" and "show_all".
   void add_to(Commands& commands);
-  /// Set if this session ends for another one.
+  /// Set if this session ends for another one. Without the view.
   [[nodiscard]] const std::optional<NextSession>& next() const { return next_; }
 
  private:

@@ -3,6 +3,7 @@
 #include <fnmatch.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "import/display_part.h"
 
@@ -20,8 +21,14 @@ bool contains(std::string_view text, std::string_view part) {
 
 }  // namespace
 
-SceneObjects::SceneObjects(std::vector<std::string> patterns)
-    : patterns_(std::move(patterns)), matched_(patterns_.size(), false) {}
+SceneObjects::SceneObjects(std::vector<std::string> patterns, const Decisions& decisions)
+    : patterns_(std::move(patterns)), matched_(patterns_.size(), false) {
+  for (const auto& [names, hidden] : decisions) {
+    Number at = 0;
+    for (const std::string& name : names) at = child(at, name);
+    nodes_[at].decided = hidden;
+  }
+}
 
 std::vector<SceneObjects::Number> SceneObjects::add(const std::vector<std::string>& names) {
   const std::lock_guard lock(mutex_);
@@ -159,6 +166,7 @@ SceneObjects::Entry SceneObjects::entry(Number number, int depth, const std::set
 void SceneObjects::list(Number number, int depth, const std::set<Number>& open, std::vector<Entry>& found) const {
   constexpr int deepest = 200;
   for (const Number below : nodes_[number].below) {
+    if (nodes_[below].count.objects == 0) continue;  // decided before, and not in this scene
     found.push_back(entry(below, depth, open));
     if (found.back().is_open && depth < deepest) list(below, depth + 1, open, found);
   }
@@ -169,7 +177,7 @@ std::vector<SceneObjects::Entry> SceneObjects::entries(const std::set<Number>& o
   std::vector<Entry> found;
   if (!search.empty()) {
     for (Number i = 1; i < nodes_.size(); ++i) {
-      if (!contains(nodes_[i].name, search)) continue;
+      if (nodes_[i].count.objects == 0 || !contains(nodes_[i].name, search)) continue;
       found.push_back(entry(i, 0, {}));
       found.back().is_group = false;
     }
@@ -204,6 +212,19 @@ SceneObjects::HiddenNames SceneObjects::hidden_names() const {
     return node.is_object && node.hidden && !hidden.names.contains(node.name);
   }));
   return hidden;
+}
+
+SceneObjects::Decisions SceneObjects::decisions() const {
+  const std::lock_guard lock(mutex_);
+  Decisions all;
+  for (const Node& node : nodes_) {
+    if (!node.decided) continue;
+    std::vector<std::string> names;
+    for (const Node* at = &node; at != &nodes_.front(); at = &nodes_[at->parent]) names.push_back(at->name);
+    std::reverse(names.begin(), names.end());
+    all.emplace_back(std::move(names), *node.decided);
+  }
+  return all;
 }
 
 std::vector<std::string> SceneObjects::unmatched() const {

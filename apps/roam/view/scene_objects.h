@@ -22,8 +22,12 @@ class SceneObjects {
   static constexpr std::size_t most_nodes = 100'000;  ///< further objects share one node
   enum class Hidden : std::uint8_t { none, some, all };
 
-  /// `patterns`: shell patterns. Objects whose name, or an ancestor's, matches one are hidden at first.
-  explicit SceneObjects(std::vector<std::string> patterns = {});
+  /// Nodes that set_hidden() has hidden (true) or shown, by the names from the first ancestor on.
+  using Decisions = std::vector<std::pair<std::vector<std::string>, bool>>;
+
+  /// `patterns`: shell patterns. Objects whose name, or an ancestor's, matches one are hidden at first; `decisions` on
+  /// the same scene, read before, go before them.
+  explicit SceneObjects(std::vector<std::string> patterns = {}, const Decisions& decisions = {});
 
   /// The numbers of objects, by their names as in DisplayPart::objects. A new object below a node that was hidden or
   /// shown by set_hidden() is hidden or shown with it.
@@ -66,6 +70,7 @@ class SceneObjects {
     std::size_t left_over = 0;                 ///< hidden objects with a name that something visible has, or may have
   };
   [[nodiscard]] HiddenNames hidden_names() const;
+  [[nodiscard]] Decisions decisions() const;
   /// The patterns that no name has matched yet.
   [[nodiscard]] std::vector<std::string> unmatched() const;
 

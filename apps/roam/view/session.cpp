@@ -54,7 +54,7 @@ Session::Session(const ViewOptions& options, const ViewPlan& plan, const ViewSet
       stage_(options_, plan_),
       cameras_(new Cameras(stage_, *roamer_)),
       arrival_(options_, plan_, what_, *roamer_, news_),
-      objects_(std::make_shared<SceneObjects>(options.hide)),
+      objects_(std::make_shared<SceneObjects>(options.hide, plan_.hidden)),
       scene_(stage_.viewer(), *stage_.frame().space(),
              load_picture(what_, arrival_.loader(), stage_, objects_, plan_.pages), objects_,
              stage_.headless() ? SceneGraph::Arrival::at_once : SceneGraph::Arrival::smooth),
@@ -121,7 +121,7 @@ bool Session::frame() {
   stage_.see_events();
   arrival_.fly_without_ground();
   if (learning_ && learning_->update() && replay_) replay_->go_on_here();
-  if (quits_ || next() || stage_.viewer().done()) return false;
+  if (quits_ || rereading_.next() || stage_.viewer().done()) return false;
   if (roaming()) {
     if (replay_) replay_->look(*roamer_, passed);
     if (roamer_->steps() > 0) log_.take_frame(roamer_->collisionNanoseconds(), roamer_->collisionOwnNanoseconds());
@@ -314,6 +314,18 @@ void Session::tell_results() {
   } catch (const std::exception&) {
     tells_results_ = false;  // the report at the end fails
   }
+}
+
+std::optional<NextSession> Session::next() const {
+  std::optional<NextSession> next = rereading_.next();
+  if (!next) return next;
+  next->section = tools_->section();
+  next->speed = roamer_->speed();
+  next->hidden = objects_->decisions();
+  next->passes = hidden_.passes();
+  next->hud = stage_.hud_mode();
+  next->edges = stage_.edges();
+  return next;
 }
 
 ListPanel* Session::shown_list() {

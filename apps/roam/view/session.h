@@ -67,7 +67,7 @@ class Session {
   /// scene can be loaded, or if the path or --verify is not possible.
   bool frame();
   /// Set if the session has ended for another one.
-  [[nodiscard]] const std::optional<NextSession>& next() const { return rereading_.next(); }
+  [[nodiscard]] std::optional<NextSession> next() const;
   /// Ends the session and writes its outputs, each of which may fail.
   [[nodiscard]] ViewReport finish(Unwritten& unwritten);
 

@@ -62,6 +62,8 @@ class Stage {
   /// Shows the lines and the message; does nothing if they are shown already.
   void show(const Status& status);
   void set_hud(HudMode mode);
+  [[nodiscard]] HudMode hud_mode() const { return hud_mode_; }
+  [[nodiscard]] bool edges() const { return frame_->edges(); }
   /// Shows a sentence in any mode for `seconds`, the last of them fading. Replaces the one before.
   void hint(const std::string& text, double seconds = std::numeric_limits<double>::infinity());
   /// Shows a question in place of all hints; empty: no longer.
