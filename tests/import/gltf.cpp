@@ -60,19 +60,23 @@ std::vector<Triangle> read(const TemporaryFolder& folder, const MadeGltf& made, 
   return triangles_of(import_scene(folder.write(name, made.glb())));
 }
 
-/// The grid's vertices and triangles, compressed by Draco. Vertices are quantized to 2^-bits of the side.
-std::string by_draco(const MadeGrid& grid, int bits) {
+/// A mesh with an attribute of three components, compressed by Draco in the order of its vertices. Floats are quantized
+/// to 2^-bits of the side.
+template <class T>
+std::string by_draco(const std::vector<T>& values, const std::vector<std::uint32_t>& indices, draco::DataType type,
+                     int bits) {
+  const auto vertices = static_cast<std::uint32_t>(values.size() / 3);
   draco::Mesh mesh;
-  mesh.set_num_points(static_cast<std::uint32_t>(grid.vertices()));
+  mesh.set_num_points(vertices);
   draco::GeometryAttribute positions;
-  positions.Init(draco::GeometryAttribute::POSITION, nullptr, 3, draco::DT_FLOAT32, false, 12, 0);
-  const int id = mesh.AddAttribute(positions, true, static_cast<std::uint32_t>(grid.vertices()));
-  for (std::uint32_t i = 0; i < grid.vertices(); ++i) {
-    mesh.attribute(id)->SetAttributeValue(draco::AttributeValueIndex(i), &grid.positions[3 * i]);
+  positions.Init(draco::GeometryAttribute::POSITION, nullptr, 3, type, false, 3 * sizeof(T), 0);
+  const int id = mesh.AddAttribute(positions, true, vertices);
+  for (std::uint32_t i = 0; i < vertices; ++i) {
+    mesh.attribute(id)->SetAttributeValue(draco::AttributeValueIndex(i), &values[std::size_t{3} * i]);
   }
-  for (std::size_t i = 0; i < grid.indices.size(); i += 3) {
+  for (std::size_t i = 0; i < indices.size(); i += 3) {
     draco::Mesh::Face face;
-    for (std::size_t k = 0; k < 3; ++k) face[k] = draco::PointIndex(grid.indices[i + k]);
+    for (std::size_t k = 0; k < 3; ++k) face[k] = draco::PointIndex(indices[i + k]);
     mesh.AddFace(face);
   }
   draco::Encoder encoder;
@@ -81,6 +85,10 @@ std::string by_draco(const MadeGrid& grid, int bits) {
   draco::EncoderBuffer buffer;
   if (!encoder.EncodeMeshToBuffer(mesh, &buffer).ok()) throw std::runtime_error("Draco cannot encode");
   return {buffer.data(), buffer.size()};
+}
+
+std::string by_draco(const MadeGrid& grid, int bits) {
+  return by_draco(grid.positions, grid.indices, draco::DT_FLOAT32, bits);
 }
 
 MadeGltf draco_gltf(const MadeGrid& grid, const std::string& compressed) {
@@ -104,6 +112,25 @@ TEST(ImportGltf, GivesTheTrianglesThatDracoCompressed) {
   const ImportedScene scene = import_scene(folder.write("draco.glb", draco_gltf(grid, by_draco(grid, 14)).glb()));
   expect_near(triangles_of(scene), plain, 1.0 / (1 << 14));
   EXPECT_TRUE(scene.report.notes.empty());
+}
+
+TEST(ImportGltf, ScalesNormalizedIntegersThatDracoCompressed) {
+  const TemporaryFolder folder;
+  const std::vector<std::uint32_t> corners{0, 1, 2};
+  const auto xs_of = [&](MadeGltf made, int type) {
+    made.json["accessors"][0]["componentType"] = type;
+    made.json["accessors"][0]["count"] = 3;
+    made.json["accessors"][0]["normalized"] = true;
+    const Triangle t = read(folder, made).at(0);
+    return std::set<double>{t[0].x, t[1].x, t[2].x};
+  };
+  // Draco's own attribute says nothing of it, as that of its encoder in JavaScript.
+  const std::vector<std::int16_t> words{-32768, 0, 0, 32767, 0, 0, 0, 0, -32767};
+  EXPECT_EQ(xs_of(draco_gltf(MadeGrid(1), by_draco(words, corners, draco::DT_INT16, 0)), 5122),
+            (std::set<double>{-1.0, 0.0, 1.0}));
+  const std::vector<std::uint8_t> bytes{0, 0, 0, 255, 0, 0, 0, 255, 0};
+  EXPECT_EQ(xs_of(draco_gltf(MadeGrid(1), by_draco(bytes, corners, draco::DT_UINT8, 0)), 5121),
+            (std::set<double>{0.0, 1.0}));
 }
 
 TEST(ImportGltf, RefusesWhatDracoCannotDecode) {

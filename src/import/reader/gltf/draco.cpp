@@ -22,10 +22,14 @@ DracoMesh::DracoMesh(std::span<const std::byte> bytes) {
 
 DracoMesh::~DracoMesh() = default;
 
-std::optional<Elements> DracoMesh::attribute(std::uint64_t id) const {
+std::optional<Elements> DracoMesh::attribute(std::uint64_t id, bool normalized) const {
   if (id > std::numeric_limits<std::uint32_t>::max()) return std::nullopt;
-  const draco::PointAttribute* from = mesh_->GetAttributeByUniqueId(static_cast<std::uint32_t>(id));
-  if (from == nullptr) return std::nullopt;
+  const std::int32_t number = mesh_->GetAttributeIdByUniqueId(static_cast<std::uint32_t>(id));
+  if (number < 0) return std::nullopt;
+  draco::PointAttribute* from = mesh_->attribute(number);
+  // Some encoders leave this out of their attributes, because the glTF file says it.
+  const bool is_unit = draco::IsDataTypeIntegral(from->data_type()) && (normalized || from->normalized());
+  from->set_normalized(is_unit);
   constexpr int most_components = 4;
   const int components = std::clamp<int>(from->num_components(), 1, most_components);
   std::vector<float> values(std::size_t{mesh_->num_points()} * static_cast<std::size_t>(components));
@@ -36,6 +40,8 @@ std::optional<Elements> DracoMesh::attribute(std::uint64_t id) const {
       std::fill(to, to + components, std::numeric_limits<float>::quiet_NaN());
     }
   }
+  // A signed normalized integer reaches -1 twice.
+  for (std::size_t i = 0; is_unit && i < values.size(); ++i) values[i] = std::max(values[i], -1.0f);
   return Elements(std::move(values), static_cast<unsigned>(components));
 }
 

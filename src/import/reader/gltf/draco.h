@@ -26,8 +26,9 @@ class DracoMesh {
 
   /// Whether the bytes are a mesh of triangles.
   [[nodiscard]] bool is_whole() const { return mesh_ != nullptr; }
-  /// The values of the attribute with this unique id, one for each vertex; unset if there is none. Requires is_whole().
-  [[nodiscard]] std::optional<Elements> attribute(std::uint64_t id) const;
+  /// The values of the attribute with this unique id, one for each vertex; unset if there is none. `normalized`: the
+  /// glTF file says that integers mean 0 to 1, or -1 to 1. Requires is_whole().
+  [[nodiscard]] std::optional<Elements> attribute(std::uint64_t id, bool normalized) const;
   /// Three vertices for each triangle. Requires is_whole().
   [[nodiscard]] Elements indices() const;
 

@@ -52,6 +52,11 @@ double signed_unit(double value, double largest) { return std::max(value / large
 
 }  // namespace
 
+bool is_normalized(const Json& accessor) {
+  const Json& normalized = member(accessor, "normalized");
+  return normalized.is_boolean() && normalized.get<bool>();
+}
+
 Elements::Elements(std::vector<float> values, unsigned components) : own_(std::move(values)) {
   base_.type = f32;
   base_.components = components;
@@ -72,8 +77,7 @@ Elements::Elements(GltfFile& file, const Json& index) {
   const auto count = whole_number(member(accessor, "count"));
   base_.type = static_cast<int>(whole_number(member(accessor, "componentType")).value_or(0) & 0xffff);
   base_.components = components_of(text(member(accessor, "type")));
-  const Json& normalized = member(accessor, "normalized");
-  base_.normalized = normalized.is_boolean() && normalized.get<bool>();
+  base_.normalized = is_normalized(accessor);
   const unsigned element_bytes = bytes_of(base_.type) * base_.components;
   if (!count || element_bytes == 0 || *count > std::numeric_limits<std::uint32_t>::max()) {
     throw file.damaged("an accessor has no count, or an unknown type");

@@ -14,6 +14,9 @@
 
 namespace roam::reader {
 
+/// Whether the integers of an accessor mean 0 to 1, or -1 to 1.
+[[nodiscard]] bool is_normalized(const Json& accessor);
+
 class Elements {
  public:
   /// Those of an accessor, e.g. the value of "POSITION". `file` must outlive this object. Throws roam::Error if the

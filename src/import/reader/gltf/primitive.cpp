@@ -51,11 +51,11 @@ std::optional<Primitive> read_primitive(GltfFile& file, const Json& primitive, b
     if (!mesh->is_whole()) throw file.damaged(fmt::format("Draco cannot decode its buffer view {}", *view));
   }
   const auto attribute = [&](const std::string& name) -> std::optional<Elements> {
+    const Json& accessor = member(attributes, name.c_str());
     if (mesh) {
       if (const auto id = whole_number(member(member(compressed, "attributes"), name.c_str())))
-        return mesh->attribute(*id);
+        return mesh->attribute(*id, !accessor.is_null() && is_normalized(file.item("accessors", accessor)));
     }
-    const Json& accessor = member(attributes, name.c_str());
     if (accessor.is_null()) return std::nullopt;
     return Elements(file, accessor);
   };
