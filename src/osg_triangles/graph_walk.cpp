@@ -91,20 +91,30 @@ void GraphWalk::apply(osg::Geometry& geometry) {
   meet(geometry);
 }
 
-void GraphWalk::apply(osg::LOD& lod) {
+void GraphWalk::apply(osg::LOD& lod) { take(lod, nullptr); }
+
+void GraphWalk::apply(osg::PagedLOD& lod) { take(lod, &lod); }
+
+void GraphWalk::take(osg::LOD& lod, osg::PagedLOD* paged) {
   const Entered entered(*this, lod);
-  const auto& path = getNodePath();
-  const osg::Group* parent = path.size() > 1 ? path[path.size() - 2]->asGroup() : nullptr;
-  if (parent != nullptr && continues_a_finer_sibling(lod, *parent)) return;
-  meet(lod, nullptr);
+  osg::Group* const above = parent();
+  if (above == nullptr || !is_replaced(lod, *above)) meet(lod, paged);
 }
 
-void GraphWalk::apply(osg::PagedLOD& lod) {
-  const Entered entered(*this, lod);
+bool GraphWalk::is_replaced(const osg::LOD& lod, osg::Group& parent) {
+  bool replaced = false;
+  for (unsigned i = 0; i < parent.getNumChildren(); ++i) {
+    auto* const finer = dynamic_cast<osg::LOD*>(parent.getChild(i));
+    if (finer == nullptr || !continues(lod, *finer)) continue;
+    if (!stands_for(*finer, lod) && !is_replaced(*finer, parent)) return false;
+    replaced = true;
+  }
+  return replaced;
+}
+
+osg::Group* GraphWalk::parent() const {
   const auto& path = getNodePath();
-  const osg::Group* parent = path.size() > 1 ? path[path.size() - 2]->asGroup() : nullptr;
-  if (parent != nullptr && continues_a_finer_sibling(lod, *parent) && stands_for(lod)) return;
-  meet(lod, &lod);
+  return path.size() > 1 ? path[path.size() - 2]->asGroup() : nullptr;
 }
 
 }  // namespace roam::osg_triangles

@@ -53,19 +53,25 @@ class GraphWalk : public osg::NodeVisitor {
   /// Called for each LOD node; `paged` is the same node if it is a PagedLOD. Must call accept() on the children that
   /// count.
   virtual void meet(osg::LOD& lod, osg::PagedLOD* paged) = 0;
-  /// Whether a finer sibling replaces the level of detail that continues it.
-  [[nodiscard]] virtual bool stands_for(const osg::LOD&) const { return true; }
-  /// Called for a node or drawable that is left out although it may have a surface.
+  /// Whether the level of detail `finer` may replace its sibling `coarser`, which continues it. No if it would leave a
+  /// hole.
+  [[nodiscard]] virtual bool stands_for(osg::LOD& /*finer*/, const osg::LOD& /*coarser*/) { return true; }
+  /// Called for a node or drawable that is left out although it may have a surface, and before meet() for a geometry
+  /// with primitives of which only shaders make triangles.
   virtual void leave_out(const osg::Object&) {}
   /// Called when nodes are nested deeper than depth_limit. Throws.
   [[noreturn]] virtual void refuse_depth();
 
+  /// The parent of the present node; null if it has none.
+  [[nodiscard]] osg::Group* parent() const;
   [[nodiscard]] const osg::Matrixd& to_world() const { return to_world_; }
   /// Names of the nodes from the root to the present node, outermost first.
   [[nodiscard]] const std::vector<std::string>& names() const { return names_; }
 
  private:
   class Entered;
+  void take(osg::LOD& lod, osg::PagedLOD* paged);
+  [[nodiscard]] bool is_replaced(const osg::LOD& lod, osg::Group& parent);
 
   osg::Matrixd to_world_;
   std::vector<std::string> names_;

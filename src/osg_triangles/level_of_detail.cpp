@@ -9,6 +9,15 @@ namespace {
 
 bool by_distance(const osg::LOD& lod) { return lod.getRangeMode() == osg::LOD::DISTANCE_FROM_EYE_POINT; }
 
+constexpr float infinite = std::numeric_limits<float>::infinity();
+
+/// The distance from which on a node is shown; infinite if it never is.
+float nearest_of(const osg::LOD& lod) {
+  float nearest = infinite;
+  for (const auto& range : lod.getRangeList()) nearest = std::min(nearest, range.first);
+  return nearest;
+}
+
 }  // namespace
 
 std::vector<Level> levels(const osg::LOD& lod) {
@@ -40,25 +49,18 @@ Level loaded_level(const osg::LOD& lod) {
   return {};
 }
 
-bool continues_a_finer_sibling(const osg::LOD& lod, const osg::Group& parent) {
-  if (!by_distance(lod) || lod.getNumRanges() == 0) return false;
-  const auto nearest_of = [](const osg::LOD& node) {
-    float nearest = std::numeric_limits<float>::infinity();
-    for (const auto& range : node.getRangeList()) nearest = std::min(nearest, range.first);
-    return nearest;
-  };
-  const float nearest = nearest_of(lod);
-  if (!(nearest > 0.0f)) return false;
+bool continues(const osg::LOD& coarser, const osg::LOD& finer) {
+  if (!by_distance(coarser) || !by_distance(finer)) return false;
+  const float nearest = nearest_of(coarser);
+  if (!(nearest > 0.0f && nearest < infinite && nearest_of(finer) < nearest)) return false;
   // Writers convert units: the end of one level and the beginning of the next may differ in the last digits.
   const float rounding = 1e-4f * nearest;
-  for (unsigned i = 0; i < parent.getNumChildren(); ++i) {
-    const osg::LOD* sibling = dynamic_cast<const osg::LOD*>(parent.getChild(i));
-    if (sibling == nullptr || sibling == &lod || !by_distance(*sibling) || !(nearest_of(*sibling) < nearest)) continue;
-    for (const auto& range : sibling->getRangeList()) {
-      if (std::abs(range.second - nearest) <= rounding) return true;
-    }
-  }
-  return false;
+  const auto& ranges = finer.getRangeList();
+  const bool ends_there = std::any_of(ranges.begin(), ranges.end(),
+                                      [&](const auto& range) { return std::abs(range.second - nearest) <= rounding; });
+  // A parent may have several objects. Levels without bounds lie anywhere.
+  const osg::BoundingSphere &here = coarser.getBound(), &there = finer.getBound();
+  return ends_there && (!here.valid() || !there.valid() || here.intersects(there));
 }
 
 }  // namespace roam::osg_triangles

@@ -17,8 +17,8 @@ using Level = std::vector<unsigned>;
 /// The finest level whose children are all loaded. An incomplete level would leave holes. Empty if there is none.
 [[nodiscard]] Level loaded_level(const osg::LOD& lod);
 
-/// Whether `lod` is a coarser level of another child of `parent`. Some modellers, and OpenFlight, give each level a
-/// node of its own.
-[[nodiscard]] bool continues_a_finer_sibling(const osg::LOD& lod, const osg::Group& parent);
+/// Whether `coarser` is a coarser level of its sibling `finer`. Some modellers, and OpenFlight, give each level a node
+/// of its own.
+[[nodiscard]] bool continues(const osg::LOD& coarser, const osg::LOD& finer);
 
 }  // namespace roam::osg_triangles

@@ -28,6 +28,8 @@ class MeshCollector : public triangles::GraphWalk {
     for (const unsigned i : triangles::loaded_level(lod)) lod.getChild(i)->accept(*this);
   }
 
+  bool stands_for(osg::LOD& finer, const osg::LOD&) override { return !triangles::loaded_level(finer).empty(); }
+
   std::vector<roam::Mesh> meshes_;
 };
 

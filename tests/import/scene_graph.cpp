@@ -184,16 +184,56 @@ TEST(ImportSceneGraph, EndsPagesThatReferToThemselves) {
   EXPECT_EQ(scene.report.missing_pages, 1u);
 }
 
+std::string proxy(const std::string& file, const std::string& mode = "LOAD_IMMEDIATELY") {
+  return "ProxyNode {\nExtRefMode " + mode + "\nFileNameList 1 {\n\"" + file + "\"\n}\nnum_children 0\n}\n";
+}
+
+std::string level(const std::string& range, const std::vector<std::string>& children) {
+  return group("LOD", "RangeList 1 {\n" + range + "\n}\n", {group("Group", "", children)});
+}
+
 TEST(ImportSceneGraph, ReadsProxiesAndCountsThoseThatAreMissing) {
   const TemporaryFolder folder;
   folder.write("part.osg", triangle_at("7"));
-  const auto proxy = [](const std::string& file) {
-    return "ProxyNode {\nFileNameList 1 {\n\"" + file + "\"\n}\nnum_children 0\n}\n";
-  };
   const ImportedScene scene = import_scene(folder.write(
       "root.osg", group("Group", "", {proxy("part.osg"), proxy("gone.osg"), proxy("http://localhost/a.osg")})));
   EXPECT_EQ(first_xs(scene), (std::vector<double>{7}));
   EXPECT_EQ(scene.report.missing_pages, 2u);
+}
+
+TEST(ImportSceneGraph, FallsBackToTheCoarserLevelWhereAProxyIsMissing) {
+  const std::vector<std::string> fine{triangle_at("1"), proxy("gone.osg")};
+  const auto lod = [&](const std::vector<std::string>& coarse) {
+    return group("LOD", "RangeList 2 {\n0 100\n100 500\n}\n", {group("Group", "", fine), group("Group", "", coarse)});
+  };
+  EXPECT_EQ(xs_of(lod({triangle_at("2")})), (std::vector<double>{2}));
+  // No level is whole.
+  EXPECT_EQ(xs_of(lod({triangle_at("2"), proxy("gone.osg")})), (std::vector<double>{1}));
+  EXPECT_EQ(xs_of(level("0 100", fine)), (std::vector<double>{1}));
+  // A level of detail below replaces it.
+  EXPECT_EQ(xs_of(group("LOD", "RangeList 2 {\n0 100\n100 500\n}\n", {lod({triangle_at("2")}), triangle_at("3")})),
+            (std::vector<double>{2}));
+}
+
+TEST(ImportSceneGraph, FallsBackToTheSiblingThatIsACoarserLevel) {
+  const std::string fine = level("0 100", {triangle_at("1"), proxy("gone.osg")});
+  const std::string coarse = level("100 500", {triangle_at("2")}), far = level("500 900", {triangle_at("3")});
+  EXPECT_EQ(xs_of(group("Group", "", {fine, coarse, far})), (std::vector<double>{2}));
+  EXPECT_EQ(xs_of(group("Group", "", {far, coarse, fine})), (std::vector<double>{2}));
+  const std::string gone = level("100 500", {proxy("gone.osg")});
+  EXPECT_EQ(xs_of(group("Group", "", {fine, gone, far})), (std::vector<double>{3}));
+  EXPECT_EQ(xs_of(group("Group", "", {level("0 100", {triangle_at("1")}), gone, far})), (std::vector<double>{1}));
+  EXPECT_EQ(
+      xs_of(group("Group", "",
+                  {group("PagedLOD", "RangeList 1 {\n0 100\n}\nFileNameList 1 {\n\"gone.osg\"\n}\n", {}), coarse})),
+      (std::vector<double>{2}));
+}
+
+TEST(ImportSceneGraph, ReadsFarOffObjectsThatContinueNoSibling) {
+  EXPECT_EQ(xs_of(group("Group", "",
+                        {level("0 100", {triangle_at("1")}), moved("999", {triangle_at("2")}),
+                         level("100 500", {moved("999", {triangle_at("3")})})})),
+            (std::vector<double>{1, 1001, 1002}));
 }
 
 std::string metadata(const std::string& srs, const std::string& origin) {

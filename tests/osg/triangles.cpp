@@ -72,6 +72,20 @@ TEST(OsgTriangles, KeepWhatAMissingFileWouldHaveAddedTo) {
   EXPECT_EQ(names_of(*lod), Names{"ground"});
 }
 
+TEST(OsgTriangles, AreOfACoarserSiblingUntilTheFinerOneIsLoaded) {
+  osg::ref_ptr<osg::PagedLOD> fine = new osg::PagedLOD;
+  fine->setFileName(0, "fine.osgb");
+  fine->setRange(0, 0.0f, 100.0f);
+  osg::ref_ptr<osg::LOD> coarse = new osg::LOD;
+  coarse->addChild(triangle("floor"), 100.0f, 1e7f);
+  osg::ref_ptr<osg::Group> scene = new osg::Group;
+  scene->addChild(fine);
+  scene->addChild(coarse);
+  EXPECT_EQ(names_of(*scene), Names{"floor"});
+  fine->addChild(triangle("fine"));
+  EXPECT_EQ(names_of(*scene), Names{"fine"});
+}
+
 TEST(OsgTriangles, AreMovedToTheOrigin) {
   const osg::ref_ptr<osg::Geometry> one = triangle("one", 0.25f);
   const auto meshes = osgRoam::collectMeshes(*one, osg::Vec3d(504000, 5678000, 0));

@@ -122,6 +122,12 @@ class GuardedReading : public osgDB::ReadFileCallback {
     return place.empty() ? "" : files_.open(place).string();
   }
 
+  /// Whether there is a file that can be read.
+  [[nodiscard]] bool is_there(const std::string& name, const osgDB::Options* options) {
+    const fs::path place = place_of(name, options, files_);
+    return !place.empty() && reader_for(place) != nullptr && !files_.look_up(place).empty();
+  }
+
   void expect_main() { next_is_main_ = true; }
   void set_images(bool wanted) { images_ = wanted; }
   void set_quiet(bool quiet) { quiet_ = quiet; }
@@ -171,6 +177,13 @@ void set_images(bool wanted) {
   if (!wanted) registry->addReaderWriter(no_images);
 }
 
+osg::ref_ptr<osgDB::Options> options_for(const fs::path& path) {
+  osg::ref_ptr<osgDB::Options> options = new osgDB::Options;
+  options->setObjectCacheHint(osgDB::Options::CACHE_NONE);
+  options->setDatabasePath(path.parent_path().string());
+  return options;
+}
+
 }  // namespace
 
 void load_osg_plugins(const std::string& extension) {
@@ -212,10 +225,10 @@ void prepare_osg(MeshSink& sink, SceneFiles& files, bool images) {
   registry->setBuildKdTreesHint(osgDB::Options::DO_NOT_BUILD_KDTREES);
 }
 
+bool is_osg_file(const fs::path& path) { return guard->is_there(path.string(), options_for(path)); }
+
 osg::ref_ptr<osg::Node> read_osg_file(const fs::path& path, bool main) {
-  osg::ref_ptr<osgDB::Options> options = new osgDB::Options;
-  options->setObjectCacheHint(osgDB::Options::CACHE_NONE);
-  options->setDatabasePath(path.parent_path().string());
+  const osg::ref_ptr<osgDB::Options> options = options_for(path);
   if (main) guard->expect_main();
   Result result = guard->readNode(path.string(), options);
   if (!result.validNode() && !result.message().empty()) OSG_WARN << result.message() << std::endl;

@@ -27,8 +27,11 @@ void close_osg_door();
 /// reading. With `images`, `sink` must have parts, which find the images.
 void prepare_osg(MeshSink& sink, SceneFiles& files, bool images);
 
-/// Reads one file; null if it is absent or unreadable. An absent file counts as a missing page unless it is the `main`
-/// one.
+/// Whether there is such a file of the scene. It may still be damaged.
+[[nodiscard]] bool is_osg_file(const std::filesystem::path& path);
+
+/// Reads one file, and those of its proxies; null if it is absent or unreadable. An absent file counts as a missing
+/// page unless it is the `main` one.
 [[nodiscard]] osg::ref_ptr<osg::Node> read_osg_file(const std::filesystem::path& path, bool main);
 
 /// Reads a file for the second time, with its images, without reporting anything again. Later files have images too.

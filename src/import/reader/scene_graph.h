@@ -21,6 +21,7 @@ class SceneGraphWalk : public osg_triangles::GraphWalk {
 
  protected:
   void meet(osg::LOD& lod, osg::PagedLOD* paged) override;
+  [[nodiscard]] bool stands_for(osg::LOD& finer, const osg::LOD& coarser) override;
   /// The file of page `i`.
   [[nodiscard]] std::filesystem::path page_file(const osg::PagedLOD& lod, unsigned i) const;
 
@@ -35,6 +36,9 @@ class SceneGraphWalk : public osg_triangles::GraphWalk {
     std::filesystem::path file;
   };
   [[nodiscard]] Child child(osg::LOD& lod, osg::PagedLOD* paged, unsigned i);
+  /// Whether the file is being walked, so that a page of this name makes a circle.
+  [[nodiscard]] bool is_open(const std::filesystem::path& file) const;
+  void show(std::vector<Child>& children);
 
   MeshSink& sink_;
   std::vector<std::filesystem::path> files_;

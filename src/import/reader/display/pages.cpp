@@ -135,9 +135,9 @@ void PageWalk::meet(osg::LOD& lod, osg::PagedLOD* paged) {
   if (paged == nullptr || !add(*paged)) SceneGraphWalk::meet(lod, paged);
 }
 
-bool PageWalk::stands_for(const osg::LOD& coarser) const {
+bool PageWalk::stands_for(osg::LOD& finer, const osg::LOD& coarser) {
   // A page that is not loaded yet replaces nothing.
-  return dynamic_cast<const osg::PagedLOD*>(&coarser) == nullptr;
+  return dynamic_cast<const osg::PagedLOD*>(&coarser) == nullptr && SceneGraphWalk::stands_for(finer, coarser);
 }
 
 std::uint32_t PageWalk::state_here() {
