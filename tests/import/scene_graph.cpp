@@ -201,6 +201,19 @@ TEST(ImportSceneGraph, ReadsProxiesAndCountsThoseThatAreMissing) {
   EXPECT_EQ(scene.report.missing_pages, 2u);
 }
 
+TEST(ImportSceneGraph, ReadsProxiesThatOpenSceneGraphLoadsWhileItDraws) {
+  const TemporaryFolder folder;
+  const auto deferred = [](const std::string& file) { return proxy(file, "DEFER_LOADING_TO_DATABASE_PAGER"); };
+  folder.write("parts/wall.osg", triangle_at("8"));
+  folder.write("parts/house.osg", group("Group", "", {triangle_at("7"), deferred("wall.osg"), deferred("gone.osg")}));
+  const ImportedScene scene = import_scene(
+      folder.write("root.osg", group("Group", "",
+                                     {moved("10", {deferred("parts/house.osg")}), proxy("parts/house.osg"),
+                                      deferred("root.osg"), proxy("parts/wall.osg", "NO_AUTOMATIC_LOADING")})));
+  EXPECT_EQ(first_xs(scene), (std::vector<double>{17, 18, 7, 8}));
+  EXPECT_EQ(scene.report.missing_pages, 3u);
+}
+
 TEST(ImportSceneGraph, FallsBackToTheCoarserLevelWhereAProxyIsMissing) {
   const std::vector<std::string> fine{triangle_at("1"), proxy("gone.osg")};
   const auto lod = [&](const std::vector<std::string>& coarse) {

@@ -3,10 +3,14 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
+#include <functional>
+#include <osg/NodeVisitor>
 #include <osg/Notify>
+#include <osg/ProxyNode>
 #include <osgDB/Options>
 #include <osgDB/ReadFile>
 #include <osgDB/Registry>
+#include <set>
 #include <string_view>
 #include <system_error>
 #include <utility>
@@ -69,6 +73,32 @@ fs::path place_of(const std::string& name, const osgDB::Options* options, SceneF
   return outside.empty() ? first : outside;
 }
 
+/// Adds the files of the proxies that OpenSceneGraph's pager would load while it draws.
+class LoadDeferredProxies : public osg::NodeVisitor {
+ public:
+  using Read = std::function<osg::ref_ptr<osg::Node>(const std::string&)>;
+  explicit LoadDeferredProxies(Read read) : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN), read_(std::move(read)) {}
+
+  void apply(osg::Node& node) override {
+    // A damaged graph may contain itself.
+    if (visited_.insert(&node).second) traverse(node);
+  }
+  void apply(osg::ProxyNode& proxy) override {
+    apply(static_cast<osg::Node&>(proxy));
+    if (proxy.getLoadingExternalReferenceMode() != osg::ProxyNode::DEFER_LOADING_TO_DATABASE_PAGER) return;
+    // A file that names this one shall not load these again.
+    proxy.setLoadingExternalReferenceMode(osg::ProxyNode::LOAD_IMMEDIATELY);
+    for (unsigned i = proxy.getNumChildren(); i < proxy.getNumFileNames(); ++i) {
+      if (proxy.getFileName(i).empty()) continue;
+      if (const osg::ref_ptr<osg::Node> file = read_(proxy.getFileName(i))) proxy.addChild(file);
+    }
+  }
+
+ private:
+  Read read_;
+  std::set<const osg::Node*> visited_;
+};
+
 class GuardedReading : public osgDB::ReadFileCallback {
  public:
   GuardedReading(MeshSink& sink, SceneFiles& files) : sink_(sink), files_(files) {}
@@ -91,6 +121,11 @@ class GuardedReading : public osgDB::ReadFileCallback {
     const osg::ref_ptr<osgDB::Options> own = options == nullptr ? new osgDB::Options : options->cloneOptions();
     own->getDatabasePathList().push_front(file.parent_path().string());
     Result result = reader->readNode(file.string(), own);
+    if (osg::Node* node = result.getNode()) {
+      LoadDeferredProxies load(
+          [&](const std::string& named) { return osg::ref_ptr<osg::Node>(readNode(named, own).getNode()); });
+      node->accept(load);
+    }
     reading_.pop_back();
     if (!result.validNode()) return main ? result : missing(name);
     if (quiet_) return result;
