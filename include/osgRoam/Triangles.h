@@ -6,8 +6,9 @@
 ///
 /// These are the triangles, strips, fans, quads, quad strips and polygons of all geometries, in floats or doubles,
 /// through transforms in doubles. In switches and sequences the visible child counts. Billboards, text, particles,
-/// lights, points, lines, cameras with a frame of their own (head-up displays, render to texture) and nodes with node
-/// mask 0 are left out. A paged scene counts as far as it is loaded, in the finest loaded level; no file is read.
+/// lights, points, lines, projections, cameras and transforms with a frame of their own (head-up displays, render to
+/// texture) and nodes with node mask 0 are left out. A paged scene counts as far as it is loaded, in the finest loaded
+/// level; no file is read.
 ///
 /// The graph must not change meanwhile: with a database pager, call these from the viewer's update thread.
 

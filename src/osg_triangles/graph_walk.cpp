@@ -19,7 +19,11 @@ bool has_no_surface(const osg::Object& object) {
   return is_of(object, "osgText") || is_of(object, "osgParticle") || made_while_drawn(object);
 }
 
-bool draws_elsewhere(const osg::Camera& camera) { return camera.getReferenceFrame() != osg::Transform::RELATIVE_RF; }
+bool draws_elsewhere(const osg::Node& node) {
+  const osg::Transform* transform = node.asTransform();
+  if (transform == nullptr) return dynamic_cast<const osg::Projection*>(&node) != nullptr;
+  return transform->getReferenceFrame() != osg::Transform::RELATIVE_RF;
+}
 
 osg::Node* shown_child(osg::Sequence& sequence) {
   const auto count = static_cast<int>(sequence.getNumChildren());
@@ -65,11 +69,10 @@ void GraphWalk::apply(osg::Group& group) {
 
 void GraphWalk::apply(osg::Billboard&) {}
 
-void GraphWalk::apply(osg::Camera& camera) {
-  if (!draws_elsewhere(camera)) apply(static_cast<osg::Transform&>(camera));
-}
+void GraphWalk::apply(osg::Projection&) {}
 
 void GraphWalk::apply(osg::Transform& transform) {
+  if (draws_elsewhere(transform)) return;
   const Entered entered(*this, transform);
   const osg::Matrixd before = to_world_;
   transform.computeLocalToWorldMatrix(to_world_, this);

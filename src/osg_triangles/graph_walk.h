@@ -3,12 +3,12 @@
 /// Visitor of the surfaces in an OpenSceneGraph scene, with their transforms.
 
 #include <cstddef>
-#include <osg/Camera>
 #include <osg/Geometry>
 #include <osg/LOD>
 #include <osg/Matrixd>
 #include <osg/NodeVisitor>
 #include <osg/PagedLOD>
+#include <osg/Projection>
 #include <osg/Sequence>
 #include <string>
 #include <vector>
@@ -19,8 +19,9 @@ namespace roam::osg_triangles {
 /// surface only while they are drawn.
 [[nodiscard]] bool has_no_surface(const osg::Object& object);
 
-/// Whether a camera has its own frame, because it draws a head-up display or a texture.
-[[nodiscard]] bool draws_elsewhere(const osg::Camera& camera);
+/// Whether a node has a frame of its own, because it draws a head-up display or a texture: a camera or transform whose
+/// frame does not follow that of its parent, or a projection.
+[[nodiscard]] bool draws_elsewhere(const osg::Node& node);
 
 /// The child that a sequence shows: the first if it has not started, null if it has none.
 [[nodiscard]] osg::Node* shown_child(osg::Sequence& sequence);
@@ -35,7 +36,7 @@ class GraphWalk : public osg::NodeVisitor {
   void apply(osg::Drawable& drawable) override;
   void apply(osg::Geometry& geometry) override;
   void apply(osg::Billboard& billboard) override;
-  void apply(osg::Camera& camera) override;
+  void apply(osg::Projection& projection) override;
   void apply(osg::Transform& transform) override;
   void apply(osg::Sequence& sequence) override;
   void apply(osg::LOD& lod) override;

@@ -1,9 +1,9 @@
 #include <algorithm>
 #include <cmath>
 #include <osg/Billboard>
-#include <osg/Camera>
 #include <osg/Geometry>
 #include <osg/NodeVisitor>
+#include <osg/Transform>
 #include <vector>
 
 #include "affine.h"
@@ -65,21 +65,18 @@ class MarginVisitor : public osg::NodeVisitor {
     above_.resize(depth);
   }
   void apply(osg::Transform& transform) override {
+    // BoxIntersector passes these, but may begin at one.
+    if (getNodePath().size() > 1 && roam::osg_triangles::draws_elsewhere(transform)) return;
     const std::vector<Bounded> above = above_;
     const osg::Matrixd to_graph = to_graph_;
     include(transform);
     osg::Matrixd own;
     transform.computeLocalToWorldMatrix(own, this);
     transform.computeLocalToWorldMatrix(to_graph_, this);
-    // The spheres above do not bound a child with an absolute frame.
-    if (transform.getReferenceFrame() != osg::Transform::RELATIVE_RF) above_.clear();
     for (Bounded& node : above_) node.to_bounded.preMult(own);
     traverse(transform);
     above_ = above;
     to_graph_ = to_graph;
-  }
-  void apply(osg::Camera& camera) override {
-    if (!roam::osg_triangles::draws_elsewhere(camera)) apply(static_cast<osg::Transform&>(camera));
   }
   void apply(osg::Billboard&) override {}
   void apply(osg::Geometry& geometry) override {

@@ -2,7 +2,6 @@
 #include <cmath>
 #include <limits>
 #include <osg/Billboard>
-#include <osg/Camera>
 #include <tuple>
 
 #include "affine.h"
@@ -35,11 +34,8 @@ void check(osgUtil::Intersector::CoordinateFrame frame) {
 bool isElsewhere(const osg::NodePath& path) {
   if (!path.empty() && dynamic_cast<const osg::Billboard*>(path.back()) != nullptr) return true;
   // A camera at the start of the path is what the caller wants to query.
-  for (std::size_t i = 1; i < path.size(); ++i) {
-    const osg::Camera* camera = path[i]->asCamera();
-    if (camera != nullptr && roam::osg_triangles::draws_elsewhere(*camera)) return true;
-  }
-  return false;
+  return std::any_of(path.begin() + (path.empty() ? 0 : 1), path.end(),
+                     [](const osg::Node* node) { return roam::osg_triangles::draws_elsewhere(*node); });
 }
 
 }  // namespace

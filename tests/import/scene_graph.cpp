@@ -82,6 +82,13 @@ TEST(ImportSceneGraph, LeavesOutBillboardsAndHiddenNodes) {
   EXPECT_EQ(xs_of(group("Group", "", {billboard, hidden, triangle_at("3")})), (std::vector<double>{3}));
 }
 
+TEST(ImportSceneGraph, LeavesOutHeadUpDisplays) {
+  const std::string projection =
+      group("Projection", "Matrix {\n1 0 0 0\n0 1 0 0\n0 0 1 0\n0 0 0 1\n}\n", {triangle_at("1")});
+  EXPECT_EQ(xs_of(group("Group", "", {projection, moved("1", {triangle_at("1")}, "ABSOLUTE"), triangle_at("3")})),
+            (std::vector<double>{3}));
+}
+
 TEST(ImportSceneGraph, ReadsAllPrimitivesInOrder) {
   const TemporaryFolder folder;
   std::string vertices;

@@ -3,7 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <glm/geometric.hpp>
+#include <initializer_list>
+#include <osg/Camera>
 #include <osg/KdTree>
+#include <osg/MatrixTransform>
+#include <osg/Projection>
 #include <osgUtil/IntersectionVisitor>
 
 #include "osgRoam/BoxIntersector.h"
@@ -365,12 +369,19 @@ TEST(OsgIntersector, FindsTrianglesWhoseNormalUnderflows) {
 }
 
 TEST(OsgIntersector, PassesHeadUpDisplays) {
-  osg::ref_ptr<osg::Camera> display = new osg::Camera;
-  display->setReferenceFrame(osg::Transform::ABSOLUTE_RF);
-  display->addChild(floor_at(0.0));
-  osg::ref_ptr<osg::Group> scene = new osg::Group;
-  scene->addChild(display);
-  EXPECT_FALSE(ask(*scene, {0.5}, {0, 0, 1}, {0, 0, -2})->containsIntersections());
+  const osg::ref_ptr<osg::Camera> camera = new osg::Camera;
+  const osg::ref_ptr<osg::MatrixTransform> fixed = new osg::MatrixTransform, turning = new osg::MatrixTransform;
+  camera->setReferenceFrame(osg::Transform::ABSOLUTE_RF);
+  fixed->setReferenceFrame(osg::Transform::ABSOLUTE_RF);
+  turning->setReferenceFrame(osg::Transform::ABSOLUTE_RF_INHERIT_VIEWPOINT);
+  const osg::ref_ptr<osg::Projection> projection = new osg::Projection;
+  for (osg::Group* display : std::initializer_list<osg::Group*>{camera, fixed, turning, projection}) {
+    display->addChild(floor_at(0.0));
+    osg::ref_ptr<osg::Group> scene = new osg::Group;
+    scene->addChild(display);
+    EXPECT_FALSE(ask(*scene, {0.5}, {0, 0, 1}, {0, 0, -2})->containsIntersections()) << display->className();
+    EXPECT_TRUE(osgRoam::collectMeshes(*scene).empty()) << display->className();
+  }
 }
 
 }  // namespace
