@@ -1,5 +1,6 @@
 #include "osg_triangles/graph_walk.h"
 
+#include <algorithm>
 #include <cstring>
 #include <osg/Billboard>
 
@@ -10,6 +11,18 @@ namespace roam::osg_triangles {
 namespace {
 
 bool is_of(const osg::Object& object, const char* library) { return std::strcmp(object.libraryName(), library) == 0; }
+
+/// Whether shaders make the triangles of these primitives.
+bool made_by_shaders(const osg::PrimitiveSet& primitives) {
+  switch (primitives.getMode()) {
+    case osg::PrimitiveSet::PATCHES:
+    case osg::PrimitiveSet::TRIANGLES_ADJACENCY:
+    case osg::PrimitiveSet::TRIANGLE_STRIP_ADJACENCY:
+      return true;
+    default:
+      return false;
+  }
+}
 
 bool made_while_drawn(const osg::Object& object) { return is_of(object, "osgTerrain") || is_of(object, "osgVolume"); }
 
@@ -91,6 +104,8 @@ void GraphWalk::apply(osg::Drawable& drawable) {
 
 void GraphWalk::apply(osg::Geometry& geometry) {
   const Entered entered(*this, geometry);
+  const auto& all = geometry.getPrimitiveSetList();
+  if (std::any_of(all.begin(), all.end(), [](const auto& set) { return made_by_shaders(*set); })) leave_out(geometry);
   meet(geometry);
 }
 

@@ -61,7 +61,7 @@ Mesh mesh_of(const osg::Geometry& geometry, const osg::Matrixd& to_world, std::u
   Mesh mesh;
   Collector collector(to_world, mesh, left_out);
   Primitives<Collector> primitives(collector);
-  geometry.accept(primitives);
+  primitives.run(geometry);
   return mesh;
 }
 

@@ -6,7 +6,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <osg/Array>
+#include <osg/Geometry>
 #include <osg/PrimitiveSet>
+#include <type_traits>
 
 namespace roam::osg_triangles {
 
@@ -18,7 +20,7 @@ class Vertices {
   Vertices(std::size_t count, const Vertex* vertices)
       : count_(vertices == nullptr ? 0 : count),
         array_(vertices),
-        is_float_(sizeof(typename Vertex::value_type) == sizeof(float)),
+        is_float_(std::is_same_v<typename Vertex::value_type, float>),
         at_([](const void* array, std::size_t i) { return point(static_cast<const Vertex*>(array)[i]); }) {}
 
   [[nodiscard]] std::size_t size() const { return count_; }
@@ -28,13 +30,18 @@ class Vertices {
   [[nodiscard]] osg::Vec3d operator[](std::size_t i) const { return at_(array_, i); }
 
  private:
-  static osg::Vec3d point(const osg::Vec2& v) { return {v.x(), v.y(), 0.0}; }
-  static osg::Vec3d point(const osg::Vec3& v) { return {v.x(), v.y(), v.z()}; }
-  static osg::Vec3d point(const osg::Vec2d& v) { return {v.x(), v.y(), 0.0}; }
-  static osg::Vec3d point(const osg::Vec3d& v) { return v; }
-  static osg::Vec3d point(const osg::Vec4& v) { return point(osg::Vec4d(v)); }
-  // OpenGL divides by w; most files have 1 there.
-  static osg::Vec3d point(const osg::Vec4d& v) { return {v.x() / v.w(), v.y() / v.w(), v.z() / v.w()}; }
+  template <class Vertex>
+  static osg::Vec3d point(const Vertex& v) {
+    const osg::Vec2d first(v.x(), v.y());
+    if constexpr (Vertex::num_components == 2) {
+      return {first, 0.0};
+    } else if constexpr (Vertex::num_components == 3) {
+      return {first, static_cast<double>(v.z())};
+    } else {
+      // OpenGL divides by w; most files have 1 there.
+      return osg::Vec3d(first, v.z()) / static_cast<double>(v.w());
+    }
+  }
 
   std::size_t count_ = 0;
   const void* array_ = nullptr;
@@ -50,7 +57,7 @@ struct Corners {
   bool indexed;        ///< false: triangles do not share vertices
 };
 
-/// Passes all triangles of a geometry to `Receiver`, which has
+/// Passes all triangles of a geometry to `Receiver`, by run(). A receiver has
 ///     void begin(const auto* vertices, std::size_t count);   // before the triangles
 ///     void triangle(const Corners& corners);
 template <class Receiver>
@@ -58,6 +65,14 @@ class Primitives : public osg::PrimitiveIndexFunctor {
  public:
   explicit Primitives(Receiver& receiver) : receiver_(receiver) {}
 
+  void run(const osg::Geometry& geometry) {
+    const osg::Array* vertices = geometry.getVertexArray();
+    if (vertices == nullptr && geometry.getNumVertexAttribArrays() > 0) vertices = geometry.getVertexAttribArray(0);
+    if (vertices == nullptr || !begin_integers(*vertices)) return geometry.accept(*this);
+    for (const auto& primitives : geometry.getPrimitiveSetList()) primitives->accept(*this);
+  }
+
+  // Geometry::accept() calls these. It refuses integers.
   void setVertexArray(unsigned int count, const osg::Vec2* v) override { receiver_.begin(v, count); }
   void setVertexArray(unsigned int count, const osg::Vec3* v) override { receiver_.begin(v, count); }
   void setVertexArray(unsigned int count, const osg::Vec4* v) override { receiver_.begin(v, count); }
@@ -75,6 +90,22 @@ class Primitives : public osg::PrimitiveIndexFunctor {
   void drawElements(GLenum mode, GLsizei count, const GLuint* indices) override { elements(mode, count, indices); }
 
  private:
+  bool begin_integers(const osg::Array& array) {
+    // Small geometries are many, and the casts below take longer than their triangles.
+    if (array.getDataType() == GL_FLOAT || array.getDataType() == GL_DOUBLE) return false;
+    return begin_any<osg::Vec2bArray, osg::Vec3bArray, osg::Vec4bArray, osg::Vec2sArray, osg::Vec3sArray,
+                     osg::Vec4sArray, osg::Vec2iArray, osg::Vec3iArray, osg::Vec4iArray, osg::Vec2ubArray,
+                     osg::Vec3ubArray, osg::Vec4ubArray, osg::Vec2usArray, osg::Vec3usArray, osg::Vec4usArray,
+                     osg::Vec2uiArray, osg::Vec3uiArray, osg::Vec4uiArray>(array);
+  }
+  template <class... Arrays>
+  bool begin_any(const osg::Array& array) {
+    const auto begin_as = [&]<class Array>(const Array* same) {
+      if (same != nullptr) receiver_.begin(same->asVector().data(), same->size());
+      return same != nullptr;
+    };
+    return (begin_as(dynamic_cast<const Arrays*>(&array)) || ...);
+  }
   template <class Index>
   void elements(GLenum mode, GLsizei count, const Index* indices) {
     if (count < 0 || indices == nullptr) return;

@@ -82,7 +82,7 @@ class MarginVisitor : public osg::NodeVisitor {
   void apply(osg::Geometry& geometry) override {
     Farthest farthest(above_);
     roam::osg_triangles::Primitives<Farthest> primitives(farthest);
-    geometry.accept(primitives);
+    primitives.run(geometry);
     excess_ = std::max(excess_, farthest.excess);
   }
 

@@ -96,7 +96,7 @@ void BoxIntersector::Search::run(const osg::Geometry& geometry) {
     tree->intersect(search, tree->getNode(0));
   } else {
     roam::osg_triangles::Primitives<Search> primitives(*this);
-    geometry.accept(primitives);
+    primitives.run(geometry);
   }
 }
 

@@ -113,6 +113,25 @@ TEST(ImportSceneGraph, ReadsAllPrimitivesInOrder) {
   EXPECT_EQ(corners("DrawElementsUShort TRIANGLES 3 {\n5 0 2\n}"), "502 ");
 }
 
+TEST(ImportSceneGraph, ReadsVerticesThatAreIntegers) {
+  for (const char* kind : {"Vec3sArray", "Vec3bArray"}) {
+    EXPECT_EQ(xs_of("Geode {\nnum_drawables 1\nGeometry {\nPrimitives 1\n{\nDrawArrays TRIANGLES 0 3\n}\nVertexArray " +
+                    std::string(kind) + " 3\n{\n-100 0 0\n0 1 0\n0 0 1\n}\n}\n}\n"),
+              (std::vector<double>{-100}))
+        << kind;
+  }
+}
+
+TEST(ImportSceneGraph, NamesPrimitivesWhoseTrianglesShadersMake) {
+  const TemporaryFolder folder;
+  const ImportedScene scene = import_scene(
+      folder.write("patches.osg",
+                   "Geode {\nnum_drawables 1\nGeometry {\nPrimitives 2\n{\nDrawArrays TRIANGLES 0 3\nDrawArrays "
+                   "PATCHES 0 3\n}\nVertexArray Vec3Array 3\n{\n0 0 0\n1 0 0\n0 1 0\n}\n}\n}\n"));
+  EXPECT_EQ(scene.report.triangles, 1u);
+  EXPECT_TRUE(notes_contain(scene, "patches, and triangles with neighbours, in an osg::Geometry"));
+}
+
 TEST(ImportSceneGraph, LeavesOutTrianglesWhoseIndicesLeadNowhere) {
   const TemporaryFolder folder;
   const ImportedScene scene =

@@ -63,14 +63,14 @@ class TriangleCollector {
 void add_geometry(const osg::Geometry& geometry, const osg::Matrixd& to_world, const OsgLooks* looks, MeshSink& sink) {
   TriangleCollector collector(to_world, looks, sink);
   osg_triangles::Primitives<TriangleCollector> primitives(collector);
-  if (looks == nullptr || !looks->by_set()) return geometry.accept(primitives);
+  if (looks == nullptr || !looks->by_set()) return primitives.run(geometry);
   // The functor does not receive the number of the primitive set, so each set is visited alone. A vertex with different
   // looks in two sets becomes two vertices.
   for (unsigned i = 0; i < geometry.getNumPrimitiveSets(); ++i) {
     const osg::ref_ptr<osg::Geometry> one = new osg::Geometry(geometry, osg::CopyOp::SHALLOW_COPY);
     one->setPrimitiveSetList({const_cast<osg::PrimitiveSet*>(geometry.getPrimitiveSet(i))});
     collector.begin_set(i);
-    one->accept(primitives);
+    primitives.run(*one);
   }
 }
 

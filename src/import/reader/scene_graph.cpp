@@ -67,9 +67,14 @@ void SceneGraphWalk::refuse_depth() {
 }
 
 void SceneGraphWalk::leave_out(const osg::Object& object) {
-  const char* sentence = object.asNode() != nullptr && object.asNode()->asGroup() != nullptr
-                             ? "{}: nodes of kind {}::{} make their surface while they are drawn; they are not read."
-                             : "{}: drawables of kind {}::{} hold no triangles that can be read; they are left out.";
+  const osg::Node* const node = object.asNode();
+  const char* sentence = "{}: drawables of kind {}::{} hold no triangles that can be read; they are left out.";
+  if (node != nullptr && node->asGroup() != nullptr) {
+    sentence = "{}: nodes of kind {}::{} make their surface while they are drawn; they are not read.";
+  } else if (node != nullptr && node->asGeometry() != nullptr && !osg_triangles::has_no_surface(object)) {
+    sentence =
+        "{}: patches, and triangles with neighbours, in an {}::{} get their surface from shaders; they are left out.";
+  }
   sink_.report_note_once(
       fmt::format(fmt::runtime(sentence), files_.back().string(), object.libraryName(), object.className()));
 }
