@@ -270,6 +270,24 @@ TEST(ImportTilesets, MoveEarthCentredTilesToALocalFrame) {
   EXPECT_EQ(both.at(1), both.at(0));
 }
 
+TEST(ImportTilesets, StandOnTheirTilesThoughTheRootIsTheWholeEarth) {
+  const TemporaryFolder folder;
+  const Vec3 place = earth_centred(46.2, 8.1, 500);
+  constexpr double pi = std::numbers::pi;
+  Json tile = made_node("1.b3dm"), half = made_node("", Json::array({tile}));
+  half["boundingVolume"] = {{"region", {0, -pi / 2, pi, pi / 2, 0, 5000}}};
+  half["children"][0]["boundingVolume"] = {{"box", {0, 0, 0, 100, 0, 0, 0, 100, 0, 0, 0, 100}}};
+  half["children"][0]["transform"] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, place.x, place.y, place.z, 1};
+  Json root = made_node("", Json::array({made_node("absent.b3dm"), half}));
+  root["boundingVolume"] = {{"region", {-pi, -pi / 2, pi, pi / 2, 0, 5000}}};
+  const fs::path tileset = folder.write("tiles/tileset.json", made_tileset(root));
+  folder.write("tiles/1.b3dm", made_tile("b3dm", MadeGrid(1).gltf().glb()));
+  const ImportedScene scene = import_scene(tileset);
+  ASSERT_TRUE(scene.report.georeference);
+  EXPECT_EQ(scene.report.georeference->srs, "ENU:46.2,8.1");
+  EXPECT_TRUE(notes_contain(scene, "the ground is level only near the place of the frame"));
+}
+
 /// The triangles of all parts, one after the other.
 std::vector<Triangle> triangles_of_parts(const std::vector<ScenePart>& parts, const ImportOptions& options = {}) {
   std::vector<Triangle> all;

@@ -21,7 +21,8 @@ struct EarthPlace {
 
 /// A tileset has Earth-centred coordinates (EPSG:4978) if the bounding volume of its `root` is a region, or lies near
 /// the surface of the Earth. It is then moved to the local frame of the scene before, or to one of its own, unless the
-/// user chose an up axis. `transform`: of the root. Throws roam::Error if the scene before is in another reference
+/// user chose an up axis. Its own stands in the middle of the root, or of the first tile below if the root is far too
+/// wide. `transform`: of the root. Throws roam::Error if the scene before is in another reference
 /// system.
 [[nodiscard]] EarthPlace place_on_earth(const Json& root, const glm::dmat4& transform, const std::string& tileset,
                                         const ReadingSettings& settings);
