@@ -66,30 +66,40 @@ struct StatusHandler::State {
   void show(osgGA::GUIActionAdapter& viewer, double time) {
     std::string now = leads(viewer) ? status_of(*roamer) : std::string();
     tell_held(time, !now.empty());
+    const bool is_new = now != line || !camera;
+    line = std::move(now);
     if (!camera) attach(viewer);
     if (!camera) return;
-    camera->setNodeMask(shown && !now.empty() ? ~0u : 0u);
-    const osg::Viewport* const window = camera->getViewport();
-    place(*window);
-    if (now == line) return;
-    line = std::move(now);
+    camera->setNodeMask(shown && !line.empty() ? ~0u : 0u);
+    place(*camera->getViewport());
+    if (!is_new) return;
     text->setText(line, osgText::String::ENCODING_UTF8);
     viewer.requestRedraw();
   }
 
-  /// Draws over the first window of the view, as the handlers of osgViewer do.
+  /// The first camera of the view that draws into a window; null if there is none.
+  static osg::Camera* shown_by(osg::View& view) {
+    const auto is_shown = [](osg::Camera* one) {
+      return one != nullptr && one->getViewport() != nullptr &&
+             dynamic_cast<osgViewer::GraphicsWindow*>(one->getGraphicsContext()) != nullptr;
+    };
+    if (is_shown(view.getCamera())) return view.getCamera();
+    for (unsigned i = 0; i < view.getNumSlaves(); ++i) {
+      if (osg::Camera* slave = view.getSlave(i)._camera.get(); is_shown(slave)) return slave;
+    }
+    return nullptr;
+  }
+
+  /// Draws over the view.
   void attach(osgGA::GUIActionAdapter& viewer) {
-    auto* const view = dynamic_cast<osgViewer::Viewer*>(viewer.asView());
-    if (view == nullptr) return;
-    osgViewer::ViewerBase::Windows windows;
-    view->getWindows(windows);
-    if (windows.empty()) return;
-    osgViewer::GraphicsWindow& window = *windows.front();
+    osg::View* const view = viewer.asView();
+    osg::Camera* const below = view != nullptr ? shown_by(*view) : nullptr;
+    if (below == nullptr) return;
     camera = new osg::Camera;
     camera->setName("osgRoam status");
     camera->setRenderer(new osgViewer::Renderer(camera));
-    camera->setGraphicsContext(&window);
-    camera->setViewport(0, 0, window.getTraits()->width, window.getTraits()->height);
+    camera->setGraphicsContext(below->getGraphicsContext());
+    camera->setViewport(new osg::Viewport(*below->getViewport()));
     camera->setRenderOrder(osg::Camera::POST_RENDER, 10);
     camera->setReferenceFrame(osg::Transform::ABSOLUTE_RF);
     camera->setViewMatrix(osg::Matrix::identity());

@@ -1,9 +1,11 @@
 // osgRoam in a viewer with all of osgviewer's own handlers and cameras.
+#include <algorithm>
 #include <osgGA/DriveManipulator>
 #include <osgGA/FlightManipulator>
 #include <osgGA/OrbitManipulator>
 #include <osgGA/StateSetManipulator>
 #include <osgGA/TerrainManipulator>
+#include <osgViewer/CompositeViewer>
 #include <osgViewer/ViewerEventHandlers>
 #include <sstream>
 
@@ -88,6 +90,31 @@ TEST(StatusHandler, ShowsWhatTheBodyDoesAndWhyItIsHeld) {
   osg::setNotifyHandler(before);
   EXPECT_EQ(o.status->text(), "held: no space to move in has been set");
   EXPECT_EQ(said.str(), "osgRoam: held: no space to move in has been set\n");
+}
+
+TEST(StatusHandler, ShowsItInAViewOfACompositeViewerToo) {
+  Window w;
+  const osg::ref_ptr<osgRoam::Manipulator> manipulator = new osgRoam::Manipulator;
+  const osg::ref_ptr<osgRoam::StatusHandler> status = new osgRoam::StatusHandler(manipulator);
+  const osg::ref_ptr<osgViewer::View> view = new osgViewer::View;
+  view->setCameraManipulator(manipulator);
+  osgViewer::CompositeViewer viewer;
+  viewer.addView(view);
+  const osg::ref_ptr<Adapter> event = new Adapter;
+  event->setEventType(Adapter::FRAME);
+  status->handle(*event, *view);
+  EXPECT_EQ(status->text(), "held: no space to move in has been set");
+  // In the right half of a window.
+  osg::GraphicsContext* context = w.viewer.getCamera()->getGraphicsContext();
+  view->getCamera()->setGraphicsContext(context);
+  view->getCamera()->setViewport(400, 0, 400, 600);
+  status->handle(*event, *view);
+  const auto& cameras = context->getCameras();
+  const auto shown = std::find_if(cameras.begin(), cameras.end(),
+                                  [](const osg::Camera* one) { return one->getName() == "osgRoam status"; });
+  ASSERT_NE(shown, cameras.end());
+  EXPECT_EQ((*shown)->getViewport()->x(), 400.0);
+  view->getCamera()->setGraphicsContext(nullptr);
 }
 
 TEST(StatusHandler, SaysThatTheBodyIsHeldOverNothing) {
