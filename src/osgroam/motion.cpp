@@ -191,6 +191,8 @@ void Manipulator::State::frame(double time) {
   const std::vector<Keyboard::Change> changes = keyboard.take_changes();
   if (!last_time || !std::isfinite(time)) {
     if (std::isfinite(time)) last_time = time;
+    // A body in the air falls, which only the next frame finds out.
+    moved = last_time.has_value();
     held_before = keyboard.held();
     return;
   }

@@ -265,6 +265,16 @@ TEST(ManipulatorKeys, KeysThatDoNothingAreLeftToOthers) {
   }
 }
 
+TEST(ManipulatorKeys, TheViewerIsKeptDrawingWhileABodyFallsThatWasPlacedInTheAir) {
+  Standing r;
+  r->setFeet({0.0, 0.0, 3.0}, 0.0, 0.0);
+  r->init(*r.queue->getCurrentEventState(), r.viewer);
+  r.frame(frame);  // which a viewer that draws on demand draws once
+  for (int i = 0; i < 200 && r.viewer.continuous; ++i) r.frame(frame);
+  EXPECT_FALSE(r.viewer.continuous);
+  EXPECT_NEAR(r.at().z, 0.9, 1e-2);
+}
+
 TEST(ManipulatorKeys, OtherKeysWorkAfterRebinding) {
   Standing r;
   r->controls().rebind("forward = Z");
