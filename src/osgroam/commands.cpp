@@ -69,7 +69,10 @@ bool Manipulator::State::key_down(const Adapter& event) {
   const Controls::Command* command = keys.lookup(key, keyboard.ctrl());
   if (!command) return false;
   if (command->kind != Controls::Kind::pressed) return true;
-  return fresh ? press(*command, event.getTime()) : true;
+  if (!fresh || press(*command, event.getTime())) return true;
+  // StatusHandler and the viewer may both pass the event on. The second time it is refused, too.
+  keyboard.release(keys, key, event.getTime());
+  return false;
 }
 
 void Manipulator::State::key_up(const Adapter& event) { keyboard.release(keys, symbol(event), event.getTime()); }

@@ -260,8 +260,10 @@ TEST(ManipulatorKeys, AViewersOwnCommandsAreCalledOnceAPress) {
 TEST(ManipulatorKeys, KeysThatDoNothingAreLeftToOthers) {
   Standing r;
   for (const int key : {int('1'), int('x'), int(Adapter::KEY_F12), int(Adapter::KEY_Escape)}) {
-    r.down(key);
-    EXPECT_FALSE(r.taken) << key;
+    for (int pass = 0; pass < 2; ++pass) {  // StatusHandler passes each event on before the viewer does
+      r.down(key);
+      EXPECT_FALSE(r.taken) << key;
+    }
   }
 }
 
