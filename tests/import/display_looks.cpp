@@ -45,6 +45,23 @@ TEST(ImportDisplayLooks, ReadsMaterialsOfObj) {
   EXPECT_EQ(shown.report.missing_textures, 0u);
 }
 
+TEST(ImportDisplayLooks, ReadSeveralFilesOfMaterialsOfOneLine) {
+  const TemporaryFolder folder;
+  folder.write("red.mtl", "newmtl red\nKd 1 0 0\n");
+  folder.write("dark green.mtl", "newmtl green\nKd 0 1 0\n");
+  folder.write("blue.mtl", "newmtl blue\nKd 0 0 1\n");
+  const Shown shown = show({folder.write(
+      "a.obj", obj_vertices + "mtllib red.mtl  blue.mtl gone.mtl\nmtllib dark green.mtl\nmtllib no one.mtl\nusemtl "
+                              "red\nf 1 2 3\nusemtl green\nf 1 2 4\nusemtl blue\nf 1 3 4\n")});
+  std::set<Colour> colours;
+  for (const ShownTriangle& t : shown.triangles) colours.insert(t.colours[0]);
+  EXPECT_EQ(colours, (std::set<Colour>{{255, 0, 0, 255}, {0, 255, 0, 255}, {0, 0, 255, 255}}));
+  const std::vector<std::string>& notes = shown.report.import.notes;
+  ASSERT_EQ(notes.size(), 2u);
+  EXPECT_TRUE(contains(notes[0], "/gone.mtl: this file of materials is not there"));
+  EXPECT_TRUE(contains(notes[1], "/no one.mtl: this file of materials is not there"));
+}
+
 TEST(ImportDisplayLooks, SendAnImageOnceHoweverItsNameIsWritten) {
   const TemporaryFolder folder;
   folder.write("wall.bmp", bmp(two_texels));

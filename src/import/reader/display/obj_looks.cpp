@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <tiny_obj_loader.h>
 
+#include <algorithm>
 #include <array>
 #include <fstream>
 #include <sstream>
@@ -43,7 +44,7 @@ void ObjLooks::take_line(std::string_view keyword, std::string_view rest) {
     take_numbers(rest, numbers);
     normals_.emplace_back(numbers[0], numbers[1], numbers[2]);
   } else if (keyword == "mtllib") {
-    read_materials(std::string(trimmed(rest)));
+    read_libraries(trimmed(rest));
   } else if (keyword == "usemtl") {
     use_material(std::string(trimmed(rest)));
   }
@@ -73,6 +74,17 @@ VertexLook ObjLooks::of(std::uint64_t vertex, std::string_view corner) const {
   if (second == std::string_view::npos) return look;
   if (const auto* found = indexed(normals_, corner.substr(second + 1))) look.normal = *found;
   return look;
+}
+
+void ObjLooks::read_libraries(std::string_view names) {
+  SceneFiles& files = sink_.parts()->textures().files();
+  const auto is_there = [&](const std::string& name) { return !find_image_file(files, folder_, name).empty(); };
+  std::vector<std::string> several;
+  for (std::string_view rest = names; !trimmed(rest).empty();) several.emplace_back(take_word(rest));
+  // Names are apart by blanks, and may have blanks.
+  const std::string one(names);
+  if (is_there(one) || std::none_of(several.begin(), several.end(), is_there)) several.assign(1, one);
+  for (const std::string& name : several) read_materials(name);
 }
 
 void ObjLooks::read_materials(const std::string& name) {

@@ -34,6 +34,7 @@ class ObjLooks {
     Colour colour = white;
   };
 
+  void read_libraries(std::string_view names);
   void read_materials(const std::string& name);
   void use_material(const std::string& name);
 
