@@ -253,6 +253,21 @@ TEST(ImportGltf, RepeatsInstances) {
   EXPECT_EQ(import_scene(folder.write("three.glb", made.glb())).meshes.size(), 1u);
 }
 
+TEST(ImportGltf, LeavesOutHiddenNodesAndTheirChildren) {
+  const TemporaryFolder folder;
+  MadeGltf made = MadeGrid(1).gltf();
+  made.json["extensionsRequired"] = {"KHR_node_visibility"};
+  const auto show = [](bool shown) { return Json{{"KHR_node_visibility", {{"visible", shown}}}}; };
+  made.json["nodes"] = {{{"children", {1, 3}}},
+                        {{"mesh", 0}, {"children", {2}}, {"extensions", show(false)}},
+                        {{"mesh", 0}, {"extensions", show(true)}},
+                        {{"mesh", 0}, {"translation", {5, 0, 0}}, {"extensions", show(true)}}};
+  const ImportedScene scene = import_scene(folder.write("hidden.glb", made.glb()));
+  EXPECT_EQ(scene.report.triangles, 2u);
+  EXPECT_EQ(bounds_of(scene).lower.x, 5.0);
+  EXPECT_TRUE(scene.report.notes.empty());
+}
+
 TEST(ImportGltf, ReadsStripsFansAndSparseAccessors) {
   const TemporaryFolder folder;
   MadeGltf made;

@@ -23,7 +23,8 @@ constexpr std::size_t depth_limit = 2000;
 constexpr std::uint32_t not_added = std::numeric_limits<std::uint32_t>::max();
 
 /// Extensions that a body does not feel, by the beginning of their names, and those that are read.
-constexpr std::array<std::string_view, 14> known_extensions{"KHR_draco_mesh_compression",
+constexpr std::array<std::string_view, 15> known_extensions{"KHR_draco_mesh_compression",
+                                                            "KHR_node_visibility",
                                                             "EXT_meshopt_compression",
                                                             "KHR_mesh_quantization",
                                                             "EXT_mesh_gpu_instancing",
@@ -134,6 +135,8 @@ void GltfWalk::walk_node(std::uint64_t index, const glm::dmat4& parent) {
     throw file_.damaged(fmt::format("its nodes are nested more than {} deep", depth_limit));
   visited_[index] = true;
   const Json& node = member(file_.json(), "nodes")[index];
+  // A hidden node hides its children.
+  if (member(member(node, "extensions", "KHR_node_visibility"), "visible") == Json(false)) return;
   const glm::dmat4 matrix = parent * transform_of(node);
   names_.push_back(text(member(node, "name")));
   if (!member(node, "mesh").is_null()) add_mesh(node, matrix);
