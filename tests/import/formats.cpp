@@ -37,6 +37,13 @@ TEST(ImportFormats, TurnsGltfUprightUnlessTold) {
   EXPECT_TRUE(contains(import_error(file, {.ignore = {"Panel"}}), "to be ignored"));
 }
 
+TEST(ImportFormats, ReadsDataInGltfWhoseBytesAreEscaped) {
+  const TemporaryFolder folder;
+  std::string escaped = gltf();
+  escaped.replace(escaped.find("CAPw"), 4, "CA%50%77");
+  EXPECT_EQ(first_triangle(folder.write("door.gltf", escaped))[1], Vec3(11, -30, 20));
+}
+
 TEST(ImportFormats, LeavesColladaAsItIsAndSaysWhatItStates) {
   const TemporaryFolder folder;
   for (const std::string up : {"X_UP", "Y_UP", "Z_UP"}) {

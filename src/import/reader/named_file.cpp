@@ -65,8 +65,10 @@ std::optional<std::string> data_of(std::string_view uri) {
   if (!uri.starts_with("data:")) return std::nullopt;
   const std::size_t comma = uri.find(',');
   if (comma == std::string_view::npos) return std::nullopt;
-  const std::string_view content = uri.substr(comma + 1);
-  if (!uri.substr(0, comma).ends_with(";base64")) return files::unescaped(std::string(content));
+  std::string_view content = uri.substr(comma + 1);
+  std::string plain;
+  if (content.find('%') != std::string_view::npos) content = plain = files::unescaped(std::string(content));
+  if (!uri.substr(0, comma).ends_with(";base64")) return std::string(content);
   std::string bytes;
   bytes.reserve(content.size() / 4 * 3);
   std::uint32_t held = 0;
