@@ -385,6 +385,18 @@ TEST(Probe, FliesStraightWhereThereIsNothing) {
   for (const Vec3& place : path) EXPECT_LE(glm::distance(place, across.from), 17.0);
 }
 
+TEST(Probe, FliesFromAPlaceToItselfOnAnyLattice) {
+  Mesh m;
+  add_box(m, {-5.0, -5.0, 0.0}, {5.0, 5.0, 10.0});
+  const Survey survey = survey_of(m);
+  for (const double spacing : {0.2, 0.25}) {
+    const ProbeQuestion question{.from = {1.0, 1.0, 6.0}, .to = {1.0, 1.0, 6.0}, .mode = Mode::fly, .spacing = spacing};
+    const ProbeAnswer answer = probe(survey, question, {.radius = 0.3, .height = 0.6});
+    EXPECT_TRUE(answer.passable) << spacing;
+    EXPECT_FALSE(probed_path(survey, question, answer).empty()) << spacing;
+  }
+}
+
 TEST(Probe, HasNoPathOfANo) {
   const Survey survey = survey_of(room(0.0));
   for (const ProbeQuestion& question : {across, flying(across)}) {

@@ -50,6 +50,7 @@ std::vector<Vec3> taken_to(const Box& box, const std::vector<Vec3>& way) {
   const auto add = [&](const Vec3& place) {
     if (near.empty() || near.back() != place) near.push_back(place);
   };
+  if (!way.empty()) add(way.front());
   for (std::size_t i = 0; i + 1 < way.size(); ++i) {
     // Between two crossings of the sides' planes, a straight piece maps to a straight piece.
     std::vector<double> crossings{0.0, 1.0};
@@ -61,7 +62,6 @@ std::vector<Vec3> taken_to(const Box& box, const std::vector<Vec3>& way) {
       }
     }
     std::sort(crossings.begin(), crossings.end());
-    if (i == 0) add(way[i]);
     for (const double at : crossings) add(nearest_in(box, at < 1.0 ? way[i] + at * along : way[i + 1]));
     if (i + 2 == way.size()) add(way[i + 1]);
   }
