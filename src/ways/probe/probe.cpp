@@ -14,6 +14,7 @@
 #include "math/floating_point.h"
 #include "math/level_distance.h"
 #include "math/parallel_floating_point.h"
+#include "motion/carrying.h"
 #include "roam/standing.h"
 #include "text/names.h"
 #include "ways/probe/parts.h"
@@ -39,6 +40,11 @@ constexpr double beside_scene = 1.9;
 constexpr double same_width = 1e-3;
 
 bool is_sphere(const ProbedSize& size) { return size.height <= 2.0 * size.radius; }
+
+/// The half width (m) of the widest crack with level rims that carries such a body.
+double spanned(const ProbeQuestion& question, double radius) {
+  return question.support_radius > 0.0 ? std::max(question.support_radius, radius) : rim_sine * radius;
+}
 
 /// The nearest place of a box.
 Vec3 nearest_in(const Box& box, const Vec3& place) { return glm::clamp(place, box.lower, box.upper); }
@@ -110,6 +116,36 @@ void step_down(const ProbeSearch& search, ProbeAnswer& answer) {
   other.walk = walk_way(search, other);
   other.wide_enough = true;
   if (other.walk->outcome == Outcome::reached) answer = std::move(other);
+}
+
+/// Sends a walker along the widest way. If that is too narrow, looks for one with steps down.
+void take_way(const ProbeSearch& search, ProbeAnswer& answer) {
+  answer.wide_enough = answer.passage.found && answer.passage.radius >= answer.size.radius;
+  if (answer.wide_enough)
+    answer.walk = walk_way(search, answer);
+  else if (answer.passage.complete)
+    step_down(search, answer);
+}
+
+bool falls(const ProbeSearch& search, const ProbeAnswer& answer) {
+  return search.question.mode == Mode::walk && answer.walk &&
+         (answer.walk->outcome == Outcome::fell || answer.walk->outcome == Outcome::left_scene);
+}
+
+/// After a fall: takes a way over no wider cracks than this body spans, if there is one. `search` becomes its search.
+void go_round(ProbeSearch& search, ProbeAnswer& answer) {
+  ProbeSearch careful = search;
+  careful.options.support_max = std::min(careful.options.support_max, spanned(search.question, answer.size.radius));
+  const Measure measure = careful.measure();
+  // An end over a crack that the body does not span is no place for it.
+  if (!foot_at(search.survey, measure, answer.start) || !foot_at(search.survey, measure, answer.target)) return;
+  ProbeAnswer other = answer;
+  other.walk.reset();
+  other.passage = careful.widest();
+  take_way(careful, other);
+  if (!other.wide_enough && other.passage.complete) return;
+  answer = std::move(other);
+  search.options = careful.options;
 }
 
 /// The largest radius, to half a millimetre, with which a walker goes the way: it keeps a gap to both sides.
@@ -220,6 +256,7 @@ PassageOptions ways::options_for(const ProbeQuestion& question, const ProbedSize
   if (question.mode == Mode::fly) return options;
   options.height = is_sphere(largest) ? 0.0 : largest.height;
   options.step = climbed(question, largest);
+  options.support_max = std::max(options.support_max, spanned(question, largest.radius));
   return options;
 }
 
@@ -305,26 +342,26 @@ std::vector<ProbeAnswer> answers_to(const Survey& survey, const ProbeQuestion& q
   std::vector<ProbeAnswer> answers;
   for (const ProbedSize& size : sizes) {
     Group& group = group_of(size);
+    ProbeSearch search = *group.search;
     ProbeAnswer answer;
     answer.size = size;
-    answer.narrowest = group.search->options.narrowest;
+    answer.narrowest = search.options.narrowest;
     answer.passage = group.passage;
     answer.start = group.start;
     answer.target = group.target;
+    if (!group.low) take_way(search, answer);
+    if (falls(search, answer)) go_round(search, answer);
     const Passage& p = answer.passage;
-    answer.wide_enough = p.found && p.radius >= size.radius;
-    if (!answer.wide_enough && !group.low && p.complete) step_down(*group.search, answer);
     answer.proven = answer.wide_enough ? p.proven : p.bound < size.radius;
     if (group.low) {
       answer.limit = group.low;
       answer.missing = group.low->needed - group.low->size;
       answer.proven = true;
-      answer.room = nearest_room(*group.search, group.low->feet, size.radius);
+      answer.room = nearest_room(search, group.low->feet, size.radius);
     } else {
-      find_limit(*group.search, answer, group.step);
+      find_limit(search, answer, group.step);
     }
-    if (p.found && !answer.wide_enough) answer.passing = passing_radius(*group.search, answer);
-    if (answer.wide_enough && !answer.walk) answer.walk = walk_way(*group.search, answer);
+    if (p.found && !answer.wide_enough) answer.passing = passing_radius(search, answer);
     answer.passable = answer.walk && answer.walk->outcome == Outcome::reached;
     answers.push_back(std::move(answer));
   }

@@ -1,0 +1,72 @@
+// Ways over the cracks that a body spans, and round the holes that it falls into.
+#include <gtest/gtest.h>
+
+#include "floor_pieces.h"
+#include "roam/probe.h"
+#include "walker_scenes.h"
+#include "words/probe.h"
+
+namespace {
+
+using namespace scenes;
+using namespace roam;
+
+constexpr ProbedSize person{.radius = 0.3, .height = 1.8};
+
+Survey survey_of(const Mesh& mesh, bool lossless = true) {
+  return Survey::build({mesh}, {.threads = 1, .lossless = lossless, .progress = {}});
+}
+
+/// A floor of 20 m by 10 m with a square hole of 0.8 m on the straight way; `depth`: of its bottom, 0: it has none.
+Mesh holed(double depth) {
+  Mesh m;
+  floors::Floor(0.0, -5.0, 20.0, 5.0, 2.0).without(floors::rectangle(6.6, -0.4, 7.4, 0.4)).add_to(m, 0.0);
+  if (!(depth > 0.0)) return m;
+  add_floor(m, 6.6, -0.4, 7.4, 0.4, -depth);
+  for (const double x : {6.6, 7.4}) add_wall(m, x, -0.4, x, 0.4, -depth, 0.0);
+  for (const double y : {-0.4, 0.4}) add_wall(m, 6.6, y, 7.4, y, -depth, 0.0);
+  return m;
+}
+
+const ProbeQuestion over_hole{.from = {2.0, 0.0, 1.0}, .to = {12.0, 0.0, 1.0}};
+
+TEST(ProbeCracks, AreGoneRoundWhereTheBodyFallsAndThereIsRoom) {
+  for (const double depth : {0.0, 1.0}) {
+    const Survey survey = survey_of(holed(depth));
+    const ProbeAnswer answer = probe(survey, over_hole, person);
+    ASSERT_TRUE(answer.passable && answer.walk) << words::report(over_hole, answer).text();
+    EXPECT_EQ(answer.walk->outcome, Outcome::reached);
+    EXPECT_FALSE(answer.passage.limited);
+    EXPECT_GT(answer.passage.length, 10.02);
+    ProbeQuestion carried = over_hole;
+    carried.support_radius = 0.45;
+    EXPECT_NEAR(probe(survey, carried, person).passage.length, 10.0, 0.01);
+  }
+}
+
+TEST(ProbeCracks, LetNobodyStandOverThem) {
+  ProbeQuestion question = over_hole;
+  question.to = {7.0, 0.0, 0.05};
+  const ProbeAnswer answer = probe(survey_of(holed(0.0)), question, person);
+  EXPECT_FALSE(answer.passable) << words::report(question, answer).text();
+}
+
+TEST(ProbeCracks, AreCrossedByADiscLargerThanAMetre) {
+  Mesh m;
+  add_floor(m, 0.0, -2.0, 5.0, 2.0, 0.0);
+  add_floor(m, 7.4, -2.0, 15.0, 2.0, 0.0);
+  add_floor(m, 5.0, -2.0, 7.4, 2.0, -5.0);
+  for (const double x : {5.0, 7.4}) add_wall(m, x, -2.0, x, 2.0, -5.0, 0.0);
+  for (const double y : {-2.0, 2.0}) add_wall(m, 0.0, y, 15.0, y, -5.0, 3.0);
+  const Survey survey = survey_of(m);
+  ProbeQuestion question = over_hole;
+  for (const double disc : {1.25, 1.5}) {
+    question.support_radius = disc;
+    const ProbeAnswer answer = probe(survey, question, person);
+    EXPECT_TRUE(answer.passable) << words::report(question, answer).text();
+  }
+  question.support_radius = 1.15;
+  EXPECT_FALSE(probe(survey, question, person).passable);
+}
+
+}  // namespace
