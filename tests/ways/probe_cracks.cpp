@@ -69,4 +69,16 @@ TEST(ProbeCracks, AreCrossedByADiscLargerThanAMetre) {
   EXPECT_FALSE(probe(survey, question, person).passable);
 }
 
+TEST(ProbeCracks, AreNoneOnOpenFloorForABodyHardlyHigherThanASphere) {
+  for (const bool lossless : {true, false}) {
+    Mesh m;
+    add_floor(m, 0.0, -5.0, 20.0, 5.0, 0.0);
+    const Survey survey = survey_of(m, lossless);
+    for (const ProbedSize& size : {ProbedSize{0.8985, 1.8}, ProbedSize{0.3, 0.604}, ProbedSize{0.3, 0.6 + 1e-9}}) {
+      const ProbeAnswer answer = probe(survey, over_hole, size);
+      EXPECT_TRUE(answer.passable) << words::report(over_hole, answer).text();
+    }
+  }
+}
+
 }  // namespace

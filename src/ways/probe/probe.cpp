@@ -39,7 +39,11 @@ constexpr double beside_scene = 1.9;
 /// Metres: widths that differ by less are equal.
 constexpr double same_width = 1e-3;
 
+/// Metres. A body with less between its half balls is searched as a sphere: a knee leaves it no room.
+constexpr double least_cylinder = 5e-3;
+
 bool is_sphere(const ProbedSize& size) { return size.height <= 2.0 * size.radius; }
+bool rolls(const ProbedSize& size) { return size.height < 2.0 * size.radius + least_cylinder; }
 
 /// The half width (m) of the widest crack with level rims that carries such a body.
 double spanned(const ProbeQuestion& question, double radius) {
@@ -230,7 +234,7 @@ const char* to_string(ProbeLimit::Kind kind) {
 double climbed(const ProbeQuestion& question, const ProbedSize& size) {
   const DefaultFloatingPoint guard;
   // Rounded down, so that the body itself still fits above its knee.
-  return std::min(question.step, is_sphere(size) ? size.radius : std::nextafter(size.height - 2.0 * size.radius, 0.0));
+  return std::min(question.step, rolls(size) ? size.radius : std::nextafter(size.height - 2.0 * size.radius, 0.0));
 }
 
 WalkerSettings probed_body(const ProbeQuestion& question, const ProbedSize& size, double slope_degrees) {
@@ -254,7 +258,7 @@ PassageOptions ways::options_for(const ProbeQuestion& question, const ProbedSize
   options.widest = std::max(wide, wide_times * largest.radius);
   options.narrowest = std::min(narrow, narrow_part * smallest);
   if (question.mode == Mode::fly) return options;
-  options.height = is_sphere(largest) ? 0.0 : largest.height;
+  options.height = rolls(largest) ? 0.0 : largest.height;
   options.step = climbed(question, largest);
   options.support_max = std::max(options.support_max, spanned(question, largest.radius));
   return options;
@@ -289,7 +293,7 @@ std::vector<ProbeAnswer> answers_to(const Survey& survey, const ProbeQuestion& q
   using Kind = std::pair<double, double>;
   const auto kind_of = [&](const ProbedSize& size) {
     if (question.mode == Mode::fly) return Kind{0.0, 0.0};
-    return Kind{is_sphere(size) ? 0.0 : size.height, climbed(question, size)};
+    return Kind{rolls(size) ? 0.0 : size.height, climbed(question, size)};
   };
   std::map<Kind, Radii> radii;
   for (const ProbedSize& size : sizes) {
