@@ -163,11 +163,15 @@ void write_path(const ProbeOptions& o, const Survey& survey, const ProbeAnswer& 
 /// Measures the way with the body, or with the widest body that passes.
 std::vector<words::ProbeDetails::Narrow> narrow_places(const ProbeOptions& o, const Surveyed& scene,
                                                        const ProbeAnswer& answer) {
-  WalkerSettings settings = probed_body(o.question, answer.size, o.slope_degrees());
-  settings.radius = std::min(settings.radius, answer.passage.radius);
+  ProbeAnswer passing = answer;
+  ProbedSize& size = passing.size;
+  const bool is_sphere = size.height <= 2.0 * size.radius;
+  size.radius = std::min(size.radius, answer.passage.radius);
+  if (is_sphere) size.height = 2.0 * size.radius;
+  const WalkerSettings settings = probed_body(o.question, size, o.slope_degrees());
   measure::Along along(scene.survey.world(), settings, o.question.mode, *o.narrower);
   along.list_narrower(*o.narrower);
-  const std::vector<Vec3> path = probed_path(scene.survey, o.question, answer);
+  const std::vector<Vec3> path = probed_path(scene.survey, o.question, passing);
   if (!path.empty()) along.put(path.front());
   for (const Vec3& place : path) along.go(place, settings.body());
   along.finish();

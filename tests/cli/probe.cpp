@@ -150,6 +150,21 @@ TEST(ProbeVerb, FliesWhereAsked) {
   EXPECT_EQ(probe.ask({"--radius", "0.5", "--sphere", "--mode", "fly"}).result.status, 3) << probe.result.err;
 }
 
+TEST(ProbeVerb, ListsNarrowPlacesForTheSphereThatPassesWhereALargerOneDoesNot) {
+  const TestFolder folder;
+  const std::string duct = folder.write("duct.obj",
+                                        "v 0 -0.375 0\nv 10 -0.375 0\nv 10 0.375 0\nv 0 0.375 0\n"
+                                        "v 0 -0.375 0.75\nv 10 -0.375 0.75\nv 10 0.375 0.75\nv 0 0.375 0.75\n"
+                                        "f 1 2 3 4\nf 5 8 7 6\nf 1 5 6 2\nf 4 3 7 8\nf 1 4 8 5\nf 2 6 7 3\n");
+  const ProgramResult result =
+      run_program(ROAM_PROGRAM, {"probe", duct, "--from", "1,0,0.375", "--to", "9,0,0.375", "--mode", "fly", "--sphere",
+                                 "--radius", "0.5", "--narrower", "0.9", "--json"});
+  EXPECT_EQ(result.status, 3) << result.err;
+  const Json narrower = Json::parse(result.out, nullptr, false)["narrower"];
+  ASSERT_EQ(narrower.size(), 1u) << result.out;
+  EXPECT_NEAR(narrower[0]["width_m"].get<double>(), 0.75, 2e-3);
+}
+
 TEST(ProbeVerb, AnswersForManySizesInOneRun) {
   Probe probe(0.7);
   probe.ask({"--matrix", "0.3,0.3x1.7,\t0.4x1.8 0.34x2.05", "--json"});
