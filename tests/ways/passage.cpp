@@ -1,10 +1,11 @@
 // How wide the way between two places is, against scenes whose answer is known by construction.
+#include "roam/passage.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <cstdint>
 
-#include "roam/passage.h"
 #include "roam/route.h"
 #include "seeded_gallery.h"
 
@@ -310,6 +311,15 @@ TEST(Passage, RefusesAnEndWithinAWall) {
   EXPECT_THROW(static_cast<void>(widest(m, {NAN, 0.0, 0.0}, other_end)), roam::Error);
   EXPECT_THROW(static_cast<void>(widest(m, one_end, other_end, {.height = 0.2})), roam::Error);
   EXPECT_THROW(static_cast<void>(widest(m, one_end, other_end, {.narrowest = 2.0})), roam::Error);
+}
+
+TEST(Passage, SaysThatAnEndLiesFartherOffThanItsLatticeReaches) {
+  Mesh m;
+  add_floor(m, -1.0, -2.0, 1101.0, 2.0, 0.0);
+  const Survey survey = Survey::build({m}, {.threads = 1, .lossless = true, .progress = {}});
+  const Passage p = widest_way(survey, {0.0, 0.0, 1.0}, {1100.0, 0.0, 1.0}, {.height = 1.8, .spacing = 0.001});
+  EXPECT_FALSE(p.found);
+  EXPECT_FALSE(p.complete);
 }
 
 TEST(Passage, SaysWhenItWasEndedEarly) {

@@ -24,6 +24,12 @@ class LatticeTable {
 
   LatticeTable() : slots_(1024) {}
 
+  /// Whether a point has a key of its own.
+  [[nodiscard]] static bool holds(const LatticePoint& p) {
+    const auto is_near = [](std::int32_t v) { return v > -limit && v < limit; };
+    return is_near(p.x) && is_near(p.y) && is_near(p.z);
+  }
+
   [[nodiscard]] NodeId find(const LatticePoint& point) const {
     const Slot& slot = slots_[slot_of(key(point))];
     return slot.key == empty ? no_node : squares_[slot.square][within(point)];

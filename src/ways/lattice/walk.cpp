@@ -93,12 +93,13 @@ NodeId WalkLattice::nearest_over(const LatticePoint& at, double level, double to
 /// Whether a point lies inside the searched box.
 bool WalkLattice::covers(const LatticePoint& at) const {
   const Vec3 to = plan_.point(at);
-  return std::max(std::abs(at.x), std::abs(at.y)) < LatticeTable::limit && to.x >= within_.lower.x &&
-         to.x <= within_.upper.x && to.y >= within_.lower.y && to.y <= within_.upper.y;
+  return LatticeTable::holds(at) && to.x >= within_.lower.x && to.x <= within_.upper.x && to.y >= within_.lower.y &&
+         to.y <= within_.upper.y;
 }
 
 NodeId WalkLattice::look(NodeId from, std::size_t direction, const ScoutedSteps* ahead) {
   const LatticePoint at = beside(columns_[from].at, direction);
+  if (!LatticeTable::holds(at)) is_cut_ = true;
   if (!covers(at)) return no_node;
   const Standing here = standing(from);
   bool is_new = false, is_ready = false;
@@ -216,8 +217,10 @@ std::optional<NodeId> WalkLattice::seed(const Vec3& place) {
   if (nodes_.empty()) plan_.origin = Vec3(place.x, place.y, 0.0);
   const Standing here{place, level_at(survey_, measure_, place), clearance_at(survey_, measure_, place)};
   if (!(std::abs(place.x - plan_.origin.x) < plan_.spacing * (LatticeTable::limit - farthest) &&
-        std::abs(place.y - plan_.origin.y) < plan_.spacing * (LatticeTable::limit - farthest)))
+        std::abs(place.y - plan_.origin.y) < plan_.spacing * (LatticeTable::limit - farthest))) {
+    is_cut_ = true;
     return std::nullopt;
+  }
   const LatticePoint middle{static_cast<std::int32_t>(std::lround((place.x - plan_.origin.x) / plan_.spacing)),
                             static_cast<std::int32_t>(std::lround((place.y - plan_.origin.y) / plan_.spacing)), 0};
   struct Candidate {

@@ -187,6 +187,8 @@ void WidestTree::close(std::span<const NodeId> places) {
 
 double WidestTree::spacing() const { return state_->spacing; }
 std::size_t WidestTree::size() const { return state_->graph->size(); }
+bool WidestTree::is_cut() const { return state_->graph->is_cut(); }
+
 std::uint64_t WidestTree::computed_ahead() const { return state_->graph->computed_ahead(); }
 const Node& WidestTree::node(NodeId id) const { return state_->graph->node(id); }
 NodeId WidestTree::root(NodeId id) const { return state_->root[id]; }

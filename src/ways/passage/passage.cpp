@@ -113,7 +113,7 @@ class Search {
       }
     }
     best.proven = best.found && best.bound - best.radius <= proof;
-    best.complete = !budget_.ended();
+    best.complete = !budget_.ended() && !tree_.is_cut();
     best.places = budget_.add(tree_.size());
     return best;
   }

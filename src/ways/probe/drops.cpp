@@ -344,7 +344,7 @@ WayDown Descent::run(const ProbeEnds& ends) {
     }
   }
   WayDown none;
-  none.passage.complete = !ended_;
+  none.passage.complete = !ended_ && !tree_.is_cut();
   none.passage.places = tree_.size();
   return none;
 }
