@@ -14,10 +14,13 @@
 
 namespace roam::cracks {
 
+/// m: the smallest disc of a search. Tolerances for the error of stored triangles leave no room for less.
+inline constexpr double smallest_disc = 0.02;
+
 struct CrackOptions {
   double step = 0.3;         ///< m, > 0: ground lower by up to this is still within reach of a walker
   double knee = 0.3;         ///< m above the floor, >= 0.1: lower obstacles are no walls
-  double smallest = 0.05;    ///< r_min, m, >= 0.02: gaps too narrow for a disc of this radius are ignored
+  double smallest = 0.05;    ///< r_min, m, >= smallest_disc: gaps too narrow for a disc of this radius are ignored
   double support_max = 1.0;  ///< R_max, m, > smallest: a free disc this large is an open drop
   int threads = 0;           ///< 0: one per core
   bool operator==(const CrackOptions&) const = default;

@@ -205,7 +205,7 @@ cracks::CrackOptions crack_options(const TrainOptions& options, const ways::Meas
   cracks::CrackOptions how;
   how.step = options.step;
   how.knee = cracks::knee_height(options.step);
-  how.smallest = std::min(measure.narrowest, 0.5 * options.support_max);
+  how.smallest = std::max(cracks::smallest_disc, std::min(measure.narrowest, 0.5 * options.support_max));
   how.support_max = options.support_max;
   how.threads = options.threads;
   return how;

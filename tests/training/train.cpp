@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "floor_pieces.h"
 #include "roam/generate.h"
 #include "roam/profile.h"
 #include "train_scenes.h"
@@ -242,6 +243,15 @@ TEST(Training, OfOneTriangleIsNotLimited) {
   EXPECT_FALSE(t.largest);
   EXPECT_EQ(t.smallest, 0.0);
   EXPECT_DOUBLE_EQ(t.radius, 0.3);
+}
+
+/// Cracks for discs so small that tolerances would exceed them are not looked for.
+TEST(Training, OfTheSmallestSpheresEndsBesideAnObliqueCrack) {
+  Mesh mesh;
+  floors::Floor(0.0, 0.0, 3.0, 2.0).without(floors::strip(1.5, 1.0, 0.03, 30.0)).add_to(mesh, 0.0);
+  const Training t = roam::train(survey_of({mesh}), {.radius_min = 0.01, .radius_max = 0.01});
+  EXPECT_TRUE(t.complete);
+  EXPECT_DOUBLE_EQ(t.radius, 0.01);
 }
 
 TEST(Training, ThatIsToldToEndAnswersWhatItKnowsAndSaysSo) {
