@@ -83,10 +83,9 @@ void write_profile(const TrainVerbOptions& o, const std::filesystem::path& file,
                    TrainReport& report) {
   const Training& t = report.training;
   if (file.empty() || t.places == 0) return;
-  const bool learned = t.complete || !t.paths.empty();
-  if (!learned) {
-    tell(fmt::format("{} was not written: this training ended before it had learned anything{}", file.string(),
-                     earlier_stays(file)));
+  if (t.paths.empty()) {
+    tell(fmt::format("{} was not written: this training {}{}", file.string(),
+                     t.complete ? "found no path" : "ended before it had learned anything", earlier_stays(file)));
   } else if (!t.complete && !o.profile && std::filesystem::exists(std::filesystem::symlink_status(file))) {
     tell(fmt::format("{} is left as it is: this training ended early", file.string()));
   } else {

@@ -177,7 +177,7 @@ void choose(const ways::BodyKind& kind, const TrainOptions& options, const Evide
   const double most = std::min(most_of_others.value_or(largest), cap(kind, options));
   const double upper = training.largest && (!most_of_others || most < cap(kind, options)) ? inside_share * most : most;
   const double least = without_margin(lower, training.smallest);
-  training.feasible = !too_narrow && least <= most;
+  training.feasible = !training.paths.empty() && !too_narrow && least <= most;
   training.radius = std::min(std::max(person, useful), upper);
   if (training.feasible && training.radius < lower) training.radius = lower <= upper ? lower : 0.5 * (least + most);
   training.support_radius = 0.0;

@@ -245,6 +245,18 @@ TEST(Training, OfOneTriangleIsNotLimited) {
   EXPECT_DOUBLE_EQ(t.radius, 0.3);
 }
 
+TEST(Training, WithoutAPathServesNobody) {
+  Mesh mesh;
+  scenes::add_triangle(mesh, {0.0, 0.0, 0.0}, {0.15, 0.0, 0.0}, {0.0, 0.15, 0.0});
+  for (const Method method : {Method::interval, Method::paper}) {
+    const Training t = roam::train(survey_of({mesh}), {.method = method, .height = 1.8});
+    EXPECT_GT(t.places, 0u);
+    EXPECT_TRUE(t.paths.empty());
+    EXPECT_FALSE(t.feasible);
+    EXPECT_TRUE(says(t, "is only what a person has")) << answer(t);
+  }
+}
+
 /// Cracks for discs so small that tolerances would exceed them are not looked for.
 TEST(Training, OfTheSmallestSpheresEndsBesideAnObliqueCrack) {
   Mesh mesh;
