@@ -1,5 +1,7 @@
 // Where bodies can be: components of the floor, and which of them are meant to be walked in.
 
+#include "training/places/places.h"
+
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
@@ -9,7 +11,7 @@
 
 #include "train_shells.h"
 #include "training/places/inside.h"
-#include "training/places/places.h"
+#include "training/places/samples.h"
 
 namespace roam::training {
 namespace {
@@ -205,6 +207,19 @@ TEST(TrainPlaces, OfPartsThatWereCutNoneIsLost) {
     EXPECT_GE(room->nodes.size(), 5'000u) << x;
   }
   expect_no_place_is_lost(look.tree, look.components);
+}
+
+TEST(TrainPlaces, OfALongObliqueSliverAreSampledAlongItAlone) {
+  constexpr double slope = 0.6180339887, width = 0.01, length = 1e6, square = 0.5 * 0.5;
+  Mesh mesh;  // its box has 2.5e12 squares
+  scenes::add_triangle(mesh, {0, 0, 0}, {width, 0, 0}, {length, slope * length, 0});
+  const std::vector<Vec3> samples = sample_places(Survey::build({mesh}), Mode::walk, 1);
+  const double expected = 0.5 * width * slope * length / square;
+  EXPECT_NEAR(static_cast<double>(samples.size()), expected, 0.05 * expected);
+  for (const Vec3& p : samples) {
+    const double along = p.x - p.y / slope;
+    ASSERT_TRUE(p.y >= 0.0 && along >= -1e-6 && along <= width + 1e-6) << p.x << " " << p.y;
+  }
 }
 
 TEST(TrainPlaces, AreTheSameForAnyNumberOfThreads) {

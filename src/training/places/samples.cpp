@@ -5,6 +5,7 @@
 #include <bit>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <limits>
 #include <tuple>
 
 #include "math/boxes.h"
@@ -46,7 +47,23 @@ double plan_area(const Vec3& a, const Vec3& b, const Vec3& c) {
   return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
 }
 
-/// Puts a sample on `t` above each point of the lattice of `cell` (m, from `origin`) below it.
+/// The least and the greatest y of a triangle between two values of x, on the plan. Its corners are ordered by x.
+std::array<double, 2> range_between(const Triangle& t, double low, double high) {
+  constexpr double none = std::numeric_limits<double>::infinity();
+  std::array<double, 2> range{none, -none};
+  for (const auto& [from, to] : {std::array{0, 1}, std::array{1, 2}, std::array{0, 2}}) {
+    const Vec3 &a = t[from], &b = t[to];
+    if (!(b.x > a.x) || b.x < low || a.x > high) continue;  // the ends of an upright side are on the two others
+    for (const double x : {std::max(a.x, low), std::min(b.x, high)}) {
+      const double y = a.y + (x - a.x) / (b.x - a.x) * (b.y - a.y);
+      range = {std::min(range[0], y), std::max(range[1], y)};
+    }
+  }
+  return range;
+}
+
+/// Puts a sample on `t`, whose corners are ordered, above each point of the lattice of `cell` (m, from `origin`) below
+/// it.
 void sample_by_area(const Triangle& t, const Vec3& origin, double cell, std::uint64_t seed, std::vector<Sample>& out) {
   const double whole = plan_area(t[0], t[1], t[2]);
   if (whole == 0.0) return;
@@ -54,8 +71,13 @@ void sample_by_area(const Triangle& t, const Vec3& origin, double cell, std::uin
   const auto first = [&](int k) { return std::ceil((box.lower[k] - origin[k]) / cell); };
   const auto last = [&](int k) { return std::floor((box.upper[k] - origin[k]) / cell); };
   for (double i = first(0); i <= last(0); ++i) {
-    for (double j = first(1); j <= last(1); ++j) {
-      const Vec3 p(origin.x + cell * i, origin.y + cell * j, 0.0);
+    const double x = origin.x + cell * i;
+    // A cell more on all sides: the test of each point decides, not the rounding of this range.
+    const auto [low, high] = range_between(t, x - cell, x + cell);
+    const double from = std::max(first(1), std::floor((low - origin.y) / cell) - 1.0);
+    const double to = std::min(last(1), std::ceil((high - origin.y) / cell) + 1.0);
+    for (double j = from; j <= to; ++j) {
+      const Vec3 p(x, origin.y + cell * j, 0.0);
       const double u = plan_area(p, t[1], t[2]) / whole, v = plan_area(t[0], p, t[2]) / whole, w = 1.0 - u - v;
       if (u < 0.0 || v < 0.0 || w < 0.0) continue;
       const std::uint64_t turn = mix(mix(seed ^ std::bit_cast<std::uint64_t>(i)) ^ std::bit_cast<std::uint64_t>(j));
