@@ -1,6 +1,7 @@
 #include "roam/profile.h"
 
 #include <fmt/format.h>
+#include <xxhash.h>
 
 #include <algorithm>
 #include <array>
@@ -248,22 +249,35 @@ Contents contents_of(std::span<const std::filesystem::path> scenes) {
   return status.type() == std::filesystem::file_type::not_found ? Contents{} : load(file);
 }
 
-/// The scene's path without a trailing slash, changed as little as possible.
-std::filesystem::path named(const std::filesystem::path& scene) {
-  if (scene.empty()) throw Error("the path of the scene whose profile is meant is empty; name its file or folder");
-  const auto trimmed = [](const std::filesystem::path& path) {
-    const std::filesystem::path normal = path.lexically_normal();
-    return normal.has_filename() ? normal : normal.parent_path();
-  };
-  const std::filesystem::path path = trimmed(scene);
-  const std::string last = path.filename().string();
-  if (!last.empty() && last != "." && last != "..") return path;
+std::filesystem::path trimmed(const std::filesystem::path& path) {
+  const std::filesystem::path normal = path.lexically_normal();
+  return normal.has_filename() ? normal : normal.parent_path();
+}
+
+/// The same path from the root.
+std::filesystem::path whole(const std::filesystem::path& path) {
   std::error_code error;
-  const std::filesystem::path whole = std::filesystem::absolute(path, error);
+  const std::filesystem::path found = std::filesystem::absolute(path, error);
   if (error)
     throw Error::at(path.string(),
                     fmt::format("cannot tell where {} is: {}; name the scene", path.string(), error.message()));
-  return trimmed(whole);
+  return trimmed(found);
+}
+
+/// The scene's path without a trailing slash, changed as little as possible.
+std::filesystem::path named(const std::filesystem::path& scene) {
+  if (scene.empty()) throw Error("the path of the scene whose profile is meant is empty; name its file or folder");
+  const std::filesystem::path path = trimmed(scene);
+  const std::string last = path.filename().string();
+  return !last.empty() && last != "." && last != ".." ? path : whole(path);
+}
+
+/// A hash of where the files lie, seen from the folder of the first.
+std::string places_hash(const std::vector<std::filesystem::path>& files) {
+  std::string places;
+  for (const auto& file : files) places += file.lexically_relative(files.front().parent_path()).generic_string() + '\0';
+  constexpr int shorter = 32;  // bits
+  return fmt::format("{:08x}", XXH3_64bits(places.data(), places.size()) >> shorter);
 }
 
 }  // namespace
@@ -313,11 +327,19 @@ std::filesystem::path profile_path(std::span<const std::filesystem::path> scenes
   if (scenes.empty()) throw Error("there is no scene whose profile could be meant");
   if (scenes.size() == 1) return profile_path(scenes.front());
   const std::filesystem::path first = named(scenes.front());
-  std::string name = first.filename().string();
-  for (const auto& scene : scenes.subspan(1)) name.append("+").append(named(scene).filename().string());
-  if (name.size() > name_limit) {
-    name = fmt::format("{}+{}", first.filename().string(), scenes.size() - 1);
+  std::vector<std::filesystem::path> files;
+  std::string name;
+  for (const auto& scene : scenes) {
+    const std::filesystem::path file = named(scene);
+    files.push_back(whole(file));
+    name.append(name.empty() ? "" : "+").append(file.filename().string());
   }
+  const bool is_cut = name.size() > name_limit;
+  if (is_cut) name = fmt::format("{}+{}", first.filename().string(), scenes.size() - 1);
+  const bool is_apart = std::any_of(files.begin(), files.end(), [&](const std::filesystem::path& file) {
+    return file.parent_path() != files.front().parent_path();
+  });
+  if (is_cut || is_apart) name += "-" + places_hash(files);
   return first.parent_path() / (name + suffix + extension);
 }
 

@@ -94,10 +94,24 @@ TEST(Profile, LiesBesideItsSceneAndItsStore) {
   EXPECT_EQ(path("/data/Data/"), "/data/Data.roam.json");
   EXPECT_EQ(path("./Data"), "Data.roam.json");
   EXPECT_EQ(path("."), std::filesystem::current_path().string() + ".roam.json");
-  const std::vector<std::filesystem::path> two{"x/a.ply", "y/b.ply"};
+  const std::vector<std::filesystem::path> two{"x/a.ply", "./x/b.ply"};
   EXPECT_EQ(roam::profile_path(two).string(), "x/a.ply+b.ply.roam.json");
-  const std::vector<std::filesystem::path> many(100, "x/part.ply");
-  EXPECT_EQ(roam::profile_path(many).string(), "x/part.ply+99.roam.json");
+}
+
+TEST(Profile, OfFilesThatLieElsewhereIsAnotherFile) {
+  const auto path = [](const std::vector<std::filesystem::path>& scenes) {
+    return roam::profile_path(scenes).string();
+  };
+  const std::string apart = path({"x/a.ply", "y/b.ply"});
+  EXPECT_TRUE(apart.starts_with("x/a.ply+b.ply-") && apart.ends_with(".roam.json")) << apart;
+  EXPECT_NE(apart, path({"x/a.ply", "z/b.ply"}));
+  const std::filesystem::path here = std::filesystem::current_path();
+  EXPECT_EQ((here / apart).string(), path({here / "x/a.ply", "y/../y/b.ply"})) << "from wherever it is named";
+  std::vector<std::filesystem::path> many(100, "x/part.ply");
+  const std::string cut = path(many);
+  EXPECT_TRUE(cut.starts_with("x/part.ply+99-") && cut.size() < 50) << cut;
+  many.back() = "x/other.ply";
+  EXPECT_NE(cut, path(many));
 }
 
 TEST(Profile, OfAnEmptyPathIsRefusedByTheOneTypeOfError) {
