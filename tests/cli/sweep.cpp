@@ -54,6 +54,7 @@ TEST(SweepRows, KnowTheirHeaderAndRefuseAnother) {
   EXPECT_TRUE(is_query_header("x, y, z, dx, dy, dz, radius, half_height\r"));
   EXPECT_FALSE(is_query_header("1,2,3,4,5,6,7"));
   EXPECT_FALSE(is_query_header("nan,2,3,4,5,6,7"));
+  EXPECT_FALSE(is_query_header("+1,+2,+3,+4,+5,+6,+0.3"));
   EXPECT_THROW((void)is_query_header("y,x,z,dx,dy,dz,radius"), roam::Error);
   EXPECT_THROW((void)is_query_header("hello"), roam::Error);
 }

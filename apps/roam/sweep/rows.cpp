@@ -41,9 +41,11 @@ Fields split(std::string_view row) {
   }
 }
 
+std::string_view without_plus(std::string_view field) { return field.substr(field.starts_with('+') ? 1 : 0); }
+
 double number(std::string_view field, std::string_view column) {
   double value = 0.0;
-  const std::string_view digits = field.starts_with('+') ? field.substr(1) : field;
+  const std::string_view digits = without_plus(field);
   const auto [end, status] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
   if (status == std::errc::invalid_argument || end != digits.data() + digits.size()) {
     throw Error(fmt::format("column {}: '{}' is no number; {}", column, excerpt(field), form));
@@ -63,7 +65,7 @@ bool is_query_header(std::string_view row) {
   // Numbers parse, also "nan" and "inf"; names of columns do not.
   for (std::size_t i = 0; i < std::min(fields.count, columns.size()); ++i) {
     double value = 0.0;
-    const std::string_view text = fields.text[i];
+    const std::string_view text = without_plus(fields.text[i]);
     if (std::from_chars(text.data(), text.data() + text.size(), value).ec != std::errc::invalid_argument) return false;
   }
   bool known = fields.count == needed_columns || fields.count == columns.size();
