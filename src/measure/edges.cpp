@@ -21,7 +21,10 @@ bool before(const Vec3& a, const Vec3& b) {
 }  // namespace
 
 Edges count_edges(std::span<const Mesh> meshes) {
+  std::size_t triangles = 0;
+  for (const Mesh& mesh : meshes) triangles += mesh.triangles.size();
   std::vector<Corner> corners;
+  corners.reserve(3 * triangles);
   for (const Mesh& mesh : meshes) {
     for (const auto& triangle : mesh.triangles) {
       for (const std::uint32_t vertex : triangle) corners.push_back({mesh.vertices[vertex], corners.size()});
@@ -36,6 +39,7 @@ Edges count_edges(std::span<const Mesh> meshes) {
     position[corners[i].place] = number;
   }
   std::vector<std::array<std::uint64_t, 2>> edges;
+  edges.reserve(3 * triangles);
   for (std::size_t i = 0; i < position.size(); i += 3) {
     for (std::size_t k = 0; k < 3; ++k) {
       const std::uint64_t a = position[i + k], b = position[i + (k + 1) % 3];

@@ -17,7 +17,7 @@ struct Edges {
 };
 
 /// Counts the edges of all meshes together. Corners at the same position count as one corner, whatever their mesh.
-/// Edges without length do not count. Takes 100 bytes a triangle while it runs.
+/// Edges without length do not count. Takes 168 bytes a triangle while it runs.
 [[nodiscard]] Edges count_edges(std::span<const Mesh> meshes);
 
 }  // namespace roam::measure

@@ -321,7 +321,7 @@ const char* why(LeftOut left_out) {
     case LeftOut::over_low_rooms:
       return "on top of rooms that are lower than the body";
     case LeftOut::small_or_open:
-      return "small beside the rest, or open to the sky, and windings do not tell whether it is inside";
+      return "small beside the rest, or open to the sky";
     case LeftOut::unfinished:
       return "open country, not looked at whole";
     case LeftOut::much_smaller:
