@@ -14,8 +14,8 @@
 ///
 /// A way leads in both directions: no step down is higher than `step`. probe() searches ways with higher ones, too.
 ///
-/// The way is certified: sweeps along it with `radius` - 0.5 mm meet nothing. Passage::bound and `proven` tell how wide
-/// another way could be. probe.h tests one size of a body, and names its obstacle.
+/// The way is certified: sweeps with `radius` - 0.5 mm - 2 * Space::largest_error() meet nothing along it. `bound` and
+/// `proven` tell how wide another way could be. probe.h tests one size of a body, and names its obstacle.
 ///
 /// Metres, up is +z. The same input gives the same bits on every machine and for any number of threads. Thread-safe.
 /// Target roam::ways.
@@ -62,7 +62,7 @@ struct Passage {
   /// Certified: no way exists for a larger radius than this. Infinite: unknown.
   double bound = 0.0;
   bool proven = false;       ///< `bound` is within 5 mm of `radius`
-  bool complete = true;      ///< false: most_places or progress ended the search
+  bool complete = true;      ///< false: most_places, progress or 2^20 spacings ended the search
   std::uint64_t places = 0;  ///< positions searched
 };
 

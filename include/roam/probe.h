@@ -49,7 +49,8 @@ struct ProbedSize {
   double height = 0.6;  ///< >= 2 * radius; flying == 2 * radius, a sphere; 1.8 for a person
 };
 
-/// The step that a body of that size climbs: a sphere at most its radius, a capsule at most height - 2 * radius.
+/// The step that a body of that size climbs: a capsule at most height - 2 * radius; a sphere, or one < 5 mm higher, its
+/// radius.
 [[nodiscard]] double climbed(const ProbeQuestion& question, const ProbedSize& size);
 
 /// Settings of the walker that goes the way. Throws Error if a Walker refuses the size.
@@ -105,7 +106,8 @@ struct ProbeAnswer {
   ProbedSize size;
   bool passable = false;     ///< a way is wide enough, and the walker has gone it
   bool wide_enough = false;  ///< a way is wide enough
-  /// The widest way for bodies of this height and step. With `drops`: a way for this body.
+  /// The widest way for bodies of this height and step; after a fall, one that avoids what this body falls into. With
+  /// `drops`: a way for this body.
   Passage passage;
   /// The way leads from `from` to `to` only: in its order, the steps down that the body cannot climb back. A way
   /// without drops comes first.

@@ -74,8 +74,8 @@ void check(const Profile& profile);
 /// Path of a scene's profile. "dam.ply" and its store "dam.ply.roam" have "dam.ply.roam.json"; the folder "Data/" and
 /// its store "Data.roam" have "Data.roam.json"; another store "dam.roam" has "dam.roam.json". The scene need not exist.
 [[nodiscard]] std::filesystem::path profile_path(const std::filesystem::path& scene);
-/// For a scene of several files: beside the first, named after all: "a.ply+b.ply.roam.json". Both throw roam::Error for
-/// an empty path.
+/// For a scene of several files: beside the first, named after all: "a.ply+b.ply.roam.json"; with a hash of their paths
+/// if folders differ or the name would exceed 200 characters. Both throw roam::Error for an empty path.
 [[nodiscard]] std::filesystem::path profile_path(std::span<const std::filesystem::path> scenes);
 
 /// Throws roam::Error if the file is no profile, of a newer version, has members out of range, or is a link, pipe or

@@ -4,7 +4,7 @@
 ///
 ///     const roam::Training t = roam::train(survey, {.height = 1.8});
 ///     if (t.feasible) std::cout << "a radius of " << t.radius << " m serves all " << t.paths.size() << " paths\n";
-///     if (t.places > 0) roam::save_profile(roam::profile_of(t, survey), roam::profile_path("dam.ply"));  // profile.h
+///     if (!t.paths.empty()) roam::save_profile(roam::profile_of(t, survey), roam::profile_path("dam.ply"));
 ///
 /// Method::paper is figure 6 of Xie & Niu 2020 (PLoS ONE 15(2): e0229038): it roams random paths, with a smaller radius
 /// if the body cannot enter, and a larger one if it falls. Method::interval finds both ends of the interval from the
@@ -88,7 +88,7 @@ enum class LeftOut : std::uint8_t {
   backs,           ///< faced by the backs of triangles: outside, or within walls
   on_top,          ///< on top of something
   over_low_rooms,  ///< on top of rooms lower than the body
-  small_or_open,   ///< small or open to the sky, and windings do not tell whether it is inside
+  small_or_open,   ///< small beside the rest, or open to the sky
   unfinished,      ///< open country, not searched whole
   much_smaller,    ///< than the rest
   no_path,         ///< no path was planned in it
@@ -186,7 +186,7 @@ struct Training : FittingBody {
 [[nodiscard]] Training train(const Survey& survey, const TrainOptions& options = {});
 
 /// The profile of a training, ready to be saved. For a survey of a store's triangles pass identity_of(store.info()). It
-/// is of no use if Training::places is 0.
+/// is of no use without Training::paths.
 [[nodiscard]] Profile profile_of(const Training& training, const Survey& survey);
 [[nodiscard]] Profile profile_of(const Training& training, const SceneIdentity& scene);
 

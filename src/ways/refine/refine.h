@@ -12,7 +12,7 @@ namespace roam::ways {
 
 /// Makes the way along `places` of a lattice as wide as possible. At each narrow place it zooms in (finer lattices
 /// around it), then polishes (stations every 2 cm, each moved sideways to its widest), and joins the ridges. The result
-/// is smooth enough to walk: between its points, sweeps of `radius` less 0.5 mm certify it.
+/// is smooth enough to walk: between its points, sweeps of `radius` minus certified_margin() certify it.
 [[nodiscard]] Passage refine(const Survey& survey, const Measure& measure, double spacing,
                              std::span<const Vec3> places);
 
