@@ -58,7 +58,7 @@ bool fly_on(Move& move, Gait& gait, const Vec3& velocity, double seconds) {
   const double start = move.time, gravity = move.settings.gravity;
   // A body that came off a rim faster than that keeps its speed.
   const double fastest = std::max(terminal_speed, -gait.rise_speed);
-  const double fall = std::max(gait.rise_speed * seconds - 0.5 * gravity * seconds * seconds, -fastest * seconds);
+  double fall = std::max(gait.rise_speed * seconds - 0.5 * gravity * seconds * seconds, -fastest * seconds);
   double rise_speed = std::max(gait.rise_speed - gravity * seconds, -fastest);
   // The top of a jump must be met exactly, or it would be divided without end.
   if (gait.rise_speed > 0.0 && rise_speed < 1e-9) rise_speed = 0.0;
@@ -72,6 +72,7 @@ bool fly_on(Move& move, Gait& gait, const Vec3& velocity, double seconds) {
   for (int contact = 0; contact < slide_limit && left > 0.0; ++contact) {
     if (!move.has_room()) {
       seconds *= 1.0 - left;
+      fall *= 1.0 - left;
       if (whole.z != 0.0) rise_speed = -falling();
       break;
     }

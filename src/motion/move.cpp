@@ -44,7 +44,7 @@ constexpr double part_ahead = 1.0 / (1.0 + beyond_weight / gap_part);  // a nint
 constexpr int merge_limit = 64;
 
 /// Segments that may follow until the room is looked at again: a contact (2) with a step up (3), the ground after it
-/// (2), and of a body that is embedded there its new place (3), standing up (2) and another size (2).
+/// (2), and where the body is then embedded, its new place (1), standing up (2) and another size (2); with a reserve.
 constexpr std::size_t segments_at_once = 14;
 
 /// Events of motion noted in one step; the rest of the list is kept for a fall and for events that end a step.

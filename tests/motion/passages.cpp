@@ -178,4 +178,40 @@ TEST(Passages, CrouchesWhenToldAndStaysSo) {
   EXPECT_NEAR(w.walker.eye().z, 1.6, near_ground);
 }
 
+/// Two walls along x whose facets turn to and fro, 1 m apart.
+Mesh folded_walls() {
+  Mesh m;
+  constexpr double fold = 0.05, length = 0.1;
+  for (int i = -10; i < 400; ++i) {
+    const double from = i % 2 == 0 ? 0.0 : fold, x = length * i;
+    for (const double side : {-1.0, 1.0}) {
+      add_wall(m, x, side * (0.5 + from), x + length, side * (0.5 + fold - from), -60.0, 60.0);
+    }
+  }
+  return m;
+}
+
+TEST(Passages, AStepAlongManyFoldsEndsWhereItsReportIsFull) {
+  const Mesh m = folded_walls();
+  for (const Mode mode : {Mode::fly, Mode::walk}) {  // the walker falls
+    for (const double across : {0.0, 3.0, 20.0, -60.0}) {
+      Walk w(m, ball(0.45), mode, {0.0, 0.0, 0.0});
+      // Beside a region a body flies by short slides.
+      const roam::SizeRegion region{{Vec3(-100.0), Vec3(100.0)}, 0.45, 0.0, ""};
+      w.walker.set_regions({&region, 1});
+      double time = 0.0;
+      bool throttled = false;
+      for (int i = 0; i < 4; ++i) {
+        const StepReport& r = w.step({60.0, across, 0.0}, 0.5);
+        EXPECT_TRUE(r.elapsed == 0.5 || r.has(EventKind::throttled)) << r.elapsed;
+        throttled = throttled || r.has(EventKind::throttled);
+        time += r.elapsed;
+        // The next step goes on with the speed of this one.
+        EXPECT_NEAR(r.to.z, mode == Mode::walk ? -0.5 * 9.81 * time * time : 0.0, 0.01);
+      }
+      EXPECT_EQ(throttled, across != 0.0 && (mode == Mode::fly || across != 3.0));
+    }
+  }
+}
+
 }  // namespace
