@@ -104,7 +104,6 @@ Neighbours FlyLattice::expand(NodeId id) {
     if (cells_[id].settled & bit) continue;
     cells_[id].settled |= bit;
     const LatticePoint at = sum(cells_[id].at, to_neighbour[static_cast<std::size_t>(direction)]);
-    if (!LatticeTable::holds(at)) is_cut_ = true;
     if (!covers(at)) continue;
     const NodeId there = find_or_make(at);
     const std::uint32_t back = 1U << opposite(direction);
@@ -143,7 +142,6 @@ std::optional<NodeId> FlyLattice::seed(const Vec3& place) {
   std::stable_sort(candidates.begin(), candidates.end(),
                    [](const Candidate& a, const Candidate& b) { return a.distance < b.distance; });
   for (const Candidate& c : candidates) {
-    if (!LatticeTable::holds(c.at)) is_cut_ = true;
     if (c.distance > seed_reach * spacing_ || !covers(c.at)) continue;
     const NodeId id = find_or_make(c.at);
     if (linked(place, free, nodes_[id])) return id;

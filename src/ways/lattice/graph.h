@@ -35,7 +35,7 @@ class LatticeGraph {
   /// The neighbours that are known already.
   [[nodiscard]] virtual Neighbours neighbours(NodeId id) const = 0;
 
-  /// Whether places were left out because they are farther from the origin than a LatticeTable reaches.
+  /// Whether floor was left out because it is farther from the origin than a LatticeTable reaches.
   [[nodiscard]] bool is_cut() const { return is_cut_; }
   [[nodiscard]] std::size_t size() const { return nodes_.size(); }
   [[nodiscard]] const Node& node(NodeId id) const { return nodes_[id]; }

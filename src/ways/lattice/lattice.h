@@ -104,7 +104,7 @@ class WidestTree {
   /// The lattice's spacing, metres.
   [[nodiscard]] double spacing() const;
   [[nodiscard]] std::size_t size() const;
-  /// Whether places were left out because they are a million spacings or more from the origin.
+  /// Whether floor was left out because it is a million spacings or more from the origin.
   [[nodiscard]] bool is_cut() const;
   /// The number of steps that other cores computed ahead of the growth.
   [[nodiscard]] std::uint64_t computed_ahead() const;

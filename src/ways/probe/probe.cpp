@@ -139,7 +139,8 @@ bool falls(const ProbeSearch& search, const ProbeAnswer& answer) {
 /// After a fall: takes a way over no wider cracks than this body spans, if there is one. `search` becomes its search.
 void go_round(ProbeSearch& search, ProbeAnswer& answer) {
   ProbeSearch careful = search;
-  careful.options.support_max = std::min(careful.options.support_max, spanned(search.question, answer.size.radius));
+  careful.options.support_max = spanned(search.question, answer.size.radius);
+  if (careful.options.support_max >= search.options.support_max) return;  // the same search
   const Measure measure = careful.measure();
   // An end over a crack that the body does not span is no place for it.
   if (!foot_at(search.survey, measure, answer.start) || !foot_at(search.survey, measure, answer.target)) return;
