@@ -7,7 +7,7 @@ import pathlib
 import queue
 import sysconfig
 import threading
-from typing import Any, Callable, Dict, List, Optional, Union
+from typing import Any, Callable, Dict, List, Optional
 
 from ._structs import PROGRESS
 
@@ -61,22 +61,11 @@ class StoreLock:
     def is_of_this_process(self) -> bool:
         return os.getpid() == self._process
 
-    def check(self) -> None:
+    def here(self) -> threading.Lock:
+        """The lock. An interruption cannot come between its acquisition and the block of a `with`."""
         if not self.is_of_this_process:
             raise RuntimeError("a store cannot be used in a process that was forked after Store.open; open it there")
-
-    def acquire(self, timeout: float = -1) -> bool:
-        self.check()
-        return self._lock.acquire(timeout=timeout)
-
-    def release(self) -> None:
-        self._lock.release()
-
-    def __enter__(self) -> None:
-        self.acquire()
-
-    def __exit__(self, *_: object) -> None:
-        self.release()
+        return self._lock
 
 
 class Handle:
@@ -186,7 +175,7 @@ os.register_at_fork(after_in_child=_running.forget)
 
 
 def run(progress: Optional[Callable[[float], object]], work: Callable[[Any], None],
-        lock: "Optional[Union[threading.Lock, StoreLock]]" = None) -> None:
+        lock: Optional[threading.Lock] = None) -> None:
     """Runs `work` in another thread, with `lock` if given, and passes it a PROGRESS.
 
     Meanwhile this thread takes signals and calls `progress` with the fraction done. An exception of either ends the

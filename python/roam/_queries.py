@@ -90,7 +90,7 @@ class Batch:
             setattr(batch, member, _structs.Output(array.ctypes.data, array.strides[0]))
         kept = (self, results, left_out)  # as long as the work, which knows only their addresses
         if space.is_store:
-            run(progress, lambda note, kept=kept: _in_store(space, function, batch, results, note), space.lock)
+            run(progress, lambda note, kept=kept: _in_store(space, function, batch, results, note), space.alone())
         elif self.count * most <= _FEW and progress is None:
             call(function, space.handle.value, ctypes.byref(batch))
         else:

@@ -2,6 +2,7 @@
 
 import ctypes
 import contextlib
+import threading
 import time
 from typing import Any, Iterable, List, Optional, Sequence, Tuple, Union
 
@@ -29,6 +30,10 @@ class SpaceHandle:
     def is_store(self) -> bool:
         return self.lock is not None
 
+    def alone(self) -> Optional[threading.Lock]:
+        """What a thread holds while it uses a store; None: any number of threads may use the space."""
+        return None if self.lock is None else self.lock.here()
+
     def facts(self) -> _structs.Facts:
         facts = _structs.Facts()
         call("roam_space_get_facts", self.handle.value, ctypes.byref(facts))
@@ -36,8 +41,7 @@ class SpaceHandle:
 
     def name_of(self, triangle: int, not_yet: Sequence[str] = ("",)) -> str:
         """A store has another thread read the name; waits a moment while it is one of `not_yet`."""
-        if self.lock is not None:
-            self.lock.check()
+        self.alone()
         name = self._known_name_of(triangle)
         if self.lock is not None and triangle != _NO_TRIANGLE:
             end = time.monotonic() + _FOR_A_NAME
@@ -143,7 +147,7 @@ class Space:
         """This space without these objects. It shares the triangles."""
         numbers = np.array(_arrays.objects(objects, "objects"), np.uint32)
         made = SpaceHandle(self._handle.lock, self._handle.patience)
-        with self._handle.lock or contextlib.nullcontext():
+        with self._handle.alone() or contextlib.nullcontext():
             call("roam_filtered_create", self._handle.handle.value, made.handle.address)
             call("roam_filtered_ignore_only", made.handle.value, ctypes.c_void_p(numbers.ctypes.data),
                  ctypes.c_size_t(len(numbers)))

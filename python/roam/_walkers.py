@@ -99,8 +99,7 @@ class Walker:
         for name, value in others.items():
             setattr(settings, name, _arrays.number(value, name))
         self.space, self._handle = space, Handle("walker", space._handle.lock)
-        # In a store, walkers and queries wait for each other.
-        self._lock = space._handle.lock or threading.Lock()
+        self._own_lock = threading.Lock()
 
         def work(note: Any) -> None:
             where = space._handle
@@ -113,6 +112,11 @@ class Walker:
                 call("roam_walker_set_regions", self._handle.value, profile._handle.value)
 
         run(None, work, self._lock) if space._handle.is_store else work(None)
+
+    @property
+    def _lock(self) -> threading.Lock:
+        """In a store, walkers and queries wait for each other."""
+        return self.space._handle.alone() or self._own_lock
 
     def _call(self, function: str, *arguments: Any) -> Step:
         """A call that reports a step. In a store, what has been loaded is then taken into use."""
@@ -175,7 +179,7 @@ class Walker:
         """A second body in the same state, such as a snapshot to return to."""
         made = Walker.__new__(Walker)
         made.space, made._handle = self.space, Handle("walker", self._handle.lock)
-        made._lock = self.space._handle.lock or threading.Lock()
+        made._own_lock = threading.Lock()
         with self._lock:
             call("roam_walker_copy", self._handle.value, made._handle.address)
         return made
