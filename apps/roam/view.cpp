@@ -71,11 +71,12 @@ verification::Verification verified(const ViewReport& report, const ViewOptions&
   return verify(*store, report.pieces, progress);
 }
 
-/// One session, to its end or Ctrl-C. The report is that of the sessions before, and goes on. Returns how the person
-/// wants to go on.
+/// One session, to its end, Ctrl-C or an error. The report is that of the sessions before, and goes on. Returns how the
+/// person wants to go on.
 std::optional<NextSession> run_session(const ViewOptions& options, const ViewPlan& plan, const ViewSettings& settings,
                                        ViewReport& report, Unwritten& unwritten, bool& cancelled) {
   Session session(options, plan, settings);
+  bool failed = false;
   try {
     while (session.frame()) {
     }
@@ -85,11 +86,12 @@ std::optional<NextSession> run_session(const ViewOptions& options, const ViewPla
     give_time_to_write(longest_writing);
   } catch (const Error&) {
     if (!session.roaming() && !report.roamed) throw;
-    unwritten.attempt([] { throw; });  // after what there is
+    unwritten.attempt([] { throw; });  // raised after the report
+    failed = true;
   }
   ViewReport earlier = std::exchange(report, session.finish(unwritten));
   add_earlier(report, std::move(earlier));
-  return cancelled ? std::nullopt : session.next();
+  return cancelled || failed ? std::nullopt : session.next();
 }
 
 ExitStatus view(ViewOptions options) {
@@ -117,12 +119,17 @@ ExitStatus view(ViewOptions options) {
   const ViewOptions given = options;
   std::optional<graphics::DisplayHold> hold;
   if (!options.headless) hold.emplace();
-  while (const std::optional<NextSession> next = run_session(options, plan, settings, report, unwritten, cancelled)) {
-    const std::string note = go_on(options, *next, given);
-    plan = make_plan(options, settings, std::nullopt, profile_for(options, std::nullopt));
-    plan.note = note;
-    plan.noted = report.noted;
-    keep_view(plan, *next);
+  try {
+    while (const std::optional<NextSession> next = run_session(options, plan, settings, report, unwritten, cancelled)) {
+      const std::string note = go_on(options, *next, given);
+      plan = make_plan(options, settings, std::nullopt, profile_for(options, std::nullopt));
+      plan.note = note;
+      plan.noted = report.noted;
+      keep_view(plan, *next);
+    }
+  } catch (const Error&) {
+    if (!report.roamed) throw;
+    unwritten.attempt([] { throw; });  // another session does not begin; those before have a report
   }
   hold.reset();  // Xlib ends a program whose server goes away
   const std::string picture = options.screenshot.string();
