@@ -407,8 +407,13 @@ TEST(Session, RunsACommandOncePerPressInEveryCamera) {
   d.run(0.1);
   EXPECT_EQ(size(), graphics::PlanSize::small);
   d.release('l');
-  d.tap('l');
+  d.press('l');
+  d.run(0.1);
   EXPECT_EQ(size(), graphics::PlanSize::large);
+  d.run(1.5);  // its release was lost
+  d.press('l');
+  d.run(0.1);
+  EXPECT_EQ(size(), graphics::PlanSize::none);
 }
 
 TEST(Session, ShowsTheBodyAndWhatIsNear) {

@@ -14,9 +14,15 @@ bool SessionHandler::handle(const osgGA::GUIEventAdapter& event, osgGA::GUIActio
   const bool down = event.getEventType() == osgGA::GUIEventAdapter::KEYDOWN;
   const bool up = event.getEventType() == osgGA::GUIEventAdapter::KEYUP;
   const int key = event.getUnmodifiedKey() != 0 ? event.getUnmodifiedKey() : event.getKey();
-  // A held key repeats.
-  const bool fresh = down && std::exchange(down_, key) != key;
-  if (up && key == down_) down_ = 0;
+  // A held key repeats. A release may be lost, but a repeat comes soon.
+  constexpr double longest_pause = 1.0;  // s
+  const bool fresh = down && (key != down_ || event.getTime() - down_at_ > longest_pause);
+  if (down) {
+    down_ = key;
+    down_at_ = event.getTime();
+  } else if (up && key == down_) {
+    down_ = 0;
+  }
   if ((down || up) && !event.getHandled() && key == osgGA::GUIEventAdapter::KEY_Escape) return handle_escape(down);
   if (!fresh || event.getHandled() || session_.roamer_leads()) return false;
   const bool ctrl = (event.getModKeyMask() & osgGA::GUIEventAdapter::MODKEY_CTRL) != 0;

@@ -29,6 +29,7 @@ class SessionHandler : public osgGA::GUIEventHandler {
 
   Session& session_;
   int down_ = 0;               ///< the key that was pressed last, while it is down
+  double down_at_ = 0.0;       ///< s: when it was pressed, or repeated, last
   bool escape_spent_ = false;  ///< Escape acted when pressed; its release does not end the session
   Twice leave_{leave_seconds};
 };
