@@ -195,7 +195,7 @@ std::string ends_words(const Training& training, bool ended) {
     text = fmt::format("A body with {} is the best so far. {}", body_words(training.radius, training.support_radius),
                        interval_words(training));
   } else if (training.paths.empty()) {
-    text = fmt::format("There is room to stand but no way to go: a body with {} is only what a person has.",
+    text = fmt::format("There is room to stand but no way to go: the body with {} is a person's, and was not tested.",
                        body_words(training.radius, training.support_radius));
   } else {
     text = training.feasible ? feasible_words(training) : infeasible_words(training);

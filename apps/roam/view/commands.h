@@ -22,7 +22,7 @@ class Commands {
  public:
   explicit Commands(News& news) : news_(news) {}
 
-  /// `name`: the command's name in the table of controls. `deed` gets whether Shift is down.
+  /// `name`: the command's name in the table of controls. `deed` gets whether Shift is down, or another key of "fast".
   void add(const std::string& name, std::function<void(bool shift)> deed) { deeds_[name] = std::move(deed); }
   void add(const std::string& name, const std::function<void()>& deed) {
     add(name, [deed](bool) { deed(); });
