@@ -185,6 +185,12 @@ std::string nowhere_words(const Training& training) {
              : "There is no free place: nowhere does even the smallest body fit. Is the unit of length right?";
 }
 
+/// There is room to stand, and nothing else was found.
+std::string no_path_words(const Training& training) {
+  return fmt::format("There is room to stand but no way to go: the body with {} is a person's, and was not tested.",
+                     body_words(training.radius, training.support_radius));
+}
+
 std::string ends_words(const Training& training, bool ended) {
   std::string text;
   const bool has_conflict = training.largest && lower_end(training).radius > *training.largest;
@@ -195,8 +201,7 @@ std::string ends_words(const Training& training, bool ended) {
     text = fmt::format("A body with {} is the best so far. {}", body_words(training.radius, training.support_radius),
                        interval_words(training));
   } else if (training.paths.empty()) {
-    text = fmt::format("There is room to stand but no way to go: the body with {} is a person's, and was not tested.",
-                       body_words(training.radius, training.support_radius));
+    text = no_path_words(training);
   } else {
     text = training.feasible ? feasible_words(training) : infeasible_words(training);
   }
@@ -279,9 +284,7 @@ std::string paper_words(const PaperResult& result, const Training& training) {
 }
 
 std::string paper_answer(const PaperResult& result, const Training& training) {
-  if (training.paths.empty())
-    return fmt::format("There is room to stand but no way to go: nothing was roamed, and {} is only what a person has.",
-                       body_words(training.radius, 0.0));
+  if (training.paths.empty()) return no_path_words(training);
   std::string text = paper_words(result, training);
   if (result.ending == PaperResult::Ending::settled) return text;
   return text + (result.radius > 0.0 ? fmt::format(" Of all that were tried {:.3f} m passed most paths.", result.radius)
