@@ -4,7 +4,6 @@
 #include <cstring>
 #include <osg/Billboard>
 
-#include "osg_triangles/level_of_detail.h"
 #include "roam/error.h"
 
 namespace roam::osg_triangles {
@@ -45,14 +44,18 @@ osg::Node* shown_child(osg::Sequence& sequence) {
   return sequence.getChild(shown >= 0 && shown < count ? static_cast<unsigned>(shown) : 0);
 }
 
-/// Keeps the names of the nodes between the root and the present node.
+/// Keeps what is known of the nodes between the root and the present node.
 class GraphWalk::Entered {
  public:
   Entered(GraphWalk& walk, const osg::Object& object) : walk_(walk) {
     if (walk_.names_.size() >= depth_limit) walk_.refuse_depth();
     walk_.names_.push_back(object.getName());
+    walk_.levels_below_.emplace_back();
   }
-  ~Entered() { walk_.names_.pop_back(); }
+  ~Entered() {
+    walk_.names_.pop_back();
+    walk_.levels_below_.pop_back();
+  }
   Entered(const Entered&) = delete;
   Entered& operator=(const Entered&) = delete;
 
@@ -115,24 +118,27 @@ void GraphWalk::apply(osg::PagedLOD& lod) { take(lod, &lod); }
 
 void GraphWalk::take(osg::LOD& lod, osg::PagedLOD* paged) {
   const Entered entered(*this, lod);
-  osg::Group* const above = parent();
-  if (above == nullptr || !is_replaced(lod, *above)) meet(lod, paged);
+  if (!is_replaced(lod)) meet(lod, paged);
 }
 
-bool GraphWalk::is_replaced(const osg::LOD& lod, osg::Group& parent) {
-  bool replaced = false;
-  for (unsigned i = 0; i < parent.getNumChildren(); ++i) {
-    auto* const finer = dynamic_cast<osg::LOD*>(parent.getChild(i));
-    if (finer == nullptr || !continues(lod, *finer)) continue;
-    if (!stands_for(*finer, lod) && !is_replaced(*finer, parent)) return false;
-    replaced = true;
-  }
-  return replaced;
+bool GraphWalk::is_replaced(const osg::LOD& lod) {
+  const SiblingLevels* const all = siblings();
+  return all != nullptr && all->is_replaced(lod);
 }
 
-osg::Group* GraphWalk::parent() const {
+bool GraphWalk::gives_way(const osg::LOD& lod) {
+  const SiblingLevels* const all = siblings();
+  return all != nullptr && all->gives_way(lod);
+}
+
+const SiblingLevels* GraphWalk::siblings() {
   const auto& path = getNodePath();
-  return path.size() > 1 ? path[path.size() - 2]->asGroup() : nullptr;
+  osg::Group* const parent = path.size() > 1 ? path[path.size() - 2]->asGroup() : nullptr;
+  if (parent == nullptr || levels_below_.size() < 2) return nullptr;
+  std::optional<SiblingLevels>& known = levels_below_[levels_below_.size() - 2];
+  const auto whole = [this](osg::LOD& lod) { return is_whole(lod); };
+  if (!known) known.emplace(*parent, whole);
+  return &*known;
 }
 
 }  // namespace roam::osg_triangles

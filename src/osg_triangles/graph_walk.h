@@ -3,6 +3,7 @@
 /// Visitor of the surfaces in an OpenSceneGraph scene, with their transforms.
 
 #include <cstddef>
+#include <optional>
 #include <osg/Geometry>
 #include <osg/LOD>
 #include <osg/Matrixd>
@@ -12,6 +13,8 @@
 #include <osg/Sequence>
 #include <string>
 #include <vector>
+
+#include "osg_triangles/level_of_detail.h"
 
 namespace roam::osg_triangles {
 
@@ -54,17 +57,18 @@ class GraphWalk : public osg::NodeVisitor {
   /// Called for each LOD node; `paged` is the same node if it is a PagedLOD. Must call accept() on the children that
   /// count.
   virtual void meet(osg::LOD& lod, osg::PagedLOD* paged) = 0;
-  /// Whether the level of detail `finer` may replace its sibling `coarser`, which continues it. No if it would leave a
-  /// hole.
-  [[nodiscard]] virtual bool stands_for(osg::LOD& /*finer*/, const osg::LOD& /*coarser*/) { return true; }
+  /// Whether a level of detail, the present node or a sibling of it, would leave no hole.
+  [[nodiscard]] virtual bool is_whole(osg::LOD&) { return true; }
+  /// Whether finer siblings replace the present node, so that it is not met.
+  [[nodiscard]] virtual bool is_replaced(const osg::LOD& lod);
+  /// Whether coarser siblings replace the present node, because it is not whole.
+  [[nodiscard]] bool gives_way(const osg::LOD& lod);
   /// Called for a node or drawable that is left out although it may have a surface, and before meet() for a geometry
   /// with primitives of which only shaders make triangles.
   virtual void leave_out(const osg::Object&) {}
   /// Called when nodes are nested deeper than depth_limit. Throws.
   [[noreturn]] virtual void refuse_depth();
 
-  /// The parent of the present node; null if it has none.
-  [[nodiscard]] osg::Group* parent() const;
   [[nodiscard]] const osg::Matrixd& to_world() const { return to_world_; }
   /// Names of the nodes from the root to the present node, outermost first.
   [[nodiscard]] const std::vector<std::string>& names() const { return names_; }
@@ -72,10 +76,12 @@ class GraphWalk : public osg::NodeVisitor {
  private:
   class Entered;
   void take(osg::LOD& lod, osg::PagedLOD* paged);
-  [[nodiscard]] bool is_replaced(const osg::LOD& lod, osg::Group& parent);
+  [[nodiscard]] const SiblingLevels* siblings();
 
   osg::Matrixd to_world_;
   std::vector<std::string> names_;
+  /// For each of these nodes, what replaces what among its children; empty until the first of them is met.
+  std::vector<std::optional<SiblingLevels>> levels_below_;
 };
 
 }  // namespace roam::osg_triangles

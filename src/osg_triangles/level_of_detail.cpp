@@ -1,8 +1,10 @@
 #include "osg_triangles/level_of_detail.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
+#include <map>
+#include <optional>
+#include <osg/NodeVisitor>
 
 namespace roam::osg_triangles {
 namespace {
@@ -17,6 +19,24 @@ float nearest_of(const osg::LOD& lod) {
   for (const auto& range : lod.getRangeList()) nearest = std::min(nearest, range.first);
   return nearest;
 }
+
+struct Sibling {
+  osg::LOD* lod = nullptr;
+  float nearest = 0.0f;
+  std::optional<osg::BoundingSphere> bound{};
+  std::optional<bool> whole{};
+  std::optional<bool> coarser_fill{};  ///< whether all its coarser levels fill its holes; empty if it has none
+};
+
+/// Finds the levels among the children that a node shows.
+struct FindSiblings : osg::NodeVisitor {
+  FindSiblings() : osg::NodeVisitor(TRAVERSE_ACTIVE_CHILDREN) {}
+  void apply(osg::Node&) override {}
+  void apply(osg::LOD& lod) override {
+    if (by_distance(lod)) found.push_back({&lod, nearest_of(lod)});
+  }
+  std::vector<Sibling> found;
+};
 
 }  // namespace
 
@@ -49,18 +69,58 @@ Level loaded_level(const osg::LOD& lod) {
   return {};
 }
 
-bool continues(const osg::LOD& coarser, const osg::LOD& finer) {
-  if (!by_distance(coarser) || !by_distance(finer)) return false;
-  const float nearest = nearest_of(coarser);
-  if (!(nearest > 0.0f && nearest < infinite && nearest_of(finer) < nearest)) return false;
-  // Writers convert units: the end of one level and the beginning of the next may differ in the last digits.
-  const float rounding = 1e-4f * nearest;
-  const auto& ranges = finer.getRangeList();
-  const bool ends_there = std::any_of(ranges.begin(), ranges.end(),
-                                      [&](const auto& range) { return std::abs(range.second - nearest) <= rounding; });
+SiblingLevels::SiblingLevels(osg::Group& parent, const std::function<bool(osg::LOD&)>& is_whole) {
+  // A level of detail chooses among its own children.
+  if (dynamic_cast<osg::LOD*>(&parent) != nullptr) return;
+  FindSiblings find;
+  parent.traverse(find);
+  std::vector<Sibling>& all = find.found;
+  std::stable_sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.nearest < b.nearest; });
+  std::multimap<float, Sibling*> by_end;
+  for (Sibling& one : all) {
+    for (const auto& [first, second] : one.lod->getRangeList()) {
+      if (first < second) by_end.emplace(second, &one);
+    }
+  }
+
+  const auto bound = [&](Sibling& one) {
+    if (!one.bound) one.bound = one.lod->getBound();
+    return *one.bound;
+  };
   // A parent may have several objects. Levels without bounds lie anywhere.
-  const osg::BoundingSphere &here = coarser.getBound(), &there = finer.getBound();
-  return ends_there && (!here.valid() || !there.valid() || here.intersects(there));
+  const auto meet = [&](Sibling& one, Sibling& other) {
+    return !bound(one).valid() || !bound(other).valid() || bound(one).intersects(bound(other));
+  };
+  const auto finer_than = [&](Sibling& coarser) {
+    std::vector<Sibling*> finer;
+    if (!(coarser.nearest > 0.0f && coarser.nearest < infinite)) return finer;
+    // Writers convert units: the end of one level and the beginning of the next may differ in the last digits.
+    const float rounding = 1e-4f * coarser.nearest;
+    const auto last = by_end.upper_bound(coarser.nearest + rounding);
+    for (auto end = by_end.lower_bound(coarser.nearest - rounding); end != last; ++end) {
+      if (end->second->nearest < coarser.nearest && meet(*end->second, coarser)) finer.push_back(end->second);
+    }
+    return finer;
+  };
+  const auto whole = [&](Sibling& one) {
+    if (!one.whole) one.whole = is_whole(*one.lod);
+    return *one.whole;
+  };
+
+  const auto filled_from_near = [&](Sibling* one) { return is_replaced(*one->lod) || whole(*one); };
+  for (Sibling& one : all) {
+    const std::vector<Sibling*> finer = finer_than(one);
+    if (!finer.empty() && std::all_of(finer.begin(), finer.end(), filled_from_near)) replaced_.insert(one.lod);
+  }
+  // Coarsest first, so that a level is judged after all that are coarser.
+  for (auto one = all.rbegin(); one != all.rend(); ++one) {
+    if (is_replaced(*one->lod)) continue;
+    if (one->coarser_fill.value_or(false)) giving_way_.insert(one->lod);
+    for (Sibling* finer : finer_than(*one)) {
+      if (filled_from_near(finer)) continue;
+      finer->coarser_fill = finer->coarser_fill.value_or(true) && (gives_way(*one->lod) || whole(*one));
+    }
+  }
 }
 
 }  // namespace roam::osg_triangles

@@ -2,7 +2,10 @@
 /// \file
 /// The children of a level-of-detail node that are shown from near by.
 
+#include <functional>
+#include <osg/Group>
 #include <osg/LOD>
+#include <set>
 #include <vector>
 
 namespace roam::osg_triangles {
@@ -17,8 +20,20 @@ using Level = std::vector<unsigned>;
 /// The finest level whose children are all loaded. An incomplete level would leave holes. Empty if there is none.
 [[nodiscard]] Level loaded_level(const osg::LOD& lod);
 
-/// Whether `coarser` is a coarser level of its sibling `finer`. Some modellers, and OpenFlight, give each level a node
-/// of its own.
-[[nodiscard]] bool continues(const osg::LOD& coarser, const osg::LOD& finer);
+/// The levels of detail among the children that a node shows. Some modellers, and OpenFlight, give each level a node of
+/// its own: a sibling that begins where another ends is a coarser level of it.
+class SiblingLevels {
+ public:
+  /// `is_whole` says whether a sibling leaves no hole. It is asked at most once about each, and only if that matters.
+  SiblingLevels(osg::Group& parent, const std::function<bool(osg::LOD&)>& is_whole);
+
+  /// Whether the finer levels of a sibling are shown instead of it, without a hole.
+  [[nodiscard]] bool is_replaced(const osg::LOD& lod) const { return replaced_.contains(&lod); }
+  /// Whether a sibling has holes, and its coarser levels are shown instead of it, without a hole.
+  [[nodiscard]] bool gives_way(const osg::LOD& lod) const { return giving_way_.contains(&lod); }
+
+ private:
+  std::set<const osg::LOD*> replaced_, giving_way_;
+};
 
 }  // namespace roam::osg_triangles

@@ -28,7 +28,7 @@ class MeshCollector : public triangles::GraphWalk {
     for (const unsigned i : triangles::loaded_level(lod)) lod.getChild(i)->accept(*this);
   }
 
-  bool stands_for(osg::LOD& finer, const osg::LOD&) override { return !triangles::loaded_level(finer).empty(); }
+  bool is_whole(osg::LOD& lod) override { return !triangles::loaded_level(lod).empty(); }
 
   std::vector<roam::Mesh> meshes_;
 };

@@ -268,6 +268,38 @@ TEST(ImportSceneGraph, FallsBackToTheSiblingThatIsACoarserLevel) {
       (std::vector<double>{2}));
 }
 
+TEST(ImportSceneGraph, LosesNothingWhereASiblingHasHoles) {
+  const TemporaryFolder folder;
+  folder.write("part.osg", group("Group", "", {triangle_at("1"), proxy("gone.osg")}));
+  folder.write("damaged.osgt", "#Ascii Scene\n");
+  const auto page = [](const std::string& range, const std::string& file) {
+    return group("PagedLOD", "RangeList 1 {\n" + range + "\n}\nFileNameList 1 {\n\"" + file + "\"\n}\n", {});
+  };
+  const auto read = [&](const std::vector<std::string>& levels, const std::string& kind = "Group",
+                        const std::string& fields = "") {
+    return import_scene(folder.write("root.osg", group(kind, fields, levels)));
+  };
+  const auto hidden = [](std::string lod) { return lod.insert(lod.find("RangeList"), "nodeMask 0x0\n"); };
+  using Xs = std::vector<double>;
+  const std::string fine = level("0 100", {triangle_at("1"), proxy("gone.osg")});
+  const std::string coarse = level("100 500", {triangle_at("2")}), gone = level("100 500", {proxy("gone.osg")});
+
+  const ImportedScene part = read({coarse, page("0 100", "part.osg")});
+  EXPECT_EQ(first_xs(part), Xs{2});
+  EXPECT_EQ(part.report.missing_pages, 1u);
+  EXPECT_EQ(first_xs(read({page("0 100", "damaged.osgt"), coarse})), Xs{2});
+  // A coarser level that is not whole itself, or not shown, fills no hole.
+  EXPECT_EQ(first_xs(read({page("0 100", "part.osg"), page("100 500", "gone.osg")})), Xs{1});
+  EXPECT_EQ(first_xs(read({fine, page("100 500", "gone.osg")})), Xs{1});
+  EXPECT_EQ(first_xs(read({fine, gone})), Xs{1});
+  EXPECT_EQ(first_xs(read({fine, coarse, gone})), (Xs{1, 2}));
+  EXPECT_EQ(first_xs(read({fine, hidden(coarse)})), Xs{1});
+  EXPECT_EQ(first_xs(read({fine, coarse}, "Switch", "NewChildDefaultValue TRUE\nValueList {\n1\n0\n}\n")), Xs{1});
+  EXPECT_EQ(first_xs(read({fine, coarse}, "LOD", "RangeList 2 {\n0 100\n100 500\n}\n")), Xs{1});
+  // A finer one that is not shown replaces nothing.
+  EXPECT_EQ(first_xs(read({hidden(level("0 100", {triangle_at("1")})), coarse})), Xs{2});
+}
+
 TEST(ImportSceneGraph, ReadsFarOffObjectsThatContinueNoSibling) {
   EXPECT_EQ(xs_of(group("Group", "",
                         {level("0 100", {triangle_at("1")}), moved("999", {triangle_at("2")}),

@@ -86,6 +86,24 @@ TEST(OsgTriangles, AreOfACoarserSiblingUntilTheFinerOneIsLoaded) {
   EXPECT_EQ(names_of(*scene), Names{"fine"});
 }
 
+TEST(OsgTriangles, AreOfTheLevelThatManySiblingsContinue) {
+  osg::ref_ptr<osg::LOD> fine = new osg::LOD;
+  fine->addChild(triangle("fine"), 0.0f, 1.0f);
+  osg::ref_ptr<osg::Group> scene = new osg::Group;
+  scene->addChild(fine);
+  // Each begins where all before it end.
+  constexpr unsigned count = 60;
+  for (unsigned i = 1; i < count; ++i) {
+    osg::ref_ptr<osg::PagedLOD> lod = new osg::PagedLOD;
+    for (unsigned j = i + 1; j <= count; ++j) {
+      lod->setFileName(j - i - 1, "missing.osgb");
+      lod->setRange(j - i - 1, static_cast<float>(i), static_cast<float>(j));
+    }
+    scene->addChild(lod);
+  }
+  EXPECT_EQ(names_of(*scene), Names{"fine"});
+}
+
 TEST(OsgTriangles, AreMovedToTheOrigin) {
   const osg::ref_ptr<osg::Geometry> one = triangle("one", 0.25f);
   const auto meshes = osgRoam::collectMeshes(*one, osg::Vec3d(504000, 5678000, 0));

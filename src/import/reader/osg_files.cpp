@@ -157,12 +157,6 @@ class GuardedReading : public osgDB::ReadFileCallback {
     return place.empty() ? "" : files_.open(place).string();
   }
 
-  /// Whether there is a file that can be read.
-  [[nodiscard]] bool is_there(const std::string& name, const osgDB::Options* options) {
-    const fs::path place = place_of(name, options, files_);
-    return !place.empty() && reader_for(place) != nullptr && !files_.look_up(place).empty();
-  }
-
   void expect_main() { next_is_main_ = true; }
   void set_images(bool wanted) { images_ = wanted; }
   void set_quiet(bool quiet) { quiet_ = quiet; }
@@ -212,13 +206,6 @@ void set_images(bool wanted) {
   if (!wanted) registry->addReaderWriter(no_images);
 }
 
-osg::ref_ptr<osgDB::Options> options_for(const fs::path& path) {
-  osg::ref_ptr<osgDB::Options> options = new osgDB::Options;
-  options->setObjectCacheHint(osgDB::Options::CACHE_NONE);
-  options->setDatabasePath(path.parent_path().string());
-  return options;
-}
-
 }  // namespace
 
 void load_osg_plugins(const std::string& extension) {
@@ -260,22 +247,26 @@ void prepare_osg(MeshSink& sink, SceneFiles& files, bool images) {
   registry->setBuildKdTreesHint(osgDB::Options::DO_NOT_BUILD_KDTREES);
 }
 
-bool is_osg_file(const fs::path& path) { return guard->is_there(path.string(), options_for(path)); }
-
 osg::ref_ptr<osg::Node> read_osg_file(const fs::path& path, bool main) {
-  const osg::ref_ptr<osgDB::Options> options = options_for(path);
+  osg::ref_ptr<osgDB::Options> options = new osgDB::Options;
+  options->setObjectCacheHint(osgDB::Options::CACHE_NONE);
+  options->setDatabasePath(path.parent_path().string());
   if (main) guard->expect_main();
   Result result = guard->readNode(path.string(), options);
   if (!result.validNode() && !result.message().empty()) OSG_WARN << result.message() << std::endl;
   return result.getNode();
 }
 
-osg::ref_ptr<osg::Node> read_again_with_images(const fs::path& path) {
-  set_images(true);
+osg::ref_ptr<osg::Node> read_osg_file_quietly(const fs::path& path) {
   guard->set_quiet(true);
   osg::ref_ptr<osg::Node> node = read_osg_file(path, false);
   guard->set_quiet(false);
   return node;
+}
+
+osg::ref_ptr<osg::Node> read_again_with_images(const fs::path& path) {
+  set_images(true);
+  return read_osg_file_quietly(path);
 }
 
 std::string last_osg_complaint() {

@@ -27,12 +27,12 @@ void close_osg_door();
 /// reading. With `images`, `sink` must have parts, which find the images.
 void prepare_osg(MeshSink& sink, SceneFiles& files, bool images);
 
-/// Whether there is such a file of the scene. It may still be damaged.
-[[nodiscard]] bool is_osg_file(const std::filesystem::path& path);
-
 /// Reads one file, and those of its proxies; null if it is absent or unreadable. An absent file counts as a missing
 /// page unless it is the `main` one.
 [[nodiscard]] osg::ref_ptr<osg::Node> read_osg_file(const std::filesystem::path& path, bool main);
+
+/// The same, but reports nothing: for files that are also read by read_osg_file.
+[[nodiscard]] osg::ref_ptr<osg::Node> read_osg_file_quietly(const std::filesystem::path& path);
 
 /// Reads a file for the second time, with its images, without reporting anything again. Later files have images too.
 [[nodiscard]] osg::ref_ptr<osg::Node> read_again_with_images(const std::filesystem::path& path);

@@ -47,10 +47,6 @@ bool misses_files(osg::Node& node) {
   return find.found();
 }
 
-bool is_named(const osg::PagedLOD* paged, unsigned i) {
-  return paged != nullptr && i < paged->getNumFileNames() && !paged->getFileName(i).empty();
-}
-
 }  // namespace
 
 SceneGraphWalk::SceneGraphWalk(MeshSink& sink) : sink_(sink) {}
@@ -94,29 +90,26 @@ fs::path SceneGraphWalk::page_file(const osg::PagedLOD& lod, unsigned i) const {
   return (named_from / lod.getFileName(i)).lexically_normal();
 }
 
-SceneGraphWalk::Child SceneGraphWalk::child(osg::LOD& lod, osg::PagedLOD* paged, unsigned i) {
+SceneGraphWalk::Child SceneGraphWalk::child(osg::LOD& lod, osg::PagedLOD* paged, unsigned i, bool quietly) {
   if (i < lod.getNumChildren()) return {lod.getChild(i), {}};
-  if (!is_named(paged, i)) return {};
+  const bool named = paged != nullptr && i < paged->getNumFileNames() && !paged->getFileName(i).empty();
+  if (!named) return {};
   const fs::path file = page_file(*paged, i);
-  if (is_open(file)) {
-    sink_.report_missing_page(file.string());
+  if (std::find(files_.begin(), files_.end(), file) != files_.end()) {
+    if (!quietly) sink_.report_missing_page(file.string());
     return {};
   }
-  return {read_osg_file(file, false), file};
+  return {quietly ? read_osg_file_quietly(file) : read_osg_file(file, false), file};
 }
 
-bool SceneGraphWalk::is_open(const fs::path& file) const {
-  return std::find(files_.begin(), files_.end(), file) != files_.end();
-}
-
-void SceneGraphWalk::meet(osg::LOD& lod, osg::PagedLOD* paged) {
+SceneGraphWalk::Found SceneGraphWalk::find_level(osg::LOD& lod, osg::PagedLOD* paged, bool quietly) {
   std::set<unsigned> absent;
   std::vector<Child> finest;
   for (const osg_triangles::Level& level : osg_triangles::levels(lod)) {
     std::vector<Child> children;
     for (const unsigned i : level) {
       if (absent.contains(i)) continue;
-      children.push_back(child(lod, paged, i));
+      children.push_back(child(lod, paged, i, quietly));
       if (children.back().node != nullptr) continue;
       absent.insert(i);
       children.pop_back();
@@ -125,16 +118,16 @@ void SceneGraphWalk::meet(osg::LOD& lod, osg::PagedLOD* paged) {
     if (children.size() < level.size()) continue;
     const bool whole =
         std::none_of(children.begin(), children.end(), [](const Child& one) { return misses_files(*one.node); });
-    if (whole) return show(children);
+    if (whole) return {std::move(children), true};
     if (finest.empty()) finest = std::move(children);
   }
+  return {std::move(finest), false};
+}
+
+void SceneGraphWalk::meet(osg::LOD& lod, osg::PagedLOD* paged) {
+  Found found = find_level(lod, paged, false);
   // If no level is whole, the finest has most, unless a sibling is a coarser level.
-  const osg::Group* const above = parent();
-  for (unsigned i = 0; above != nullptr && i < above->getNumChildren(); ++i) {
-    const auto* const sibling = dynamic_cast<const osg::LOD*>(above->getChild(i));
-    if (sibling != nullptr && osg_triangles::continues(*sibling, lod)) return;
-  }
-  show(finest);
+  if (found.whole || !gives_way(lod)) show(found.children);
 }
 
 void SceneGraphWalk::show(std::vector<Child>& children) {
@@ -148,16 +141,6 @@ void SceneGraphWalk::show(std::vector<Child>& children) {
   }
 }
 
-bool SceneGraphWalk::stands_for(osg::LOD& finer, const osg::LOD&) {
-  const auto* const paged = dynamic_cast<const osg::PagedLOD*>(&finer);
-  const auto is_there = [&](unsigned i) {
-    if (i < finer.getNumChildren()) return !misses_files(*finer.getChild(i));
-    return is_named(paged, i) && !is_open(page_file(*paged, i)) && is_osg_file(page_file(*paged, i));
-  };
-  const std::vector<osg_triangles::Level> levels = osg_triangles::levels(finer);
-  return std::any_of(levels.begin(), levels.end(), [&](const osg_triangles::Level& level) {
-    return std::all_of(level.begin(), level.end(), is_there);
-  });
-}
+bool SceneGraphWalk::is_whole(osg::LOD& lod) { return find_level(lod, dynamic_cast<osg::PagedLOD*>(&lod), true).whole; }
 
 }  // namespace roam::reader

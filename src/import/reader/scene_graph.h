@@ -21,7 +21,7 @@ class SceneGraphWalk : public osg_triangles::GraphWalk {
 
  protected:
   void meet(osg::LOD& lod, osg::PagedLOD* paged) override;
-  [[nodiscard]] bool stands_for(osg::LOD& finer, const osg::LOD& coarser) override;
+  [[nodiscard]] bool is_whole(osg::LOD& lod) override;
   /// The file of page `i`.
   [[nodiscard]] std::filesystem::path page_file(const osg::PagedLOD& lod, unsigned i) const;
 
@@ -35,9 +35,15 @@ class SceneGraphWalk : public osg_triangles::GraphWalk {
     osg::ref_ptr<osg::Node> node;
     std::filesystem::path file;
   };
-  [[nodiscard]] Child child(osg::LOD& lod, osg::PagedLOD* paged, unsigned i);
-  /// Whether the file is being walked, so that a page of this name makes a circle.
-  [[nodiscard]] bool is_open(const std::filesystem::path& file) const;
+  /// The level to show, and whether no file of it is missing.
+  struct Found {
+    std::vector<Child> children;
+    bool whole = false;
+  };
+  /// Finds the finest level that is whole, otherwise the finest of which all pages can be read. Quietly: without
+  /// reporting anything.
+  [[nodiscard]] Found find_level(osg::LOD& lod, osg::PagedLOD* paged, bool quietly);
+  [[nodiscard]] Child child(osg::LOD& lod, osg::PagedLOD* paged, unsigned i, bool quietly);
   void show(std::vector<Child>& children);
 
   MeshSink& sink_;

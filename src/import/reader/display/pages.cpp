@@ -135,9 +135,9 @@ void PageWalk::meet(osg::LOD& lod, osg::PagedLOD* paged) {
   if (paged == nullptr || !add(*paged)) SceneGraphWalk::meet(lod, paged);
 }
 
-bool PageWalk::stands_for(osg::LOD& finer, const osg::LOD& coarser) {
+bool PageWalk::is_replaced(const osg::LOD& lod) {
   // A page that is not loaded yet replaces nothing.
-  return dynamic_cast<const osg::PagedLOD*>(&coarser) == nullptr && SceneGraphWalk::stands_for(finer, coarser);
+  return dynamic_cast<const osg::PagedLOD*>(&lod) == nullptr && SceneGraphWalk::is_replaced(lod);
 }
 
 std::uint32_t PageWalk::state_here() {

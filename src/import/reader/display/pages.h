@@ -54,7 +54,7 @@ class PageWalk : public SceneGraphWalk {
 
  private:
   void meet(osg::LOD& lod, osg::PagedLOD* paged) override;
-  [[nodiscard]] bool stands_for(osg::LOD& finer, const osg::LOD& coarser) override;
+  [[nodiscard]] bool is_replaced(const osg::LOD& lod) override;
   bool add(osg::PagedLOD& lod);
   std::uint32_t state_here();
 
