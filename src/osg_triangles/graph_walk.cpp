@@ -137,7 +137,7 @@ const SiblingLevels* GraphWalk::siblings() {
   if (parent == nullptr || levels_below_.size() < 2) return nullptr;
   std::optional<SiblingLevels>& known = levels_below_[levels_below_.size() - 2];
   const auto whole = [this](osg::LOD& lod) { return is_whole(lod); };
-  if (!known) known.emplace(*parent, whole);
+  if (!known) known.emplace(*parent, whole, depth_limit);
   return &*known;
 }
 

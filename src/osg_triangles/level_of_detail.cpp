@@ -38,6 +38,29 @@ struct FindSiblings : osg::NodeVisitor {
   std::vector<Sibling> found;
 };
 
+/// Finds nodes nested deeper than a limit. A damaged graph may contain itself.
+struct FindDepth : osg::NodeVisitor {
+  explicit FindDepth(std::size_t deepest) : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN), limit(deepest) {
+    setNodeMaskOverride(~0u);
+  }
+  void apply(osg::Node& node) override {
+    too_deep = too_deep || getNodePath().size() > limit;
+    if (too_deep || seen.contains(&node)) return;
+    traverse(node);
+    seen.insert(&node);
+  }
+  std::size_t limit;
+  bool too_deep = false;
+  std::set<const osg::Node*> seen;  ///< with all that is below
+};
+
+/// Whether OpenSceneGraph might exhaust the stack when it computes the bounds of a node.
+bool is_deeper(osg::Node& node, std::size_t limit) {
+  FindDepth find(limit);
+  node.accept(find);
+  return find.too_deep;
+}
+
 }  // namespace
 
 std::vector<Level> levels(const osg::LOD& lod) {
@@ -69,7 +92,8 @@ Level loaded_level(const osg::LOD& lod) {
   return {};
 }
 
-SiblingLevels::SiblingLevels(osg::Group& parent, const std::function<bool(osg::LOD&)>& is_whole) {
+SiblingLevels::SiblingLevels(osg::Group& parent, const std::function<bool(osg::LOD&)>& is_whole,
+                             std::size_t depth_limit) {
   // A level of detail chooses among its own children.
   if (dynamic_cast<osg::LOD*>(&parent) != nullptr) return;
   FindSiblings find;
@@ -84,7 +108,7 @@ SiblingLevels::SiblingLevels(osg::Group& parent, const std::function<bool(osg::L
   }
 
   const auto bound = [&](Sibling& one) {
-    if (!one.bound) one.bound = one.lod->getBound();
+    if (!one.bound) one.bound = is_deeper(*one.lod, depth_limit) ? osg::BoundingSphere() : one.lod->getBound();
     return *one.bound;
   };
   // A parent may have several objects. Levels without bounds lie anywhere.

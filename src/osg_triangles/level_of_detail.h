@@ -2,6 +2,7 @@
 /// \file
 /// The children of a level-of-detail node that are shown from near by.
 
+#include <cstddef>
 #include <functional>
 #include <osg/Group>
 #include <osg/LOD>
@@ -25,7 +26,8 @@ using Level = std::vector<unsigned>;
 class SiblingLevels {
  public:
   /// `is_whole` says whether a sibling leaves no hole. It is asked at most once about each, and only if that matters.
-  SiblingLevels(osg::Group& parent, const std::function<bool(osg::LOD&)>& is_whole);
+  /// Siblings nested deeper than `depth_limit` count as if they had no bounds.
+  SiblingLevels(osg::Group& parent, const std::function<bool(osg::LOD&)>& is_whole, std::size_t depth_limit);
 
   /// Whether the finer levels of a sibling are shown instead of it, without a hole.
   [[nodiscard]] bool is_replaced(const osg::LOD& lod) const { return replaced_.contains(&lod); }

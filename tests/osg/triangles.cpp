@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "osg_graphs.h"
+#include "roam/error.h"
 
 namespace {
 
@@ -102,6 +103,19 @@ TEST(OsgTriangles, AreOfTheLevelThatManySiblingsContinue) {
     scene->addChild(lod);
   }
   EXPECT_EQ(names_of(*scene), Names{"fine"});
+}
+
+TEST(OsgTriangles, AreRefusedIfALevelContainsItself) {
+  osg::ref_ptr<osg::Group> circle = new osg::Group;
+  osg::ref_ptr<osg::Group> scene = new osg::Group;
+  for (const float nearest : {100.0f, 0.0f}) {
+    osg::ref_ptr<osg::LOD> lod = new osg::LOD;
+    lod->addChild(circle, nearest, nearest + 100.0f);
+    scene->addChild(lod);
+  }
+  circle->addChild(circle);
+  EXPECT_THROW(names_of(*scene), roam::Error);
+  circle->removeChildren(0, 1);
 }
 
 TEST(OsgTriangles, AreMovedToTheOrigin) {
