@@ -240,6 +240,25 @@ TEST(ImportSceneGraph, ReadsProxiesThatOpenSceneGraphLoadsWhileItDraws) {
   EXPECT_EQ(scene.report.missing_pages, 3u);
 }
 
+TEST(ImportSceneGraph, ReadsProxiesFromTheirDatabasePath) {
+  const TemporaryFolder folder;
+  folder.write("parts/wall.osg", triangle_at("8"));
+  folder.write("roof.osg", triangle_at("9"));
+  std::string text =
+      "#Ascii Scene\n#Version 161\n#Generator OpenSceneGraph 3.6.5\n\nosg::Group {\n UniqueID 1\n Children 4 {\n";
+  int id = 1;
+  const auto add = [&](const std::string& path, const std::string& file) {
+    text += "  osg::ProxyNode {\n   UniqueID " + std::to_string(++id) + "\n   FileNames 1 {\n    \"" + file +
+            "\"\n   }\n   DatabasePath \"" + path +
+            "\"\n   LoadingExternalReferenceMode DEFER_LOADING_TO_DATABASE_PAGER\n  }\n";
+  };
+  add("parts/", "wall.osg");
+  add((folder.path() / "parts").string(), "wall.osg");
+  add("parts/", "roof.osg");
+  add("/etc/", "outside.osg");
+  EXPECT_EQ(first_xs(import_scene(folder.write("root.osgt", text + " }\n}\n"))), (std::vector<double>{8, 8, 9}));
+}
+
 TEST(ImportSceneGraph, FallsBackToTheCoarserLevelWhereAProxyIsMissing) {
   const std::vector<std::string> fine{triangle_at("1"), proxy("gone.osg")};
   const auto lod = [&](const std::vector<std::string>& coarse) {

@@ -76,7 +76,8 @@ fs::path place_of(const std::string& name, const osgDB::Options* options, SceneF
 /// Adds the files of the proxies that OpenSceneGraph's pager would load while it draws.
 class LoadDeferredProxies : public osg::NodeVisitor {
  public:
-  using Read = std::function<osg::ref_ptr<osg::Node>(const std::string&)>;
+  /// Reads a file that a proxy names, from its folder.
+  using Read = std::function<osg::ref_ptr<osg::Node>(const std::string& folder, const std::string& file)>;
   explicit LoadDeferredProxies(Read read) : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN), read_(std::move(read)) {}
 
   void apply(osg::Node& node) override {
@@ -90,7 +91,8 @@ class LoadDeferredProxies : public osg::NodeVisitor {
     proxy.setLoadingExternalReferenceMode(osg::ProxyNode::LOAD_IMMEDIATELY);
     for (unsigned i = proxy.getNumChildren(); i < proxy.getNumFileNames(); ++i) {
       if (proxy.getFileName(i).empty()) continue;
-      if (const osg::ref_ptr<osg::Node> file = read_(proxy.getFileName(i))) proxy.addChild(file);
+      const osg::ref_ptr<osg::Node> file = read_(proxy.getDatabasePath(), proxy.getFileName(i));
+      if (file != nullptr) proxy.addChild(file);
     }
   }
 
@@ -122,8 +124,11 @@ class GuardedReading : public osgDB::ReadFileCallback {
     own->getDatabasePathList().push_front(file.parent_path().string());
     Result result = reader->readNode(file.string(), own);
     if (osg::Node* node = result.getNode()) {
-      LoadDeferredProxies load(
-          [&](const std::string& named) { return osg::ref_ptr<osg::Node>(readNode(named, own).getNode()); });
+      LoadDeferredProxies load([&](const std::string& folder, const std::string& named) {
+        const osg::ref_ptr<osgDB::Options> below = own->cloneOptions();
+        below->getDatabasePathList().push_front((file.parent_path() / folder).string());
+        return osg::ref_ptr<osg::Node>(readNode(named, below).getNode());
+      });
       node->accept(load);
     }
     reading_.pop_back();
