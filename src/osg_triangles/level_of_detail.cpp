@@ -107,7 +107,7 @@ SiblingLevels::SiblingLevels(osg::Group& parent, const std::function<bool(osg::L
     }
   }
 
-  const auto bound = [&](Sibling& one) {
+  const auto bound = [&](Sibling& one) -> const osg::BoundingSphere& {
     if (!one.bound) one.bound = is_deeper(*one.lod, depth_limit) ? osg::BoundingSphere() : one.lod->getBound();
     return *one.bound;
   };
