@@ -49,13 +49,18 @@ Closest at_face(Obstacle& o, const Vec3& p, double a_share, double b_share, doub
   const double height = glm::dot(normal, p - o.corner[0]);
   const double sum = a_share + b_share + c_share, whole = 1.0 / sum;
   const Vec3 x = p - (o.corner[0] + (b_share * whole) * o.edge[0] - (c_share * whole) * o.edge[2]);
-  const double squared = glm::dot(x, x);
+  double squared = glm::dot(x, x);
+  const double longest = std::max({o.edge_squared[0], o.edge_squared[1], o.edge_squared[2]});
+  const bool is_sliver = sum < sliver_part * longest * longest;
   if (!(squared <= height * height * face_trust)) {
     const Closest edge = at_any_edge(o, p);
-    if (!(squared < edge.squared) || normal == Vec3(0.0)) return edge;
+    // The shares of a large triangle are less exact than the foot on an edge, and the side on which that is.
+    const bool is_inside =
+        !is_sliver && edge.feature == Feature::edge && glm::dot(edge.away, glm::cross(normal, edge.straight)) > 0.0;
+    if ((!(squared < edge.squared) && !is_inside) || normal == Vec3(0.0)) return edge;
+    squared = std::min(squared, edge.squared);
   }
-  const double longest = std::max({o.edge_squared[0], o.edge_squared[1], o.edge_squared[2]});
-  const Vec3 point = p - (sum < sliver_part * longest * longest ? x : height * normal);
+  const Vec3 point = p - (is_sliver ? x : height * normal);
   return {height < 0.0 ? -normal : normal, 1.0, squared, point, Feature::face};
 }
 

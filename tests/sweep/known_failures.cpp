@@ -57,6 +57,21 @@ TEST(Slivers, HaveThePointOfContactOnThem) {
   EXPECT_LT(oracle::distance<Quad>({}, s.point, t), Quad(1e-15));
 }
 
+/// A point meets a triangle of 8.7 km inside, 0.16 nm from an edge. The corners' shares tell no such place from the
+/// edge.
+TEST(KnownFailures, PointOnALargeTriangleBesideItsEdge) {
+  const Triangle t{Vec3(-13738.683310483086, 253.83073069755605, 182.45781465465225),
+                   Vec3(-14159.301009879238, -7400.647011975786, 928.02879469208892),
+                   Vec3(-13738.683310483086, 1268.6137321773726, 182.45781465465225)};
+  const Vec3 from(-13923.274420445978, -2539.6562120984927, 509.70103368111882);
+  const Vec3 motion(-2.0527466663839684, 1.5883262066232577, 3.1167098865360443);
+  const Body body{.radius = 0.0};
+  const auto s = roam::sweep(body, from, motion, t);
+  ASSERT_TRUE(s.hit);
+  EXPECT_EQ(s.feature, Feature::face);
+  EXPECT_LT(oracle::distance_on_the_way<Quad>(body, from, motion, s.time, {s.point, s.point, s.point}), Quad(2e-11));
+}
+
 TEST(KnownFailures, SliverOfFiveMicrometres) {
   const Triangle t{Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0.5, 5e-6, 0)};
   for (const Vec3& way : {Vec3(0, 0, 1), Vec3(0, 1, 0), Vec3(0, 1, 1), Vec3(1, 1, 1e-6)}) {
