@@ -219,30 +219,36 @@ TEST(Replay, LooksAsThePathWasRecorded) {
   EXPECT_NEAR(gaze.pitch, 0.0, 1e-9);
 }
 
+/// A ball that has begun to follow a path.
+struct Replayed {
+  World world = hall(2.0);
+  Walker walker{world, WalkerSettings::sphere(0.3), Mode::walk, {2, 0, 0.3}};
+  Replay replay{walker, path(), {}};
+
+  Replayed() { EXPECT_NE(replay.advance(), nullptr); }
+
+  static std::vector<Waypoint> path() {
+    std::istringstream text("2 0 0.3\n18 0 0.3\n");
+    return read_path(text, "p");
+  }
+};
+
 TEST(Replay, EndsWhereThePersonTakesOver) {
-  const World world = hall(2.0);
-  std::istringstream text("2 0 0.3\n18 0 0.3\n");
-  Walker walker(world, WalkerSettings::sphere(0.3), Mode::walk, {2, 0, 0.3});
-  Replay replay(walker, read_path(text, "p"), {});
-  ASSERT_NE(replay.advance(), nullptr);
-  walker.set_mode(Mode::fly);
-  EXPECT_EQ(replay.advance(), nullptr);
-  EXPECT_TRUE(replay.left());
+  Replayed r;
+  r.walker.set_mode(Mode::fly);
+  EXPECT_EQ(r.replay.advance(), nullptr);
+  EXPECT_TRUE(r.replay.left());
 }
 
 TEST(Replay, EndsWhereThePersonPutsTheBodyElsewhere) {
-  const World world = hall(2.0);
-  std::istringstream text("2 0 0.3\n18 0 0.3\n");
-  Walker walker(world, WalkerSettings::sphere(0.3), Mode::walk, {2, 0, 0.3});
-  Replay replay(walker, read_path(text, "p"), {});
-  ASSERT_NE(replay.advance(), nullptr);
-  walker.place({15, 0, 0.3});
-  replay.go_on_here();
-  ASSERT_NE(replay.advance(), nullptr) << "a lesson may put it elsewhere";
-  walker.place({17.9, 0, 0.3});
-  EXPECT_EQ(replay.advance(), nullptr);
-  EXPECT_TRUE(replay.left());
-  EXPECT_FALSE(replay.ended());
+  Replayed r;
+  r.walker.place({15, 0, 0.3});
+  r.replay.go_on_here();
+  ASSERT_NE(r.replay.advance(), nullptr) << "a lesson may put it elsewhere";
+  r.walker.place({17.9, 0, 0.3});
+  EXPECT_EQ(r.replay.advance(), nullptr);
+  EXPECT_TRUE(r.replay.left());
+  EXPECT_FALSE(r.replay.ended());
 }
 
 }  // namespace

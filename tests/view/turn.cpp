@@ -199,7 +199,7 @@ TEST(Turn, KeepsTheModeOfTheCommandLine) {
   EXPECT_FALSE(options.mode);
 }
 
-/// Of a session that measured a point at `x` and wrote a file.
+/// The report of a session that measured a point at `x` and wrote a file.
 ViewReport report_of(const SceneFrame& frame, double x, const std::string& file) {
   ViewReport report;
   report.frame = frame;

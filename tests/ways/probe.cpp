@@ -24,8 +24,6 @@ using namespace scenes;
 using namespace roam;
 using Kind = ProbeLimit::Kind;
 
-Survey survey_of(const Mesh& mesh) { return Survey::build({mesh}, {.threads = 1, .lossless = true, .progress = {}}); }
-
 ProbeQuestion flying(ProbeQuestion question) {
   question.mode = Mode::fly;
   return question;

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "floor_pieces.h"
+#include "probed_room.h"
 #include "roam/probe.h"
 #include "walker_scenes.h"
 #include "words/probe.h"
@@ -12,10 +13,6 @@ using namespace scenes;
 using namespace roam;
 
 constexpr ProbedSize person{.radius = 0.3, .height = 1.8};
-
-Survey survey_of(const Mesh& mesh, bool lossless = true) {
-  return Survey::build({mesh}, {.threads = 1, .lossless = lossless, .progress = {}});
-}
 
 /// A floor of 20 m by 10 m with a square hole of 0.8 m on the straight way; `depth`: of its bottom, 0: it has none.
 Mesh holed(double depth) {
@@ -52,13 +49,7 @@ TEST(ProbeCracks, LetNobodyStandOverThem) {
 }
 
 TEST(ProbeCracks, AreCrossedByADiscLargerThanAMetre) {
-  Mesh m;
-  add_floor(m, 0.0, -2.0, 5.0, 2.0, 0.0);
-  add_floor(m, 7.4, -2.0, 15.0, 2.0, 0.0);
-  add_floor(m, 5.0, -2.0, 7.4, 2.0, -5.0);
-  for (const double x : {5.0, 7.4}) add_wall(m, x, -2.0, x, 2.0, -5.0, 0.0);
-  for (const double y : {-2.0, 2.0}) add_wall(m, 0.0, y, 15.0, y, -5.0, 3.0);
-  const Survey survey = survey_of(m);
+  const Survey survey = survey_of(cracked(5.0, 7.4, 15.0, 5.0));
   ProbeQuestion question = over_hole;
   for (const double disc : {1.25, 1.5}) {
     question.support_radius = disc;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "messages.h"
+#include "probed_room.h"
 #include "roam/probe.h"
 #include "walker_scenes.h"
 #include "words/probe.h"
@@ -20,8 +21,6 @@ using namespace roam;
 using Kind = ProbeLimit::Kind;
 
 constexpr ProbedSize person{.radius = 0.3, .height = 1.8};
-
-Survey survey_of(const Mesh& mesh) { return Survey::build({mesh}, {.threads = 1, .lossless = true, .progress = {}}); }
 
 /// Floors 4 m wide and `length` long, one behind the other from x = 0, each lower than the one before by a drop.
 Mesh terraces(const std::vector<double>& drops, double length) {

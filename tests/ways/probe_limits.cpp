@@ -18,18 +18,8 @@ using namespace scenes;
 using namespace roam;
 using Kind = ProbeLimit::Kind;
 
-Survey survey_of(const Mesh& mesh, bool lossless = true) {
-  return Survey::build({mesh}, {.threads = 1, .lossless = lossless, .progress = {}});
-}
-
 TEST(ProbeLimits, AreNoneWhereAWalkerFallsIntoACrackHoweverShallow) {
-  Mesh m;
-  add_floor(m, 0.0, -2.0, 9.6, 2.0, 0.0);
-  add_floor(m, 10.4, -2.0, 20.0, 2.0, 0.0);
-  add_floor(m, 9.6, -2.0, 10.4, 2.0, -0.65);
-  for (const double x : {9.6, 10.4}) add_wall(m, x, -2.0, x, 2.0, -0.65, 0.0);
-  for (const double y : {-2.0, 2.0}) add_wall(m, 0.0, y, 20.0, y, -0.65, 3.0);
-  const ProbeAnswer answer = probe(survey_of(m), across, {.radius = 0.38, .height = 1.8});
+  const ProbeAnswer answer = probe(survey_of(cracked(9.6, 10.4, 20.0, 0.65)), across, {.radius = 0.38, .height = 1.8});
   ASSERT_TRUE(answer.wide_enough && answer.walk);
   EXPECT_EQ(answer.walk->outcome, Outcome::fell);
   EXPECT_TRUE(words::report(across, answer).sentences().starts_with("NO:"));
