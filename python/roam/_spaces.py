@@ -41,7 +41,7 @@ class SpaceHandle:
 
     def name_of(self, triangle: int, not_yet: Sequence[str] = ("",)) -> str:
         """A store has another thread read the name; waits a moment while it is one of `not_yet`."""
-        self.alone()
+        self.alone()  # raises in a forked process
         name = self._known_name_of(triangle)
         if self.lock is not None and triangle != _NO_TRIANGLE:
             end = time.monotonic() + _FOR_A_NAME

@@ -25,8 +25,8 @@ using Level = std::vector<unsigned>;
 /// its own: a sibling that begins where another ends is a coarser level of it.
 class SiblingLevels {
  public:
-  /// `is_whole` says whether a sibling leaves no hole. It is asked at most once about each, and only if that matters.
-  /// Siblings nested deeper than `depth_limit` count as if they had no bounds.
+  /// `is_whole` returns whether a sibling leaves no hole. It is called at most once for each sibling, and only if
+  /// needed. Siblings nested deeper than `depth_limit` count as if they had no bounds.
   SiblingLevels(osg::Group& parent, const std::function<bool(osg::LOD&)>& is_whole, std::size_t depth_limit);
 
   /// Whether the finer levels of a sibling are shown instead of it, without a hole.
