@@ -1,11 +1,11 @@
 // The judge of the benchmarks counts what it says it counts: a judge that sees nothing makes every engine perfect.
 
+#include "bench/judge.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <vector>
-
-#include "bench/judge.h"
 
 namespace roam::bench {
 namespace {
@@ -14,7 +14,7 @@ constexpr double radius = 0.5;
 const Query towards_wall{.body = {.radius = radius}, .from = Vec3(0.0), .motion = {10.0, 0.0, 0.0}};
 constexpr double touch = 0.45;  // the wall is at x = 5
 
-Reference wall_at_5() {
+Reference nearby_wall() {
   const Mesh wall{.name = "wall", .vertices = {{5, -9, -9}, {5, 9, -9}, {5, 0, 18}}, .triangles = {{0, 1, 2}}};
   return Reference({&wall, 1});
 }
@@ -24,13 +24,13 @@ Verdict verdict(const Reference& reference, const Query& query, const Answer& an
   return judge({&answer, 1}, {&truth, 1}, {&query, 1}, reference, says_when);
 }
 
-Verdict at(double metres) { return verdict(wall_at_5(), towards_wall, {true, touch + metres / 10.0}); }
+Verdict at(double metres) { return verdict(nearby_wall(), towards_wall, {true, touch + metres / 10.0}); }
 
 // A sphere that flies past the free edge of the wall, at `gap` metres from it.
 Verdict past_edge(double gap, const Answer& answer) {
   Query query = towards_wall;
   query.from.z = -9.0 - radius - gap;
-  return verdict(wall_at_5(), query, answer);
+  return verdict(nearby_wall(), query, answer);
 }
 
 TEST(BenchJudge, AcceptsAnswersWithinTheDepthAndTheGapAllowed) {
@@ -46,10 +46,10 @@ TEST(BenchJudge, CountsLateAndEarlyAnswers) {
 }
 
 TEST(BenchJudge, CountsABodyThatCameOutBehindTheWallAsDeepAsItWas) {
-  const Verdict missed = verdict(wall_at_5(), towards_wall, {false, 1.0});
+  const Verdict missed = verdict(nearby_wall(), towards_wall, {false, 1.0});
   EXPECT_EQ(missed.missed, 1U);
   EXPECT_NEAR(missed.deepest, radius, 1e-9);
-  const Verdict late = verdict(wall_at_5(), towards_wall, {true, 0.9});
+  const Verdict late = verdict(nearby_wall(), towards_wall, {true, 0.9});
   EXPECT_EQ(late.late, 1U);
   EXPECT_NEAR(late.deepest, radius, 1e-9);
 }
@@ -62,15 +62,15 @@ TEST(BenchJudge, ForgivesAGrazeButNotMore) {
 }
 
 TEST(BenchJudge, AsksEnginesWithoutATimeOnlyForHitOrFree) {
-  EXPECT_EQ(verdict(wall_at_5(), towards_wall, {true, 0.0}, false).wrong(), 0U);
-  EXPECT_EQ(verdict(wall_at_5(), towards_wall, {false, 0.0}, false).missed, 1U);
+  EXPECT_EQ(verdict(nearby_wall(), towards_wall, {true, 0.0}, false).wrong(), 0U);
+  EXPECT_EQ(verdict(nearby_wall(), towards_wall, {false, 0.0}, false).missed, 1U);
   Query away = towards_wall;
   away.motion = -away.motion;
-  EXPECT_EQ(verdict(wall_at_5(), away, {true, 0.0}, false).false_hits, 1U);
+  EXPECT_EQ(verdict(nearby_wall(), away, {true, 0.0}, false).false_hits, 1U);
 }
 
 TEST(BenchReference, TouchesFaceEdgeAndVertexWhenTheyAreARadiusAway) {
-  const Reference reference = wall_at_5();
+  const Reference reference = nearby_wall();
   EXPECT_DOUBLE_EQ(reference.sweep(towards_wall).time, touch);
   Query query = towards_wall;
   query.from.z = -9.3;  // 0.3 m below the lower edge: 3-4-5
@@ -80,7 +80,7 @@ TEST(BenchReference, TouchesFaceEdgeAndVertexWhenTheyAreARadiusAway) {
 }
 
 TEST(BenchReference, TouchesWithTheAxisOfACapsule) {
-  const Reference reference = wall_at_5();
+  const Reference reference = nearby_wall();
   Query query = towards_wall;
   query.body.half_height = 2.0;
   query.from.z = -11.3;  // the axis ends 0.3 m below the lower edge

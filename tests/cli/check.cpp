@@ -67,7 +67,7 @@ class CheckVerb : public testing::Test {
 };
 
 /// Without the checksum.
-std::vector<std::string> lines_of(const std::string& certificate) {
+std::vector<std::string> certified_lines(const std::string& certificate) {
   std::istringstream in(certificate);
   std::vector<std::string> lines;
   for (std::string line; std::getline(in, line);) lines.push_back(line);
@@ -129,7 +129,7 @@ TEST_F(CheckVerb, SaysHowNearTheBodyComes) {
   EXPECT_TRUE(contains(check().out, "nearest     at least 0.")) << check().out;
   // A bound without any gap claims less, and is as true.
   std::string weaker;
-  for (const std::string& line : lines_of(text)) {
+  for (const std::string& line : certified_lines(text)) {
     std::vector<std::string> words = words_of(line);
     if (words[0] == "segment") words.back() = words[8];
     weaker += joined(words) + "\n";
@@ -139,7 +139,7 @@ TEST_F(CheckVerb, SaysHowNearTheBodyComes) {
 }
 
 TEST_F(CheckVerb, RefusesASmallerRadius) {
-  const std::vector<std::string> lines = lines_of(course());
+  const std::vector<std::string> lines = certified_lines(course());
   std::vector<std::string> forged = lines;
   const std::size_t at = line_of(lines, 20);
   std::vector<std::string> words = words_of(lines[at]);
@@ -170,7 +170,7 @@ TEST_F(CheckVerb, RefusesASmallerRadius) {
 }
 
 TEST_F(CheckVerb, RefusesACornerThatWasMoved) {
-  const std::vector<std::string> lines = lines_of(course());
+  const std::vector<std::string> lines = certified_lines(course());
   const std::size_t at = line_of(lines, 20);
   std::vector<std::string> forged = lines, words = words_of(lines[at]), next = words_of(lines[at + 1]);
   words[7] = shifted(words[7], -0.01);  // into the floor
@@ -182,7 +182,7 @@ TEST_F(CheckVerb, RefusesACornerThatWasMoved) {
 }
 
 TEST_F(CheckVerb, RefusesARaisedBound) {
-  const std::vector<std::string> lines = lines_of(course());
+  const std::vector<std::string> lines = certified_lines(course());
   for (const std::size_t number : {std::size_t{20}, std::size_t{200}}) {
     std::vector<std::string> forged = lines;
     const std::size_t at = line_of(lines, number);
@@ -194,7 +194,7 @@ TEST_F(CheckVerb, RefusesARaisedBound) {
 }
 
 TEST_F(CheckVerb, RefusesAWayWithAPieceLeftOut) {
-  std::vector<std::string> forged = lines_of(course());
+  std::vector<std::string> forged = certified_lines(course());
   forged.erase(forged.begin() + static_cast<std::ptrdiff_t>(line_of(forged, 30)));
   expect_refused(forged, 31, "a segment before it is missing");
   for (std::string& line : forged) {  // and all numbers made right
@@ -207,7 +207,7 @@ TEST_F(CheckVerb, RefusesAWayWithAPieceLeftOut) {
 }
 
 TEST_F(CheckVerb, RefusesAnotherScene) {
-  const std::vector<std::string> lines = lines_of(course());
+  const std::vector<std::string> lines = certified_lines(course());
   std::string moved = course_obj();
   moved.replace(moved.find("v 20 2 0"), 8, "v 20 2.001 0");
   folder_.write("scene.obj", moved);
@@ -250,7 +250,7 @@ TEST_F(CheckVerb, SaysThatTheBodyWasPutElsewhere) {
 TEST_F(CheckVerb, SaysHowATextWasChangedThatIsNotAsItWasWritten) {
   const std::string text = course();
   std::string windows, next;
-  for (const std::string& line : lines_of(text)) {
+  for (const std::string& line : certified_lines(text)) {
     windows += line + "\r\n";
     next += (next.empty() ? "roam certificate 2" : line) + "\n";
   }

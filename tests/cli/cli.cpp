@@ -10,10 +10,8 @@
 
 namespace {
 
-ProgramResult roam(const std::vector<std::string>& arguments) { return run_program(ROAM_PROGRAM, arguments); }
-
 TEST(CommandLine, TellsItsVersion) {
-  const ProgramResult result = roam({"--version"});
+  const ProgramResult result = run_roam({"--version"});
   EXPECT_EQ(result.status, 0);
   EXPECT_TRUE(result.out.starts_with("roam " ROAM_PACKAGE_VERSION "\nscenes are read behind: ")) << result.out;
 }
@@ -23,7 +21,7 @@ TEST(CommandLine, ExplainsEveryVerbWithExamples) {
       {}, {"walk"}, {"sweep"}, {"info"}, {"make"}, {"make", "gallery"}, {"make", "terrain"}, {"make", "city"}};
   for (std::vector<std::string> verb : verbs) {
     verb.push_back("--help");
-    const ProgramResult result = roam(verb);
+    const ProgramResult result = run_roam(verb);
     EXPECT_EQ(result.status, 0);
     EXPECT_TRUE(contains(result.out, "Examples:\n  ")) << result.out;
     EXPECT_EQ(result.err, "");
@@ -48,7 +46,7 @@ TEST(CommandLine, FailsAndDoesNotCrashWhenNotEvenItsMessageCanBeWritten) {
 }
 
 TEST(CommandLine, NamesTheUnknownOptionAndWhereToLook) {
-  const ProgramResult result = roam({"walk", "scene.obj", "--path", "a.path", "--radis", "0.3"});
+  const ProgramResult result = run_roam({"walk", "scene.obj", "--path", "a.path", "--radis", "0.3"});
   EXPECT_EQ(result.status, 2);
   EXPECT_EQ(result.out, "");
   EXPECT_TRUE(contains(result.err, "--radis")) << result.err;
@@ -80,7 +78,7 @@ TEST(CommandLine, RefusesWrongUsageWithStatusTwo) {
       {"make", "terrain", "-o", "t.ply", "--size", "1e9"},
   };
   for (const auto& arguments : wrong) {
-    const ProgramResult result = roam(arguments);
+    const ProgramResult result = run_roam(arguments);
     std::string line;
     for (const std::string& argument : arguments) line += argument + " ";
     EXPECT_EQ(result.status, 2) << line << "\n" << result.err;
@@ -90,7 +88,7 @@ TEST(CommandLine, RefusesWrongUsageWithStatusTwo) {
 }
 
 TEST(CommandLine, NamesTheSceneThatIsNotThere) {
-  const ProgramResult result = roam({"info", "no/such/scene.obj"});
+  const ProgramResult result = run_roam({"info", "no/such/scene.obj"});
   EXPECT_EQ(result.status, 1);
   EXPECT_TRUE(contains(result.err, "no/such/scene.obj")) << result.err;
 }
@@ -98,7 +96,7 @@ TEST(CommandLine, NamesTheSceneThatIsNotThere) {
 TEST(CommandLine, RefusesASceneWithoutTriangles) {
   const TestFolder folder;
   const std::string scene = folder.write("empty.obj", "# nothing\nv 0 0 0\n");
-  const ProgramResult result = roam({"info", scene});
+  const ProgramResult result = run_roam({"info", scene});
   EXPECT_EQ(result.status, 1);
   EXPECT_TRUE(contains(result.err, "empty.obj")) << result.err;
   EXPECT_TRUE(contains(result.err, "triangle")) << result.err;
@@ -124,7 +122,7 @@ TEST(Progress, WritesCountsAndTimesForPeople) {
 nlohmann::json info(const std::vector<std::string>& arguments) {
   std::vector<std::string> all{"info", "--json"};
   all.insert(all.end(), arguments.begin(), arguments.end());
-  const ProgramResult result = roam(all);
+  const ProgramResult result = run_roam(all);
   EXPECT_EQ(result.status, 0) << result.err;
   return nlohmann::json::parse(result.out, nullptr, false);
 }
@@ -148,11 +146,11 @@ TEST(Info, SaysWhatASceneHolds) {
 TEST(Info, SaysFirstHowLargeItIsAndKeepsFiguresForStats) {
   const TestFolder folder;
   const std::string scene = folder.write("room.obj", room_obj());
-  const ProgramResult result = roam({"info", scene});
+  const ProgramResult result = run_roam({"info", scene});
   EXPECT_EQ(result.status, 0) << result.err;
   const std::string first = result.out.substr(0, result.out.find("\n  from"));
   EXPECT_TRUE(contains(first, "20.00 x 4.00 x 3.00 m")) << result.out;
-  const ProgramResult stats = roam({"info", scene, "--stats"});
+  const ProgramResult stats = run_roam({"info", scene, "--stats"});
   EXPECT_TRUE(stats.out.starts_with(result.out)) << stats.out;
   EXPECT_TRUE(contains(stats.out, "largest error")) << stats.out;
   EXPECT_FALSE(contains(result.out, "largest error")) << result.out;

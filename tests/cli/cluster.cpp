@@ -9,8 +9,6 @@ namespace {
 
 using namespace store_builds;
 
-ProgramResult roam(const std::vector<std::string>& arguments) { return run_program(ROAM_PROGRAM, arguments); }
-
 TEST(Cluster, WritesJobsForSlurm) {
   const TestFolder folder;
   const std::string scene = write_ply(folder.file("it's a $(scene).ply"), field(20, 0.5, {0.0, 0.0, 0.0}));
@@ -27,7 +25,7 @@ case "$*" in
 esac > "$0.out" || exit
 echo "4$(wc -l < ')" + folder.file("jobs") + "');cluster\"\n";
   std::filesystem::permissions(folder.file("bin/sbatch"), std::filesystem::perms::owner_all);
-  const auto printed = roam(verb);
+  const auto printed = run_roam(verb);
   ASSERT_EQ(printed.status, 0) << printed.err;
   const std::string path = std::getenv("PATH");
   const EnvironmentVariable with_slurm("PATH", folder.file("bin") + ":" + path);
@@ -44,9 +42,9 @@ echo "4$(wc -l < ')" + folder.file("jobs") + "');cluster\"\n";
   EXPECT_NEAR(roam::Store::open(store)->info().bounds.upper.x, 10.0 * 0.3048, 0.001) << "in feet";
   auto submitted = verb;
   submitted.push_back("--submit");
-  EXPECT_EQ(roam(submitted).status, 0);
+  EXPECT_EQ(run_roam(submitted).status, 0);
   const EnvironmentVariable without("PATH", folder.file("nothing"));
-  const auto refused = roam(submitted);
+  const auto refused = run_roam(submitted);
   EXPECT_EQ(refused.status, 1);
   EXPECT_NE(refused.err.find("there is no sbatch here"), std::string::npos) << refused.err;
 }
@@ -61,14 +59,14 @@ TEST(Cluster, SubmitsJobsOfAnyNumberOfScenes) {
   for (int i = 0; i < 40; ++i) {
     verb.push_back(write_ply((deep / (std::to_string(i) + ".ply")).string(), field(1, 0.5, {0.0, 0.0, 0.0})));
   }
-  EXPECT_GT(roam(verb).out.size(), 128U << 10);
+  EXPECT_GT(run_roam(verb).out.size(), 128U << 10);
   verb.emplace_back("--submit");
   std::filesystem::create_directory(folder.file("bin"));
   std::ofstream(folder.file("bin/sbatch")) << "#!/bin/sh\ncat > /dev/null\necho 7\n";
   std::filesystem::permissions(folder.file("bin/sbatch"), std::filesystem::perms::owner_all);
   const std::string path = std::getenv("PATH");
   const EnvironmentVariable with_slurm("PATH", folder.file("bin") + ":" + path);
-  const auto run = roam(verb);
+  const auto run = run_roam(verb);
   EXPECT_EQ(run.status, 0) << run.err;
   EXPECT_EQ(run.out, "The jobs are 7 7 7 7; the last one writes slurm-7.out.\n");
 }
@@ -78,15 +76,15 @@ TEST(Cluster, RefusesNamesThatTheShellWouldRead) {
   const std::string scene = write_ply(folder.file("a\nEND\n.ply"), field(2, 0.5, {0.0, 0.0, 0.0}));
   const std::string steering = write_ply(folder.file("a\xc2\x9b.ply"), field(2, 0.5, {0.0, 0.0, 0.0}));
   for (const std::string& name : {scene, steering}) {
-    const auto refused = roam({"cluster", "slurm", name, "--shards", "3"});
+    const auto refused = run_roam({"cluster", "slurm", name, "--shards", "3"});
     EXPECT_EQ(refused.status, 2);
     EXPECT_NE(refused.err.find("this name has a line break"), std::string::npos) << refused.err;
   }
   const std::string old = write_ply(folder.file("caf\xe9.ply"), field(2, 0.5, {0.0, 0.0, 0.0}));
-  EXPECT_NE(roam({"cluster", "slurm", old, "--shards", "3"}).out.find("caf\xe9.ply'"), std::string::npos);
-  EXPECT_EQ(roam({"cluster", "slurm", folder.file("absent.ply"), "--shards", "3"}).status, 1);
-  EXPECT_EQ(roam({"cluster", "slurm", scene}).status, 2);
-  EXPECT_EQ(roam({"cluster"}).status, 2);
+  EXPECT_NE(run_roam({"cluster", "slurm", old, "--shards", "3"}).out.find("caf\xe9.ply'"), std::string::npos);
+  EXPECT_EQ(run_roam({"cluster", "slurm", folder.file("absent.ply"), "--shards", "3"}).status, 1);
+  EXPECT_EQ(run_roam({"cluster", "slurm", scene}).status, 2);
+  EXPECT_EQ(run_roam({"cluster"}).status, 2);
 }
 
 }  // namespace

@@ -12,7 +12,7 @@
 
 namespace {
 
-using Words = std::set<std::string>;
+using Completions = std::set<std::string>;
 
 /// A folder with scenes, a store and other files, and the scripts.
 class Stage {
@@ -33,11 +33,11 @@ class Stage {
 };
 
 /// The completions that `shell` writes, one a line, without what follows a tab, and without quoting.
-Words completions(const std::string& shell, const std::vector<std::string>& arguments) {
+Completions completions(const std::string& shell, const std::vector<std::string>& arguments) {
   const ProgramResult result = run_program(shell, arguments);
   EXPECT_EQ(result.status, 0) << result.err;
   EXPECT_EQ(result.err, "");
-  Words words;
+  Completions words;
   for (std::string line : lines_of(result.out)) {
     line = line.substr(0, line.find('\t'));
     std::erase(line, '\\');
@@ -78,7 +78,7 @@ class Completion : public testing::TestWithParam<Shell> {
     ::setenv("BASH_COMPLETION", package.c_str(), 1);
   }
   /// The completions of the last word; the first is "roam".
-  [[nodiscard]] Words complete(const std::vector<std::string>& words) const {
+  [[nodiscard]] Completions complete(const std::vector<std::string>& words) const {
     std::vector<std::string> arguments = GetParam().options;
     arguments.push_back(std::string(TEST_PROGRAMS "/complete.") + GetParam().program);
     arguments.push_back(stage_.path());
@@ -93,12 +93,12 @@ class Completion : public testing::TestWithParam<Shell> {
 
 TEST_P(Completion, OffersVerbsAndKinds) {
   const std::vector<std::string> verbs = names_in(help_of({}));
-  Words expected(verbs.begin(), verbs.end());
+  Completions expected(verbs.begin(), verbs.end());
   expected.insert("help");
   EXPECT_EQ(complete({"roam", ""}), expected);
-  EXPECT_EQ(complete({"roam", "wa"}), Words{"walk"});
-  EXPECT_EQ(complete({"roam", "make", ""}), (Words{"gallery", "terrain", "city"}));
-  EXPECT_EQ(complete({"roam", "help", "wa"}), Words{"walk"});
+  EXPECT_EQ(complete({"roam", "wa"}), Completions{"walk"});
+  EXPECT_EQ(complete({"roam", "make", ""}), (Completions{"gallery", "terrain", "city"}));
+  EXPECT_EQ(complete({"roam", "help", "wa"}), Completions{"walk"});
 }
 
 TEST_P(Completion, OffersEveryOptionOfTheVerb) {
@@ -107,32 +107,33 @@ TEST_P(Completion, OffersEveryOptionOfTheVerb) {
     std::vector<std::string> words{std::istream_iterator<std::string>(parts), {}};
     if (words.size() == 1) continue;
     words.emplace_back("--");
-    Words options;
+    Completions options;
     for (const std::string& line : lines_of(help.text)) {
       const std::size_t at = line.find("--");
       // "  --up AXIS" or "  -o, --output FILE"
       if (at == 2 || (at == 6 && line.starts_with("  -"))) options.insert(line.substr(at, line.find(' ', at) - at));
     }
-    Words offered = complete(words);
+    Completions offered = complete(words);
     std::erase_if(offered, [](const std::string& word) { return !word.starts_with("--"); });
     EXPECT_EQ(offered, options) << help.verb;
   }
 }
 
 TEST_P(Completion, OffersTheValuesOfAnOption) {
-  EXPECT_EQ(complete({"roam", "walk", "house.obj", "--mode", ""}), (Words{"fly", "walk", "ghost"}));
-  EXPECT_EQ(complete({"roam", "probe", "--mode", ""}), (Words{"fly", "walk"}));
-  EXPECT_EQ(complete({"roam", "info", "--unit", "m"}), (Words{"m", "mm"}));
-  EXPECT_EQ(complete({"roam", "walk", "--radius", ""}), Words{});
+  EXPECT_EQ(complete({"roam", "walk", "house.obj", "--mode", ""}), (Completions{"fly", "walk", "ghost"}));
+  EXPECT_EQ(complete({"roam", "probe", "--mode", ""}), (Completions{"fly", "walk"}));
+  EXPECT_EQ(complete({"roam", "info", "--unit", "m"}), (Completions{"m", "mm"}));
+  EXPECT_EQ(complete({"roam", "walk", "--radius", ""}), Completions{});
 }
 
 TEST_P(Completion, OffersFilesByTheirEndings) {
-  EXPECT_EQ(complete({"roam", "view", ""}), (Words{"house.obj", "mine.GLB", "two words.ply", "dam.roam", "share"}));
-  EXPECT_EQ(complete({"roam", "view", "--fullscreen", "hou"}), Words{"house.obj"});
-  EXPECT_EQ(complete({"roam", "walk", "--picture", ""}), (Words{"plan.svg", "dam.roam", "share"}));
-  EXPECT_EQ(complete({"roam", "walk", "--path", "t"}), (Words{"tour.path", "two words.ply"}));
-  EXPECT_EQ(complete({"roam", "verify", ""}), (Words{"dam.roam", "share"}));
-  EXPECT_EQ(complete({"roam", "view", "--store", "d"}), Words{"dam.roam"});
+  EXPECT_EQ(complete({"roam", "view", ""}),
+            (Completions{"house.obj", "mine.GLB", "two words.ply", "dam.roam", "share"}));
+  EXPECT_EQ(complete({"roam", "view", "--fullscreen", "hou"}), Completions{"house.obj"});
+  EXPECT_EQ(complete({"roam", "walk", "--picture", ""}), (Completions{"plan.svg", "dam.roam", "share"}));
+  EXPECT_EQ(complete({"roam", "walk", "--path", "t"}), (Completions{"tour.path", "two words.ply"}));
+  EXPECT_EQ(complete({"roam", "verify", ""}), (Completions{"dam.roam", "share"}));
+  EXPECT_EQ(complete({"roam", "view", "--store", "d"}), Completions{"dam.roam"});
 }
 
 // Readline makes three words of --up=-y.
@@ -142,9 +143,9 @@ TEST_P(Completion, TakesValuesAfterAnEqualSign) {
       bash ? std::vector<std::string>{"--up", "=", "-"} : std::vector<std::string>{"--up=-"};
   std::vector<std::string> words = {"roam", "walk"};
   words.insert(words.end(), up.begin(), up.end());
-  Words plain;
+  Completions plain;
   for (const std::string& word : complete(words)) plain.insert(word.substr(word.find('=') + 1));
-  EXPECT_EQ(plain, (Words{"-x", "-y", "-z"}));
+  EXPECT_EQ(plain, (Completions{"-x", "-y", "-z"}));
 }
 
 INSTANTIATE_TEST_SUITE_P(Shells, Completion, testing::ValuesIn(shells),

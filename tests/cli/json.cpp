@@ -13,8 +13,6 @@ namespace {
 using nlohmann::json;
 using Arguments = std::vector<std::string>;
 
-ProgramResult roam(const Arguments& arguments) { return run_program(ROAM_PROGRAM, arguments); }
-
 /// The one JSON object on standard output.
 json object_of(const ProgramResult& result) {
   json object = json::parse(result.out, nullptr, false);
@@ -44,7 +42,7 @@ TEST(Json, EveryReportHasVersionAndSchema) {
     SCOPED_TRACE(arguments.front());
     Arguments all = arguments;
     all.push_back("--json");
-    const json report = object_of(roam(all));
+    const json report = object_of(run_roam(all));
     EXPECT_GT(report.size(), 3u);
     EXPECT_FALSE(report.contains("error"));
   }
@@ -64,15 +62,15 @@ TEST(Json, HasTheLinesOfTheReportForPeople) {
     Arguments all = arguments;
     all.push_back("--json");
     std::string text;
-    const json report = object_of(roam(all));
+    const json report = object_of(run_roam(all));
     for (const json& line : report["text"]) text += line.get<std::string>() + "\n";
-    EXPECT_EQ(text, roam(arguments).out);
+    EXPECT_EQ(text, run_roam(arguments).out);
     EXPECT_NE(text, "");
   }
 }
 
 TEST(Json, ACommandThatFailsHasAnObjectToo) {
-  const ProgramResult missing = roam({"info", "no/such/scene.obj", "--json"});
+  const ProgramResult missing = run_roam({"info", "no/such/scene.obj", "--json"});
   EXPECT_EQ(missing.status, 1);
   const json error = object_of(missing)["error"];
   EXPECT_EQ(error["where"], "no/such/scene.obj");
@@ -94,7 +92,7 @@ TEST(Json, SoDoesOneThatIsWrong) {
                           {{"wlak", "--json"}, nullptr, "there is no verb 'wlak'. Did you mean 'walk'?"},
                           {{"build", "a.obj", "--memory", "1M", "--json"}, "--memory 1 MiB", nullptr},
                           {{"walk", "a.obj", "--json"}, "walk", nullptr}}) {
-    const ProgramResult result = roam(wrong.arguments);
+    const ProgramResult result = run_roam(wrong.arguments);
     EXPECT_EQ(result.status, 2);
     const json error = object_of(result)["error"];
     EXPECT_EQ(error["where"], wrong.where == nullptr ? json() : json(wrong.where));
@@ -114,13 +112,13 @@ TEST(Json, AReportIsFollowedByNoSecondObject) {
   EXPECT_FALSE(object_of(result).contains("error"));
 }
 
-TEST(Json, WithoutItAFailureLeavesStandardOutputEmpty) { EXPECT_EQ(roam({"info", "no/such/scene.obj"}).out, ""); }
+TEST(Json, WithoutItAFailureLeavesStandardOutputEmpty) { EXPECT_EQ(run_roam({"info", "no/such/scene.obj"}).out, ""); }
 
 /// The error of a command that fails with this status, with all that holds of every error.
 json error_of(const Arguments& arguments, int status) {
   Arguments all = arguments;
   all.emplace_back("--json");
-  const ProgramResult result = roam(all);
+  const ProgramResult result = run_roam(all);
   EXPECT_EQ(result.status, status) << result.err;
   const json error = object_of(result)["error"];
   EXPECT_TRUE(contains(result.err, error["message"])) << result.err;
@@ -185,7 +183,7 @@ TEST(Json, AFailureNamesTheOption) {
 TEST(Json, AFailureNamesTheDamagedFileOfAStore) {
   const TestFolder folder;
   const std::string scene = folder.write("room.obj", room_obj()), store = folder.file("room.roam");
-  ASSERT_EQ(roam({"build", scene, "-o", store}).status, 0);
+  ASSERT_EQ(run_roam({"build", scene, "-o", store}).status, 0);
   const Arguments probe{"probe", store, "--from", "2,0,1", "--to", "8,0,1", "--radius", "0.3"};
   const auto only_file = [&](const char* kind) {
     return std::filesystem::directory_iterator(store + "/" + kind)->path().string();
@@ -200,7 +198,7 @@ TEST(Json, AFailureNamesTheDamagedFileOfAStore) {
 TEST(Json, LinesEndWithTheErrorOfABuildThatFails) {
   const TestFolder folder;
   const std::string mesh = folder.write("broken.obj", "v 0 0 0\nf 1 2 oops\n");
-  const ProgramResult result = roam({"build", mesh, "-o", folder.file("broken.roam"), "--json-lines"});
+  const ProgramResult result = run_roam({"build", mesh, "-o", folder.file("broken.roam"), "--json-lines"});
   EXPECT_EQ(result.status, 1);
   const std::size_t line = result.out.rfind('\n', result.out.size() - 2) + 1;  // npos + 1 is 0
   const json last = json::parse(result.out.substr(line), nullptr, false);

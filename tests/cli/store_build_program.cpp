@@ -14,14 +14,10 @@ namespace {
 using namespace store_builds;
 using Json = nlohmann::json;
 
-ProgramResult roam(const std::vector<std::string>& arguments, const ProgramOptions& options = {}) {
-  return run_program(ROAM_PROGRAM, arguments, options);
-}
-
 TEST(StoreBuildProgram, BuildsBesideTheSceneAndSaysWhatItDid) {
   const TestFolder folder;
   const std::string scene = write_ply(folder.file("a.ply"), field(60, 0.5, {0.0, 0.0, 0.0}));
-  const auto first = roam({"build", scene, "--json"});
+  const auto first = run_roam({"build", scene, "--json"});
   ASSERT_EQ(first.status, 0) << first.err;
   const Json json = Json::parse(first.out);
   EXPECT_EQ(json["store"], scene + ".roam");
@@ -29,7 +25,7 @@ TEST(StoreBuildProgram, BuildsBesideTheSceneAndSaysWhatItDid) {
   EXPECT_EQ(json["shards_built"], 1);
   EXPECT_EQ(json["unchanged"], false);
   EXPECT_EQ(json["hash"], roam::Store::open(scene + ".roam")->info().hash);
-  const auto second = roam({"build", scene});
+  const auto second = run_roam({"build", scene});
   EXPECT_EQ(second.status, 0) << second.err;
   EXPECT_NE(second.out.find("up to date"), std::string::npos) << second.out;
 }
@@ -37,7 +33,7 @@ TEST(StoreBuildProgram, BuildsBesideTheSceneAndSaysWhatItDid) {
 TEST(StoreBuildProgram, SaysItsProgressInJsonLines) {
   const TestFolder folder;
   const std::string scene = write_ply(folder.file("a.ply"), field(60, 0.5, {0.0, 0.0, 0.0}));
-  const auto build = roam({"build", scene, "--json-lines", "--near=-5,1e3,2"});
+  const auto build = run_roam({"build", scene, "--json-lines", "--near=-5,1e3,2"});
   ASSERT_EQ(build.status, 0) << build.err;
   std::istringstream lines(build.out);
   std::vector<Json> objects;
@@ -51,23 +47,23 @@ TEST(StoreBuildProgram, SaysItsProgressInJsonLines) {
   }
   EXPECT_EQ(objects.back()["hash"], roam::Store::open(scene + ".roam")->info().hash);
   EXPECT_EQ(build.err, "") << "progress for people, too";
-  EXPECT_EQ(roam({"build", scene, "--near", "1,2"}).status, 2);
-  EXPECT_EQ(roam({"build", scene, "--near", "1,nan,2"}).status, 2);
+  EXPECT_EQ(run_roam({"build", scene, "--near", "1,2"}).status, 2);
+  EXPECT_EQ(run_roam({"build", scene, "--near", "1,nan,2"}).status, 2);
 }
 
 TEST(StoreBuildProgram, BuildsInSteps) {
   const TestFolder folder;
   const std::string scene = write_ply(folder.file("a.ply"), field(60, 0.5, {0.0, 0.0, 0.0}));
-  const auto plan = roam({"build", scene, "-o", folder.file("s"), "--plan", "--json"});
+  const auto plan = run_roam({"build", scene, "-o", folder.file("s"), "--plan", "--json"});
   ASSERT_EQ(plan.status, 0) << plan.err;
   EXPECT_EQ(Json::parse(plan.out)["shards_to_build"], 1);
-  const auto early = roam({"build", "-o", folder.file("s"), "--merge"});
+  const auto early = run_roam({"build", "-o", folder.file("s"), "--merge"});
   EXPECT_EQ(early.status, 1);
   EXPECT_NE(early.err.find("missing shards: 1, damaged shards: 0, in tasks 0 of 1;"), std::string::npos) << early.err;
-  const auto shard = roam({"build", "-o", folder.file("s"), "--shard", "0"});
+  const auto shard = run_roam({"build", "-o", folder.file("s"), "--shard", "0"});
   EXPECT_EQ(shard.status, 0);
   EXPECT_EQ(shard.out.rfind("task 0 of 1: shards built: 1, there already: 0, in ", 0), 0U) << shard.out;
-  const auto merge = roam({"build", "-o", folder.file("s"), "--merge"});
+  const auto merge = run_roam({"build", "-o", folder.file("s"), "--merge"});
   EXPECT_EQ(merge.status, 0) << merge.err;
   EXPECT_NE(merge.out.find("7200 triangles"), std::string::npos) << merge.out;
   expect_whole(folder.file("s"));
@@ -84,7 +80,7 @@ TEST(StoreBuildProgram, ReadsSharesOfTheSceneBeforeThePlan) {
     arguments.insert(arguments.end(), scene.begin(), scene.end());
     more.insert(more.end(), {"-o", folder.file("s"), "--unit", "ft"});
     arguments.insert(arguments.end(), more.begin(), more.end());
-    return roam(arguments);
+    return run_roam(arguments);
   };
   {
     const EnvironmentVariable job("PBS_ARRAY_INDEX", "1");
@@ -106,34 +102,34 @@ TEST(StoreBuildProgram, ReadsSharesOfTheSceneBeforeThePlan) {
   EXPECT_EQ(Json::parse(plan.out)["parts_read"], 0);
   EXPECT_EQ(build({"--plan", "2", "--shard", "2"}).status, 0) << "nothing to do";
   EXPECT_EQ(build({"--plan", "--shard", "0"}).status, 2) << "of how many?";
-  EXPECT_EQ(roam({"build", "-o", folder.file("s"), "--plan", "2", "--shard", "0"}).status, 2) << "of which scene?";
+  EXPECT_EQ(run_roam({"build", "-o", folder.file("s"), "--plan", "2", "--shard", "0"}).status, 2) << "of which scene?";
 }
 
 TEST(StoreBuildProgram, SaysWhichShardsThereAre) {
   const TestFolder folder;
   const std::string scene = write_ply(folder.file("a.ply"), field(60, 0.5, {0.0, 0.0, 0.0}));
   const std::string store = folder.file("s");
-  const auto one = roam({"build", scene, "-o", store, "--plan"});
+  const auto one = run_roam({"build", scene, "-o", store, "--plan"});
   EXPECT_EQ(one.out.rfind("1 task: --shard 0, on", 0), 0U) << one.out;
-  EXPECT_EQ(roam({"build", "-o", store, "--shard", "-1"}).status, 2);
-  EXPECT_EQ(roam({"build", "-o", store, "--shard", "0"}).status, 0);
-  EXPECT_EQ(roam({"build", "-o", store, "--merge"}).status, 0);
+  EXPECT_EQ(run_roam({"build", "-o", store, "--shard", "-1"}).status, 2);
+  EXPECT_EQ(run_roam({"build", "-o", store, "--shard", "0"}).status, 0);
+  EXPECT_EQ(run_roam({"build", "-o", store, "--merge"}).status, 0);
   // The part is made again, its shard is there: nothing but a merge is left to do.
   std::filesystem::remove_all(store + "/parts");
-  const auto none = roam({"build", scene, "-o", store, "--plan"});
+  const auto none = run_roam({"build", scene, "-o", store, "--plan"});
   EXPECT_EQ(none.status, 0) << none.err;
   EXPECT_EQ(none.out.find("--shard 0"), std::string::npos) << none.out;
   EXPECT_NE(none.out.find("--merge"), std::string::npos) << none.out;
-  EXPECT_EQ(roam({"build", "-o", store, "--merge"}).status, 0);
+  EXPECT_EQ(run_roam({"build", "-o", store, "--merge"}).status, 0);
 }
 
 TEST(StoreBuildProgram, TakesTheNumberOfItsTaskFromABatchEngine) {
   const TestFolder folder;
   const std::string scene = write_ply(folder.file("a.ply"), field(20, 0.5, {0.0, 0.0, 0.0}));
   const std::string store = folder.file("s");
-  const auto task = [&] { return roam({"build", "-o", store, "--shard", "auto"}); };
+  const auto task = [&] { return run_roam({"build", "-o", store, "--shard", "auto"}); };
   // Before SCENE, --plan without a number is --plan.
-  ASSERT_EQ(roam({"build", "--plan", scene, "-o", store}).status, 0);
+  ASSERT_EQ(run_roam({"build", "--plan", scene, "-o", store}).status, 0);
   const auto outside = task();
   EXPECT_EQ(outside.status, 2);
   EXPECT_NE(outside.err.find("this is no job of an array"), std::string::npos) << outside.err;
@@ -160,7 +156,7 @@ TEST(StoreBuildProgram, TakesTheNumberOfItsTaskFromABatchEngine) {
     EXPECT_EQ(beyond.status, 0) << beyond.err;
     EXPECT_NE(beyond.out.find("no task 7 in the plan: they go from 0 to 0 (SLURM_ARRAY_TASK_ID=7)"), std::string::npos)
         << beyond.out;
-    const auto named = roam({"build", "-o", store, "--shard", "7"});
+    const auto named = run_roam({"build", "-o", store, "--shard", "7"});
     EXPECT_EQ(named.status, 0) << named.err;
     EXPECT_NE(named.out.find("nothing to do: "), std::string::npos) << named.out;
   }
@@ -168,9 +164,9 @@ TEST(StoreBuildProgram, TakesTheNumberOfItsTaskFromABatchEngine) {
     const EnvironmentVariable slurm("SLURM_ARRAY_TASK_ID", wrong);
     EXPECT_EQ(task().status, 2) << wrong;
   }
-  ASSERT_EQ(roam({"build", "-o", store, "--merge"}).status, 0);
+  ASSERT_EQ(run_roam({"build", "-o", store, "--merge"}).status, 0);
   const EnvironmentVariable late("AWS_BATCH_JOB_ARRAY_INDEX", "0");
-  for (const auto& repeated : {task(), roam({"build", "-o", store, "--merge"})}) {
+  for (const auto& repeated : {task(), run_roam({"build", "-o", store, "--merge"})}) {
     EXPECT_EQ(repeated.status, 0) << repeated.err;
     EXPECT_EQ(repeated.out, "nothing to do: " + store + " is complete, and no build of it is planned\n");
   }
@@ -179,22 +175,22 @@ TEST(StoreBuildProgram, TakesTheNumberOfItsTaskFromABatchEngine) {
 TEST(StoreBuildProgram, IsStoppedByCtrlCAndGoesOn) {
   const TestFolder folder;
   const std::string scene = write_ply(folder.file("a.ply"), field(900, 0.5, {0.0, 0.0, 0.0}));
-  const auto stopped = roam({"build", scene, "-o", folder.file("s")}, {.interrupt_after = 0.3});
+  const auto stopped = run_roam({"build", scene, "-o", folder.file("s")}, {.interrupt_after = 0.3});
   EXPECT_EQ(stopped.status, 130);
   EXPECT_NE(stopped.err.find("the same command again goes on"), std::string::npos) << stopped.err;
   EXPECT_FALSE(roam::Store::is_store(folder.file("s")));
-  const auto rest = roam({"build", scene, "-o", folder.file("s")});
+  const auto rest = run_roam({"build", scene, "-o", folder.file("s")});
   EXPECT_EQ(rest.status, 0) << rest.err;
   expect_whole(folder.file("s"));
 }
 
 TEST(StoreBuildProgram, RefusesWrongUsage) {
   const TestFolder folder;
-  EXPECT_EQ(roam({"build"}).status, 2);
-  EXPECT_EQ(roam({"build", "a.ply", "--plan", "--merge"}).status, 2);
-  EXPECT_EQ(roam({"build", "--merge"}).status, 2);
+  EXPECT_EQ(run_roam({"build"}).status, 2);
+  EXPECT_EQ(run_roam({"build", "a.ply", "--plan", "--merge"}).status, 2);
+  EXPECT_EQ(run_roam({"build", "--merge"}).status, 2);
   const std::string scene = write_ply(folder.file("a.ply"), field(4, 0.5, {0.0, 0.0, 0.0}));
-  const auto small = roam({"build", scene, "--memory", "10M"});
+  const auto small = run_roam({"build", scene, "--memory", "10M"});
   EXPECT_EQ(small.status, 2);
   EXPECT_NE(small.err.find("--memory 10 MiB: a build needs at least 256 MiB"), std::string::npos) << small.err;
 }

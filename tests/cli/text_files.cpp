@@ -45,10 +45,11 @@ class TextFiles : public testing::Test {
   std::string scene_;
 };
 
-constexpr const char* way = "# roam: mode fly radius 0.5 height 1 eye 0.5 step 0.3 slope 45\\n-5 0 3\\n5 0 3\\n";
+constexpr const char* printed_way =
+    "# roam: mode fly radius 0.5 height 1 eye 0.5 step 0.3 slope 45\\n-5 0 3\\n5 0 3\\n";
 
 TEST_F(TextFiles, APathMayComeThroughAPipe) {
-  const std::string text = "printf " + in_quotes(way);
+  const std::string text = "printf " + in_quotes(printed_way);
   const ProgramResult substituted = run(walk("<(" + text + ")"));
   EXPECT_EQ(substituted.status, 0) << substituted.err;
   const ProgramResult piped = run_program(

@@ -14,7 +14,7 @@ namespace {
 using namespace roam::draw;
 using roam::Mesh;
 
-void nobody(std::uint64_t) {}
+void unheard(std::uint64_t) {}
 
 TEST(PictureMemory, HoldsFewPlacesOfAWayOfAnyLength) {
   // Round and round, a little lower each time, and once near to something.
@@ -64,7 +64,7 @@ TEST(PictureMemory, HoldsOnlyAsManySegmentsAsItMay) {
     }
   }
   const PlanView view{LevelMap({{0, 0}, {n, n}}, 0), {0.5}, {}, 1.0};
-  const Cuts all = cut({&mesh, 1}, Turn{}, {&view, 1}, {}, nobody);
+  const Cuts all = cut({&mesh, 1}, Turn{}, {&view, 1}, {}, unheard);
   const std::size_t most = 4000;
   ASSERT_GT(all.plans[0].walls.size(), 2 * most);
   Cutter cutter(Turn{}, {&view, 1}, {}, {}, most);
@@ -73,7 +73,7 @@ TEST(PictureMemory, HoldsOnlyAsManySegmentsAsItMay) {
     for (std::size_t t = first; t < std::min(first + 5000, mesh.triangles.size()); ++t) {
       some.triangles.push_back(mesh.triangles[t]);
     }
-    cutter.add({&some, 1}, nobody);
+    cutter.add({&some, 1}, unheard);
   }
   const Cuts few = cutter.take();
   EXPECT_LE(few.plans[0].walls.size(), most);
@@ -104,7 +104,7 @@ TEST(PictureMemory, HoldsASectionAsItsFramesShowIt) {
                           Frame{{{900.0, 183.0}, {906.0, 186.0}}, 80.0, 80.0}};
   const std::size_t most = 16'384;
   Cutter cutter(Turn{}, {}, {&stretch, 1}, frames, most);
-  cutter.add({&mesh, 1}, nobody);
+  cutter.add({&mesh, 1}, unheard);
   const Cuts cuts = cutter.take();
   EXPECT_LE(cuts.sections[0].size(), most);
   EXPECT_GT(cuts.sections[0].size(), most / 8);

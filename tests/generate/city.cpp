@@ -5,7 +5,7 @@
 namespace roam::generate {
 namespace {
 
-std::vector<Mesh> only(const std::vector<Mesh>& meshes, const std::string& prefix) {
+std::vector<Mesh> of_prefix(const std::vector<Mesh>& meshes, const std::string& prefix) {
   std::vector<Mesh> some;
   std::copy_if(meshes.begin(), meshes.end(), std::back_inserter(some),
                [&](const Mesh& m) { return m.name.rfind(prefix, 0) == 0; });
@@ -37,14 +37,14 @@ TEST(GenerateCity, SameSeedSameBits) {
 TEST(GenerateCity, BuildingsAndBridgesAreClosedAndTheStreetEndsAtTheEdgeOfTown) {
   for (const std::uint64_t asked : {10'000u, 200'000u, 1'500'000u}) {
     const std::vector<Mesh> meshes = collect(city({.triangles = asked}));
-    EXPECT_EQ(unmatched_edges(only(meshes, "block_")), 0u);
-    EXPECT_GT(volume(only(meshes, "block_")), 1'000.0);
-    const std::vector<Mesh> bridges = only(meshes, "bridge_");
+    EXPECT_EQ(unmatched_edges(of_prefix(meshes, "block_")), 0u);
+    EXPECT_GT(volume(of_prefix(meshes, "block_")), 1'000.0);
+    const std::vector<Mesh> bridges = of_prefix(meshes, "bridge_");
     EXPECT_EQ(bridges.empty(), asked < 100'000u);
     if (!bridges.empty()) {
       EXPECT_EQ(unmatched_edges(bridges), 0u);
     }
-    const std::vector<Mesh> street = only(meshes, "street/");
+    const std::vector<Mesh> street = of_prefix(meshes, "street/");
     const Box box = box_of(street);
     for (const Vec3& p : open_rim(street)) {
       ASSERT_TRUE(p.x == box.lower.x || p.x == box.upper.x || p.y == box.lower.y || p.y == box.upper.y);

@@ -23,8 +23,8 @@ using Heights = std::set<double>;
 constexpr float endless = std::numeric_limits<float>::max();
 
 /// Writes tiles of heights 1, 2, ... and a tileset of them.
-fs::path write_scene(const TemporaryFolder& folder, const Json& root, int tiles,
-                     const Json& asset = {{"version", "1.1"}}) {
+fs::path write_paged_scene(const TemporaryFolder& folder, const Json& root, int tiles,
+                           const Json& asset = {{"version", "1.1"}}) {
   for (int i = 1; i <= tiles; ++i) {
     folder.write("tiles/" + std::to_string(i) + ".b3dm",
                  made_tile("b3dm", MadeGrid(1, static_cast<float>(i)).gltf().glb()));
@@ -60,7 +60,7 @@ TEST(ImportTilesetPages, ReplaceATileByAllItsChildrenAtOnce) {
   const TemporaryFolder folder;
   Json root = tile("1.b3dm", 4, {tile("2.b3dm", 0), tile("3.b3dm", 2, Json::array({tile("4.b3dm", 0)}))});
   root["transform"] = {3, 0, 0, 0, 0, 3, 0, 0, 0, 0, 3, 0, 100, 0, 0, 1};
-  TilesetPaging paging(write_scene(folder, root, 4), {.unit = LengthUnit::cm});
+  TilesetPaging paging(write_paged_scene(folder, root, 4), {.unit = LengthUnit::cm});
   EXPECT_EQ(paging.first.measure, DisplayMeasure::error);
   EXPECT_LT(glm::length(paging.first.center - Vec3(1, 0, 0)), 1e-6);
   EXPECT_LT(glm::length(paging.first.half - glm::vec3(0.3f, 0.6f, 0.9f)), 1e-6f);
@@ -87,7 +87,7 @@ TEST(ImportTilesetPages, ReplaceATileByAllItsChildrenAtOnce) {
 
 TEST(ImportTilesetPages, AddTilesOneByOne) {
   const TemporaryFolder folder;
-  TilesetPaging paging(write_scene(folder, tile("1.b3dm", 4, {tile("2.b3dm", 0), tile("3.b3dm", 0)}, "ADD"), 3));
+  TilesetPaging paging(write_paged_scene(folder, tile("1.b3dm", 4, {tile("2.b3dm", 0), tile("3.b3dm", 0)}, "ADD"), 3));
   ASSERT_EQ(paging.root.pages.size(), 3u);
   const DisplayPages& node = paging.root.pages[0];
   ASSERT_EQ(node.levels.size(), 2u);
@@ -106,10 +106,10 @@ TEST(ImportTilesetPages, PassThroughTilesWithoutContent) {
   const TemporaryFolder folder;
   // Below a tile that is replaced, at once: nothing else is there to be seen.
   const Json empty = tile("", 2, {tile("2.b3dm", 0), tile("", 1, Json::array({tile("3.b3dm", 0)}))});
-  TilesetPaging replaced(write_scene(folder, tile("1.b3dm", 4, Json::array({empty})), 3));
+  TilesetPaging replaced(write_paged_scene(folder, tile("1.b3dm", 4, Json::array({empty})), 3));
   EXPECT_EQ(heights_of(replaced.page(replaced.root.pages.at(0).levels.at(1)), 0), (Heights{2, 3}));
   // Else one by one, as near as their errors say.
-  TilesetPaging alone(write_scene(folder, tile("", 4, {tile("1.b3dm", 0), empty}), 3));
+  TilesetPaging alone(write_paged_scene(folder, tile("", 4, {tile("1.b3dm", 0), empty}), 3));
   EXPECT_EQ(alone.root.triangles, 0u);
   ASSERT_EQ(alone.root.pages.size(), 3u);
   EXPECT_EQ(alone.root.pages[0].error, 4.0f);
@@ -151,7 +151,7 @@ Json write_implicit(const TemporaryFolder& folder, bool inner_contents) {
 
 TEST(ImportTilesetPages, FollowImplicitTilingsFromSubtreeToSubtree) {
   const TemporaryFolder folder;
-  TilesetPaging paging(write_scene(folder, write_implicit(folder, true), 0));
+  TilesetPaging paging(write_paged_scene(folder, write_implicit(folder, true), 0));
   EXPECT_EQ(heights_of(paging.root, paging.root.pages.at(0).levels[0].group), Heights{1});
   const DisplayPart second = paging.page(paging.root.pages[0].levels.at(1));
   ASSERT_EQ(second.pages.size(), 4u);
@@ -182,7 +182,7 @@ TEST(ImportTilesetPages, ReadASubtreeAnewForATilingOfOtherLength) {
                               {"subtrees", {{"uri", "s.json"}}}};
     return root;
   };
-  TilesetPaging paging(write_scene(folder, tile("1.b3dm", 4, {tiling(2), tiling(20)}), 1));
+  TilesetPaging paging(write_paged_scene(folder, tile("1.b3dm", 4, {tiling(2), tiling(20)}), 1));
   const std::string error = paging.error(paging.root.pages.at(0).levels.at(1));
   EXPECT_NE(error.find("fewer bits"), std::string::npos) << error;
 }
@@ -205,7 +205,7 @@ TEST(ImportTilesetPages, AreTheTrianglesThatStopBodies) {
         tile("1.b3dm", 4, {two, moved}), tile("", 4, {two, tile("1.b3dm", 0)}), write_implicit(folder, true),
         write_implicit(folder, false)}) {
     for (const char* axis : {"Y", "Z"}) {
-      const fs::path tileset = write_scene(folder, root, 4, {{"version", "1.0"}, {"gltfUpAxis", axis}});
+      const fs::path tileset = write_paged_scene(folder, root, 4, {{"version", "1.0"}, {"gltfUpAxis", axis}});
       for (const ImportOptions& options : {ImportOptions{}, ImportOptions{.up = UpAxis::y, .unit = LengthUnit::ft}}) {
         const Finest shown = show_finest({tileset}, options);
         EXPECT_TRUE(shown.report.paged);
@@ -229,7 +229,7 @@ TEST(ImportTilesetPages, LieInTheFrameOfTheScene) {
   child["transform"] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, place.x, place.y, place.z, 1};
   Json root = tile("", 100, Json::array({child}));
   root["boundingVolume"] = region;
-  const fs::path tileset = write_scene(folder, root, 2);
+  const fs::path tileset = write_paged_scene(folder, root, 2);
   TilesetPaging paging(tileset);
   ASSERT_TRUE(paging.report.import.georeference);
   EXPECT_EQ(paging.report.import.georeference->srs, "ENU:46.2,8.1");
@@ -243,7 +243,7 @@ TEST(ImportTilesetPages, LieInTheFrameOfTheScene) {
 TEST(ImportTilesetPages, KeepTheCoarserTileWhereAFinerOneIsMissing) {
   const TemporaryFolder folder;
   for (const char* content : {"", "b3dm", "version https://git-lfs.github.com/spec/v1\n"}) {
-    const fs::path tileset = write_scene(folder, tile("1.b3dm", 4, {tile("2.b3dm", 0), tile("3.b3dm", 0)}), 2);
+    const fs::path tileset = write_paged_scene(folder, tile("1.b3dm", 4, {tile("2.b3dm", 0), tile("3.b3dm", 0)}), 2);
     if (*content != '\0') folder.write("tiles/3.b3dm", content);
     TilesetPaging paging(tileset);
     EXPECT_TRUE(contains(paging.error(paging.root.pages.at(0).levels.at(1)), "tiles/3.b3dm: this tile is absent"));
@@ -252,11 +252,12 @@ TEST(ImportTilesetPages, KeepTheCoarserTileWhereAFinerOneIsMissing) {
     EXPECT_EQ(shown.missing, 1u);
   }
   // A missing tile with finer ones is passed through.
-  const fs::path through =
-      write_scene(folder, tile("1.b3dm", 4, Json::array({tile("gone.b3dm", 1, Json::array({tile("2.b3dm", 0)}))})), 2);
+  const fs::path through = write_paged_scene(
+      folder, tile("1.b3dm", 4, Json::array({tile("gone.b3dm", 1, Json::array({tile("2.b3dm", 0)}))})), 2);
   EXPECT_EQ(not_shown(import_scene(through), show_finest({through}), 1e-5), 0u);
   // Tiles that are added are missing one by one.
-  const fs::path added = write_scene(folder, tile("1.b3dm", 4, {tile("2.b3dm", 0), tile("gone.b3dm", 0)}, "ADD"), 2);
+  const fs::path added =
+      write_paged_scene(folder, tile("1.b3dm", 4, {tile("2.b3dm", 0), tile("gone.b3dm", 0)}, "ADD"), 2);
   const Finest shown = show_finest({added});
   EXPECT_EQ(shown.triangles.size(), 4u);
   EXPECT_EQ(shown.missing, 1u);
@@ -264,7 +265,7 @@ TEST(ImportTilesetPages, KeepTheCoarserTileWhereAFinerOneIsMissing) {
 
 TEST(ImportTilesetPages, SayWhatIsDamagedInATile) {
   const TemporaryFolder folder;
-  const fs::path tileset = write_scene(folder, tile("1.b3dm", 4, {tile("2.b3dm", 0), tile("3.b3dm", 0)}), 2);
+  const fs::path tileset = write_paged_scene(folder, tile("1.b3dm", 4, {tile("2.b3dm", 0), tile("3.b3dm", 0)}), 2);
   MadeGltf broken = MadeGrid(1, 3).gltf();
   broken.add_mesh({{"attributes", {{"POSITION", 77}}}});
   broken.json["nodes"].push_back({{"mesh", 1}});
@@ -280,7 +281,7 @@ TEST(ImportTilesetPages, SayWhatIsDamagedInATile) {
 TEST(ImportTilesetPages, LeaveOutPointsByName) {
   const TemporaryFolder folder;
   folder.write("tiles/trees.pnts", "pnts" + packed(std::vector<std::uint32_t>{1, 28, 0, 0, 0, 0}));
-  const fs::path tileset = write_scene(folder, tile("1.b3dm", 4, Json::array({tile("trees.pnts", 0)}), "ADD"), 1);
+  const fs::path tileset = write_paged_scene(folder, tile("1.b3dm", 4, Json::array({tile("trees.pnts", 0)}), "ADD"), 1);
   const Finest shown = show_finest({tileset});
   EXPECT_EQ(shown.triangles.size(), 2u);
   EXPECT_EQ(shown.missing, 0u);
@@ -290,7 +291,7 @@ TEST(ImportTilesetPages, LeaveOutPointsByName) {
 
 TEST(ImportTilesetPages, AreNotMadeOfASingleTile) {
   const TemporaryFolder folder;
-  const Shown shown = show({write_scene(folder, tile("1.b3dm", 0), 1)});
+  const Shown shown = show({write_paged_scene(folder, tile("1.b3dm", 0), 1)});
   EXPECT_FALSE(shown.report.paged);
   EXPECT_EQ(shown.triangles.size(), 2u);
 }
@@ -299,9 +300,9 @@ TEST(ImportTilesetPages, CostLittleWhenTheyAreHostile) {
   const TemporaryFolder folder;
   const auto begin = std::chrono::steady_clock::now();
   // A tileset in itself.
-  const fs::path circle = write_scene(folder, tile("1.b3dm", 4, Json::array({tile("tileset.json", 0)})), 1);
+  const fs::path circle = write_paged_scene(folder, tile("1.b3dm", 4, Json::array({tile("tileset.json", 0)})), 1);
   EXPECT_EQ(not_shown(import_scene(circle), show_finest({circle}), 1e-5), 0u);
-  const fs::path circle_alone = write_scene(folder, tile("tileset.json", 4), 1);
+  const fs::path circle_alone = write_paged_scene(folder, tile("tileset.json", 4), 1);
   EXPECT_EQ(show_finest({circle_alone}).triangles.size(), 0u);
   // Tilesets in each other without end, each of them deep.
   Json deep = tile("next", 1);
@@ -313,12 +314,12 @@ TEST(ImportTilesetPages, CostLittleWhenTheyAreHostile) {
                  text.substr(0, next) + "\"" + std::to_string(i + 1) + ".json\"" + text.substr(next + 6));
   }
   const Finest endless_chain =
-      show_finest({write_scene(folder, tile("1.b3dm", 4, Json::array({tile("0.json", 4)})), 1)});
+      show_finest({write_paged_scene(folder, tile("1.b3dm", 4, Json::array({tile("0.json", 4)})), 1)});
   EXPECT_EQ(endless_chain.triangles.size(), 2u);
   EXPECT_GE(endless_chain.missing, 1u);
   // Addresses elsewhere.
   for (const char* uri : {"http://example.org/1.b3dm", "../../../../etc/passwd", "/etc/passwd", "data:,b3dm"}) {
-    const fs::path elsewhere = write_scene(folder, tile("1.b3dm", 4, {tile(uri, 0), tile("2.b3dm", 0)}), 2);
+    const fs::path elsewhere = write_paged_scene(folder, tile("1.b3dm", 4, {tile(uri, 0), tile("2.b3dm", 0)}), 2);
     const Finest shown = show_finest({elsewhere});
     EXPECT_EQ(shown.triangles.size(), 2u) << uri;
     EXPECT_EQ(shown.missing, 1u) << uri;
@@ -330,7 +331,7 @@ TEST(ImportTilesetPages, CostLittleWhenTheyAreHostile) {
                                              {"contentAvailability", {{{"constant", 0}}}},
                                              {"childSubtreeAvailability", {{"constant", 0}}}}
                                             .dump());
-  const fs::path many = write_scene(folder, tile("1.b3dm", 4, Json::array({endless_tiles})), 1);
+  const fs::path many = write_paged_scene(folder, tile("1.b3dm", 4, Json::array({endless_tiles})), 1);
   TilesetPaging paging(many);
   EXPECT_NE(paging.error(paging.root.pages.at(0).levels.at(1)), "");
   // Wrong types everywhere.
@@ -339,7 +340,7 @@ TEST(ImportTilesetPages, CostLittleWhenTheyAreHostile) {
                             "implicitTiling", "extensions", "geometricError"}) {
       Json wrong = tile("1.b3dm", 4, {tile("2.b3dm", 0), tile("3.b3dm", 0)});
       wrong[key] = odd;
-      const fs::path tileset = write_scene(folder, wrong, 3);
+      const fs::path tileset = write_paged_scene(folder, wrong, 3);
       try {
         static_cast<void>(show_finest({tileset}));
       } catch (const Error& error) {

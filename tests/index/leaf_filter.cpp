@@ -28,14 +28,14 @@ namespace lanes = roam::index::HWY_NAMESPACE;
 constexpr double step_size = 1.0 / 1024.0;
 const Vec3 curve_origin(-13739.0, 253.0, 182.0);
 
-struct Scene {
+struct LeafScene {
   Leaf leaf{};
   roam::index::FineLeaf fine{};
   const roam::index::FineLeaf* low;
   Triangle triangles[node_width];
 
   /// `has_low`: vertices have low bits.
-  Scene(clutter::Random& random, bool has_low) : low(has_low ? &fine : nullptr) {
+  LeafScene(clutter::Random& random, bool has_low) : low(has_low ? &fine : nullptr) {
     leaf.triangle_count = node_width;
     // Up to eight metres wide, as fits the tile.
     const double half = std::pow(10.0, random.between(-1.0, 0.6));
@@ -61,7 +61,7 @@ struct Scene {
 
 /// A body that passes one triangle of a scene, and touches it by less than a rounding of its radius.
 struct Touch {
-  Scene scene;
+  LeafScene scene;
   lanes::Frame frame{curve_origin, step_size, curve_origin};
   clutter::Graze graze;
   float radius = 0.0F;
@@ -294,7 +294,7 @@ TEST(LeafFilter, LeavesEveryTriangleThatARayPierces) {
   clutter::Random random(54);
   int left = 0;
   for (int q = 0; q < 4000; ++q) {
-    const Scene scene(random, q % 2 == 0);
+    const LeafScene scene(random, q % 2 == 0);
     for (int i = 0; i < node_width; ++i) {
       const Triangle& t = scene.triangles[i];
       const double u = i % 3 == 0 ? 0.0 : random.unit(), v = i % 3 == 2 ? random.unit() * (1.0 - u) : 0.0;

@@ -17,13 +17,13 @@ using roam::index::node_width;
 namespace lanes = roam::index::HWY_NAMESPACE;
 
 /// Child boxes and the start of a query, far off in a tile or in the tree over tiles.
-struct Scene {
+struct NodeScene {
   Node node{};
   Vec3 origin, start;
   double step;
   float extent;  ///< of the widest node (m)
 
-  Scene(clutter::Random& random, bool top) {
+  NodeScene(clutter::Random& random, bool top) {
     step = top ? 1.0 / 65536.0 : 1.0 / 1024.0;
     extent = static_cast<float>(step * (top ? 0x1p29 : 0x1p16));
     const double wide = top ? 4000.0 : 60.0;
@@ -91,7 +91,7 @@ void touch_every_child(bool top) {
   clutter::Random random(41);
   int tested = 0, left_out = 0;
   for (int q = 0; q < 3000; ++q) {
-    const Scene scene(random, top);
+    const NodeScene scene(random, top);
     const lanes::Frame frame(scene.origin, scene.step, scene.start);
     const auto [h, way] = any_move(random, q);
     const lanes::Motion motion(way, h);
@@ -171,7 +171,7 @@ void delay_every_child(bool top) {
   clutter::Random random(43);
   int tested = 0, delayed = 0;
   for (int q = 0; q < 3000; ++q) {
-    const Scene scene(random, top);
+    const NodeScene scene(random, top);
     const lanes::Frame frame(scene.origin, scene.step, scene.start);
     const auto [h, way] = any_move(random, q);
     const lanes::Motion motion(way, h);
@@ -207,7 +207,7 @@ void delay_every_child(bool top) {
 void pierce_every_child(bool top) {
   clutter::Random random(44);
   for (int q = 0; q < 2000; ++q) {
-    const Scene scene(random, top);
+    const NodeScene scene(random, top);
     const lanes::Frame frame(scene.origin, scene.step, scene.start);
     for (int i = 0; i < node_width; ++i) {
       Vec3 point;

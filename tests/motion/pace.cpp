@@ -139,7 +139,7 @@ TEST(Pace, WithoutLimitsTheWishIsHadAtOnce) {
 }
 
 /// Boxes and steps in a closed hall.
-Mesh clutter(Random& random) {
+Mesh cluttered_hall(Random& random) {
   Mesh m;
   add_box(m, {-6.0, -6.0, 0.0}, {6.0, 6.0, 4.0});
   for (int i = 0; i < 16; ++i) {
@@ -156,7 +156,7 @@ TEST(Pace, NoSpeedChangesFasterThanTheLimit) {
   for (const Mode mode : {Mode::walk, Mode::fly}) {
     for (std::uint64_t seed = 1; seed <= 6; ++seed) {
       Random random(seed);
-      const Mesh m = clutter(random);
+      const Mesh m = cluttered_hall(random);
       Walk w(m, {}, mode, {0.0, 0.0, 3.0});
       if (w.walker.held()) continue;
       Vec3 wish(0.0);

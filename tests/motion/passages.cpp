@@ -10,7 +10,7 @@ namespace {
 
 using namespace scenes;
 
-Mesh doorway(double width) {
+Mesh thin_doorway(double width) {
   Mesh m = floor_mesh();
   const double half = 0.5 * width;
   for (const double x : {1.0, 1.2}) {
@@ -25,7 +25,7 @@ Mesh doorway(double width) {
 TEST(Passages, PassesADoorwayOf688MillimetresWithABodyOf640) {
   for (const Mode mode : {Mode::walk, Mode::fly}) {
     for (const double y : {0.0, 0.01, -0.02, 0.15, -0.3}) {
-      const Mesh m = doorway(0.688);
+      const Mesh m = thin_doorway(0.688);
       Walk w(m, {.radius = 0.32, .height = 1.8}, mode, {-1.0, y, 0.95});
       for (int i = 0; i < 600 && w.walker.position().x < 2.0; ++i) {
         const Vec3 to_door = Vec3(3.0, 0.0, 0.95) - w.walker.position();
@@ -37,7 +37,7 @@ TEST(Passages, PassesADoorwayOf688MillimetresWithABodyOf640) {
 }
 
 TEST(Passages, DoesNotCrouchWhereNothingIsLow) {
-  const Mesh m = doorway(0.688);
+  const Mesh m = thin_doorway(0.688);
   for (const double speed : {0.1, 0.5, 1.4, 3.0, 7.0}) {
     for (const double y : {-0.3, -0.285, -0.15, -0.0239, 0.02, 0.1, 0.27}) {
       for (const bool straight : {false, true}) {
@@ -119,7 +119,7 @@ TEST(Passages, SlidesAlongALowWallUpASlopeWithoutSteps) {
 
 TEST(Passages, PassesADoorwayTwoMillimetresWiderThanItself) {
   for (const double y : {0.0, 0.0005, 0.003, -0.02}) {
-    const Mesh m = doorway(0.642);
+    const Mesh m = thin_doorway(0.642);
     Walk w(m, {.radius = 0.32, .height = 1.8}, Mode::walk, {-1.0, y, 0.95});
     for (int i = 0; i < 300 && w.walker.position().x < 2.0; ++i) {
       const Vec3 to_door(3.0 - w.walker.position().x, -w.walker.position().y, 0.0);
@@ -130,7 +130,7 @@ TEST(Passages, PassesADoorwayTwoMillimetresWiderThanItself) {
 }
 
 TEST(Passages, DoesNotPassADoorwayThatIsNarrowerThanItself) {
-  const Mesh m = doorway(0.638);
+  const Mesh m = thin_doorway(0.638);
   Walk w(m, {.radius = 0.32, .height = 1.8}, Mode::walk, {-1.0, 0.001, 0.95});
   w.go({1.4, 0.0, 0.0}, 3.0);
   EXPECT_LT(w.walker.position().x, 1.0);

@@ -108,7 +108,7 @@ struct Landscape {
   }
 };
 
-struct Tally {
+struct PatchTally {
   long moved = 0, waited = 0, held = 0, went_on = 0, refined = 0, delayed = 0;
 };
 
@@ -124,7 +124,8 @@ struct Wanderer {
 };
 
 /// Everything comes in random order while the body is under way; a tenth fails and comes at the end.
-void roam_while_it_loads(Random& random, const Vec3& origin, const WalkerSettings& settings, Mode mode, Tally& tally) {
+void roam_while_it_loads(Random& random, const Vec3& origin, const WalkerSettings& settings, Mode mode,
+                         PatchTally& tally) {
   Landscape land(random, origin, true);
   Patchwork space;
   land.expect_all(space);
@@ -193,7 +194,7 @@ void roam_while_it_loads(Random& random, const Vec3& origin, const WalkerSetting
 }
 
 TEST(WalkerPatchwork, IsNeverNearerThanItsRadiusToWhatIsInUseNorInsideTheUnknown) {
-  Tally tally;
+  PatchTally tally;
   std::uint64_t seed = 70;
   for (const Vec3 origin : {Vec3(0.0), Vec3(6.4e6, -6.4e6, 3e3)}) {
     for (const WalkerSettings& settings : {WalkerSettings{}, WalkerSettings::sphere(0.35)}) {

@@ -131,7 +131,7 @@ struct Scene {
   double half_width;  ///< metres: bodies are put within this of the middle line
 };
 
-struct Tally {
+struct WalkTally {
   long steps = 0, moved = 0, touched = 0, grounded = 0, held = 0;
   double worst = 1.0;
 };
@@ -139,7 +139,7 @@ struct Tally {
 /// One random walk: it wanders, turns when blocked, and is now and then put elsewhere. Speeds and time steps are drawn
 /// over four decades.
 void wander(const roam::World& world, const scenes::Judge& judge, const WalkerSettings& settings, Mode mode,
-            const Vec3& origin, double half_width, scenes::Random& random, int steps, Tally& tally) {
+            const Vec3& origin, double half_width, scenes::Random& random, int steps, WalkTally& tally) {
   const auto somewhere = [&] {
     const Vec3 p = anywhere(random);
     return origin + Vec3(p.x, p.y * (half_width / side), p.z + 0.5 * settings.height);
@@ -181,7 +181,7 @@ class RandomWalks : public testing::TestWithParam<Scene> {
   /// 50,000 steps: 5 scenes, each flown and walked by a ball and by a capsule.
   void judge_at(const Vec3& origin, std::uint64_t seed) {
     constexpr int rounds = 5, steps = 2500;
-    Tally tally;
+    WalkTally tally;
     for (int round = 0; round < rounds; ++round) {
       scenes::Random random(test_seed(seed * 100 + static_cast<std::uint64_t>(round)));
       Mesh mesh = GetParam().make(random);

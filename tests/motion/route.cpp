@@ -124,7 +124,7 @@ TEST(Route, EndsWhereAWallLeadsNoNearer) {
   }
 }
 
-Mesh doorway(double width, double lintel) {
+Mesh low_doorway(double width, double lintel) {
   Mesh m = floor_mesh();
   const double half = 0.5 * width;
   scenes::add_wall(m, 1.0, -5.0, 1.0, -half, 0.0, 3.0);
@@ -136,7 +136,7 @@ Mesh doorway(double width, double lintel) {
 TEST(Route, MeasuresTheOpeningThatIsTooNarrow) {
   for (const double width : {0.3, 0.45, 0.59}) {
     for (const double y : {0.0, 0.004}) {
-      const RouteResult r = follow(doorway(width, 2.2), {}, Mode::walk, {{-2.0, y, 0.95}, {4.0, 0.0, 0.95}});
+      const RouteResult r = follow(low_doorway(width, 2.2), {}, Mode::walk, {{-2.0, y, 0.95}, {4.0, 0.0, 0.95}});
       EXPECT_EQ(r.outcome, Outcome::blocked);
       ASSERT_TRUE(r.blocked_at);
       ASSERT_TRUE(r.blocked_at->opening) << width;
@@ -163,14 +163,14 @@ TEST(Route, MeasuresADoorBetweenThickPostsAndNotOnePostAtTwoHeights) {
 }
 
 TEST(Route, MeasuresTheOpeningThatIsTooLow) {
-  const RouteResult r = follow(doorway(3.0, 0.9), {}, Mode::walk, {{-2.0, 0.0, 0.95}, {4.0, 0.0, 0.95}});
+  const RouteResult r = follow(low_doorway(3.0, 0.9), {}, Mode::walk, {{-2.0, 0.0, 0.95}, {4.0, 0.0, 0.95}});
   EXPECT_EQ(r.outcome, Outcome::blocked);
   ASSERT_TRUE(r.blocked_at);
   ASSERT_TRUE(r.blocked_at->opening);
   EXPECT_NEAR(*r.blocked_at->opening, 0.9, 0.02);
 }
 
-Mesh split() {
+Mesh split_street() {
   Mesh m;
   scenes::add_floor(m, -10.0, -5.0, -0.625, 5.0, 0.0);
   scenes::add_floor(m, 0.625, -5.0, 10.0, 5.0, 0.0);
@@ -183,7 +183,8 @@ Mesh split() {
 TEST(Route, OverASplitIsReachedByTheBallThatBridgesItAndFallsWithTheOther) {
   for (const double radius : {0.3, 0.6, 0.7}) {
     const WalkerSettings ball{.radius = radius, .height = 2.0 * radius, .eye = radius};
-    const RouteResult r = follow(split(), ball, Mode::walk, {{-4.0, 1.0, radius}, {4.0, -1.0, radius}}, {.speed = 1.5});
+    const RouteResult r =
+        follow(split_street(), ball, Mode::walk, {{-4.0, 1.0, radius}, {4.0, -1.0, radius}}, {.speed = 1.5});
     EXPECT_EQ(r.outcome, radius > 0.65 ? Outcome::reached : Outcome::fell) << radius;
     EXPECT_EQ(has(r, EventKind::fell), radius < 0.65);
   }
@@ -192,7 +193,8 @@ TEST(Route, OverASplitIsReachedByTheBallThatBridgesItAndFallsWithTheOther) {
 TEST(Route, ComesDownToTheGroundBeforeItGoes) {
   for (const double speed : {1.4, 50.0}) {
     const WalkerSettings ball{.radius = 0.6, .height = 1.2, .eye = 0.6};
-    const RouteResult r = follow(split(), ball, Mode::walk, {{-4.0, 0.0, 2.5}, {4.0, 0.0, 2.5}}, {.speed = speed});
+    const RouteResult r =
+        follow(split_street(), ball, Mode::walk, {{-4.0, 0.0, 2.5}, {4.0, 0.0, 2.5}}, {.speed = speed});
     EXPECT_EQ(r.outcome, Outcome::fell) << speed;
     EXPECT_TRUE(has(r, EventKind::landed));
   }

@@ -21,8 +21,8 @@ Mesh yard() {
   return m;
 }
 
-struct Standing : Rig {
-  explicit Standing(const Mesh& mesh = yard(), roam::Mode mode = roam::Mode::walk) : Rig(mesh, {}, mode) {
+struct StandingInYard : Rig {
+  explicit StandingInYard(const Mesh& mesh = yard(), roam::Mode mode = roam::Mode::walk) : Rig(mesh, {}, mode) {
     manipulator->setFeet({0.0, 0.0, 0.0}, 0.0, 0.0);
     frames(0.5);
   }
@@ -122,7 +122,7 @@ TEST(ManipulatorMouse, EscapeLeavesTheGrab) {
 }
 
 TEST(ManipulatorMouse, TheWheelChangesTheSpeed) {
-  Standing r;
+  StandingInYard r;
   const auto turn = [&](int notches, Adapter::ScrollingMotion motion) {
     for (int i = 0; i < notches; ++i) {
       r.time += 0.05;
@@ -148,7 +148,7 @@ TEST(ManipulatorMouse, TheWheelChangesTheSpeed) {
 }
 
 TEST(ManipulatorMouse, TwoFingersChangeTheSpeedNoFasterThanAWheel) {
-  Standing r;
+  StandingInYard r;
   r.time += 1.0;
   // A swipe on a touchpad: 60 notches in half a second.
   for (int i = 0; i < 60; ++i) {
@@ -160,7 +160,7 @@ TEST(ManipulatorMouse, TwoFingersChangeTheSpeedNoFasterThanAWheel) {
 }
 
 TEST(ManipulatorMouse, TwoFingersSidewaysDragNothing) {
-  Standing r;
+  StandingInYard r;
   r.frame(frame);
   const double yaw = r->yaw();
   constexpr unsigned sideways = 6;  // a button of X11
@@ -182,7 +182,7 @@ osg::Vec2d pixel(const Rig& r, const Vec3& p) {
 
 TEST(ManipulatorMouse, ADoubleClickGoesThere) {
   for (const roam::Mode mode : {roam::Mode::walk, roam::Mode::fly}) {
-    Standing r(yard(), mode);
+    StandingInYard r(yard(), mode);
     r->setFeet({0.0, 0.0, mode == roam::Mode::walk ? 0.0 : 1.0}, 0.0, -0.2);
     const Vec3 floor(3.0, 2.0, 0.0);
     const osg::Vec2d at = pixel(r, floor);
@@ -199,7 +199,7 @@ TEST(ManipulatorMouse, ADoubleClickGoesThere) {
 
 TEST(ManipulatorMouse, TwoClicksAreADoubleClickWhereNobodySaysSo) {
   const auto clicks = [](double apart, float moved, unsigned int button) {
-    Standing r;
+    StandingInYard r;
     r->look(0.0, -0.3);
     for (int i = 0; i < 2; ++i) {
       const float x = 600.0f + static_cast<float>(i) * moved;
@@ -231,7 +231,7 @@ TEST(ManipulatorMouse, InvertedTheMouseLooksDownWhenItGoesUp) {
 }
 
 TEST(ManipulatorMouse, GoingStopsBeforeTheWallThatWasClicked) {
-  Standing r;
+  StandingInYard r;
   const osg::Vec2d at = pixel(r, {8.0, 3.0, 1.5});
   r.double_click(float(at.x()), float(at.y()));
   r.frames(5.0);
@@ -241,7 +241,7 @@ TEST(ManipulatorMouse, GoingStopsBeforeTheWallThatWasClicked) {
 }
 
 TEST(ManipulatorMouse, GoingEndsWhenItIsBlocked) {
-  Standing r;
+  StandingInYard r;
   r->goTo({7.0, 0.0, 0.0}, {0.0, 0.0, 1.0});  // behind the box
   r.frames(0.3);
   EXPECT_TRUE(r->going());
@@ -252,7 +252,7 @@ TEST(ManipulatorMouse, GoingEndsWhenItIsBlocked) {
 
 TEST(ManipulatorMouse, GoingEndsAtTheFirstKeyThatMoves) {
   for (const int key : {'w', 's', 'e', ' '}) {
-    Standing r;
+    StandingInYard r;
     r->goTo({0.0, 9.0, 0.0}, {0.0, 0.0, 1.0});
     r.frames(0.2);
     EXPECT_TRUE(r->going());
@@ -263,7 +263,7 @@ TEST(ManipulatorMouse, GoingEndsAtTheFirstKeyThatMoves) {
     r.frames(0.05);
     EXPECT_FALSE(r->going()) << key;
   }
-  Standing r;
+  StandingInYard r;
   r->goTo({0.0, 9.0, 0.0}, {0.0, 0.0, 1.0});
   r->finishAnimation();
   EXPECT_FALSE(r->going());
@@ -301,7 +301,7 @@ TEST(ManipulatorMouse, NobodyGoesWhoCanNot) {
 }
 
 TEST(ManipulatorMouse, AClickIntoTheSkyGoesNowhere) {
-  Standing r;
+  StandingInYard r;
   r->look(0.0, 1.0);
   r.double_click(400, 100);
   EXPECT_FALSE(r->going());
@@ -309,7 +309,7 @@ TEST(ManipulatorMouse, AClickIntoTheSkyGoesNowhere) {
 
 TEST(ManipulatorMouse, APilotMovesTheBodyInRealTimeAndAtItsEndThePersonDoes) {
   for (const double dt : {0.004, 1.0 / 60.0, 0.07}) {
-    Standing r(floor_mesh());
+    StandingInYard r(floor_mesh());
     const Vec3 path[] = {r.at(), r.at() + Vec3(3.0, 4.0, 0.0)};
     roam::Route route(*r->walker(), path, {.speed = 2.0});
     r->placed();

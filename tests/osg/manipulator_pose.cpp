@@ -1,6 +1,7 @@
 // Matrices, home, placements: what osgGA expects of a manipulator of a camera.
 #include <algorithm>
 #include <glm/geometric.hpp>
+#include <numbers>
 #include <osg/ApplicationUsage>
 #include <osg/Shape>
 #include <osg/ShapeDrawable>
@@ -14,8 +15,6 @@ namespace {
 
 using namespace scenes;
 using rig::Rig;
-
-constexpr double quarter = 1.5707963267948966;
 
 /// A room of 10 m by 10 m by 3 m with its middle at the origin of the floor.
 Mesh room() {
@@ -82,7 +81,7 @@ TEST(ManipulatorPose, YawAndPitchAreAsTheHeaderSays) {
   Rig r;
   r->setPose({1.0, 2.0, 3.0}, 0.0, 0.0);
   expect_near(rig::look_of(r->getMatrix()), {1, 0, 0}, 1e-12);
-  r->look(quarter, 0.0);
+  r->look(0.5 * std::numbers::pi, 0.0);
   expect_near(rig::look_of(r->getMatrix()), {0, 1, 0}, 1e-12);
   r->look(0.0, 10.0);  // no farther than straight up
   expect_near(rig::look_of(r->getMatrix()), {0, 0, 1}, 1e-12);

@@ -13,13 +13,13 @@ using namespace scenes;
 using rig::Rig;
 
 /// A room of 10 m by 10 m by 3 m with its middle at the origin of the floor.
-Mesh room() {
+Mesh wide_room() {
   Mesh m;
   add_box(m, {-5.0, -5.0, 0.0}, {5.0, 5.0, 3.0});
   return m;
 }
 
-osg::ref_ptr<osg::Group> box_scene() {
+osg::ref_ptr<osg::Group> lone_box() {
   osg::ref_ptr<osg::Group> group = new osg::Group;
   group->addChild(new osg::ShapeDrawable(new osg::Box(osg::Vec3(10.0f, 0.0f, -0.5f), 20.0f, 20.0f, 1.0f)));
   return group;
@@ -32,7 +32,7 @@ void finish_building(Rig& r) {
   }
 }
 
-void expect_near(const osg::Vec3d& a, const osg::Vec3d& b, double tolerance) {
+void expect_close(const osg::Vec3d& a, const osg::Vec3d& b, double tolerance) {
   EXPECT_LE((a - b).length(), tolerance) << a.x() << " " << a.y() << " " << a.z();
 }
 
@@ -43,23 +43,23 @@ TEST(ManipulatorSpace, WithoutASpaceTheBodyIsHeldAndMayLook) {
   r->setPose({1.0, 2.0, 3.0}, 0.0, 0.0);
   r.down('w');
   r.frames(1.0);
-  expect_near(rig::eye_of(r->getMatrix()), {1, 2, 3}, 0.0);
+  expect_close(rig::eye_of(r->getMatrix()), {1, 2, 3}, 0.0);
   r.up('w');
   r.push(400, 300);
   r.mouse(300, 300);
   EXPECT_GT(r->yaw(), 0.0);
   r->setSpace(std::make_shared<const roam::World>());
   EXPECT_FALSE(r->held());
-  expect_near(rig::eye_of(r->getMatrix()), {1, 2, 3}, 1e-9);
+  expect_close(rig::eye_of(r->getMatrix()), {1, 2, 3}, 1e-9);
   r->setSpace(nullptr);
   EXPECT_EQ(r->walker(), nullptr);
-  expect_near(rig::eye_of(r->getMatrix()), {1, 2, 3}, 1e-9);
+  expect_close(rig::eye_of(r->getMatrix()), {1, 2, 3}, 1e-9);
 }
 
 TEST(ManipulatorSpace, AnotherSpaceFindsTheBodyWhereItIs) {
-  Rig r(room(), {}, roam::Mode::fly);
+  Rig r(wide_room(), {}, roam::Mode::fly);
   r->setPose({1.0, 2.0, 2.0}, 0.3, 0.1);
-  Mesh other = room();
+  Mesh other = wide_room();
   add_wall(other, 1.1, -5.0, 1.1, 5.0, 0.0, 3.0);
   r->setSpace(std::make_shared<const roam::World>(build(other)));
   EXPECT_FALSE(r->held());
@@ -69,7 +69,7 @@ TEST(ManipulatorSpace, AnotherSpaceFindsTheBodyWhereItIs) {
 }
 
 TEST(ManipulatorSpace, OnFootAComputedHomeIsAPlaceToStand) {
-  osg::ref_ptr<osg::Group> scene = box_scene();
+  osg::ref_ptr<osg::Group> scene = lone_box();
   Rig r;
   r->setMode(roam::Mode::walk);
   r->setNode(scene);
@@ -121,7 +121,7 @@ TEST(ManipulatorSpace, WhoIsHeldIsHeldInEveryMode) {
 }
 
 TEST(ManipulatorSpace, OnFootANewFloorLeavesAloneWhoHasMovedFromTheComputedHome) {
-  osg::ref_ptr<osg::Group> scene = box_scene();
+  osg::ref_ptr<osg::Group> scene = lone_box();
   const auto world = std::make_shared<const roam::World>(roam::World());
   const auto floor = std::make_shared<const roam::World>(osgRoam::buildWorld(*scene));
   using Move = std::function<void(Rig&)>;
@@ -152,7 +152,7 @@ TEST(ManipulatorSpace, OnFootANewFloorLeavesAloneWhoHasMovedFromTheComputedHome)
 }
 
 TEST(ManipulatorSpace, OneLineBuildsTheWorldOfTheScene) {
-  osg::ref_ptr<osg::Group> scene = box_scene();
+  osg::ref_ptr<osg::Group> scene = lone_box();
   osg::ref_ptr<osgRoam::Manipulator> m = new osgRoam::Manipulator(scene.get());
   Rig r;
   r.manipulator = m;
@@ -164,7 +164,7 @@ TEST(ManipulatorSpace, OneLineBuildsTheWorldOfTheScene) {
 }
 
 TEST(ManipulatorSpace, ASpaceIsBuiltWithTheOriginThatTheGraphHasOrNotAtAll) {
-  osg::ref_ptr<osg::Group> scene = box_scene();
+  osg::ref_ptr<osg::Group> scene = lone_box();
   const osg::Vec3d far(4.5e6, 5.1e6, 300.0);
   Rig r;
   r.manipulator = new osgRoam::Manipulator(scene.get(), {}, roam::Mode::fly, far);
@@ -181,14 +181,14 @@ TEST(ManipulatorSpace, ASpaceIsBuiltWithTheOriginThatTheGraphHasOrNotAtAll) {
   osg::ref_ptr<osg::Object> clone = r->clone(osg::CopyOp::SHALLOW_COPY);
   EXPECT_THROW(dynamic_cast<osgRoam::Manipulator&>(*clone).setOrigin({}), roam::Error);
   // A space of one's own is in the scene's frame whatever the graph is moved by.
-  r->setSpace(std::make_shared<const roam::World>(build(room())));
+  r->setSpace(std::make_shared<const roam::World>(build(wide_room())));
   EXPECT_NO_THROW(r->setOrigin({1.0, 0.0, 0.0}));
   EXPECT_THROW(osg::ref_ptr<osgRoam::Manipulator>(new osgRoam::Manipulator(nullptr, {}, roam::Mode::fly, {NAN, 0, 0})),
                roam::Error);
 }
 
 TEST(ManipulatorSpace, ADestroyedManipulatorEndsItsBuilding) {
-  osg::ref_ptr<osg::Group> scene = box_scene();
+  osg::ref_ptr<osg::Group> scene = lone_box();
   for (int i = 0; i < 20; ++i) osg::ref_ptr<osgRoam::Manipulator>(new osgRoam::Manipulator(scene.get()));
 }
 
@@ -226,8 +226,8 @@ TEST(ManipulatorSpace, APatchworkIsUpdatedWhicheverTypeThePointerHas) {
 }
 
 TEST(ManipulatorSpace, AnUpdateOfOnesOwnIsForgottenWithItsSpace) {
-  osg::ref_ptr<osg::Group> scene = box_scene();
-  Rig r(room(), {}, roam::Mode::fly);
+  osg::ref_ptr<osg::Group> scene = lone_box();
+  Rig r(wide_room(), {}, roam::Mode::fly);
   int updates = 0;
   r->setSpaceUpdate([&](const roam::Body&, const Vec3&) { ++updates; });
   r.frame(frame);
@@ -243,7 +243,7 @@ TEST(ManipulatorSpace, AnUpdateOfOnesOwnIsForgottenWithItsSpace) {
 }
 
 TEST(ManipulatorSpace, AnotherSpaceEndsTheBuilding) {
-  osg::ref_ptr<osg::Group> scene = box_scene();
+  osg::ref_ptr<osg::Group> scene = lone_box();
   Rig r;
   r->buildSpace(*scene);
   const auto own = std::make_shared<const roam::World>();
@@ -254,7 +254,7 @@ TEST(ManipulatorSpace, AnotherSpaceEndsTheBuilding) {
 }
 
 TEST(ManipulatorSpace, ACallbackMayExchangeASpaceThatWasJustBuilt) {
-  osg::ref_ptr<osg::Group> scene = box_scene();
+  osg::ref_ptr<osg::Group> scene = lone_box();
   const auto own = std::make_shared<const roam::World>();
   Rig r;
   osgRoam::Manipulator* m = r.manipulator.get();
@@ -302,15 +302,15 @@ TEST(ManipulatorSpace, RegionsStayWithTheBodyWhateverSpaceAndSettingsItGets) {
     ASSERT_EQ(r->walker()->regions().size(), 1u) << when;
     EXPECT_EQ(r->walker()->body().radius, 0.2) << when;
   };
-  r->setSpace(std::make_shared<const roam::World>(build(room())));
+  r->setSpace(std::make_shared<const roam::World>(build(wide_room())));
   expect_small("a space");
-  r->setSpace(std::make_shared<const roam::World>(build(room())));
+  r->setSpace(std::make_shared<const roam::World>(build(wide_room())));
   expect_small("another space");
   roam::WalkerSettings settings;
   settings.radius = 0.4;
   r->setSettings(settings);
   expect_small("other settings");
-  osg::ref_ptr<osg::Group> scene = box_scene();
+  osg::ref_ptr<osg::Group> scene = lone_box();
   r->buildSpace(*scene);
   finish_building(r);
   expect_small("a space that was built");
@@ -322,7 +322,7 @@ TEST(ManipulatorSpace, RegionsStayWithTheBodyWhateverSpaceAndSettingsItGets) {
 }
 
 TEST(ManipulatorSpace, ABodyIsPutAsLargeAsItIsThere) {
-  Mesh narrow = room();
+  Mesh narrow = wide_room();
   for (const double y : {-0.25, 0.25}) add_wall(narrow, -5.0, y, 5.0, y, 0.0, 3.0);
   Rig r;
   const roam::SizeRegion small = everywhere(0.2);
@@ -330,11 +330,11 @@ TEST(ManipulatorSpace, ABodyIsPutAsLargeAsItIsThere) {
   r->setPose({0.0, 0.0, 2.0}, 0.0, 0.0);
   r->setSpace(std::make_shared<const roam::World>(build(narrow)));
   EXPECT_FALSE(r->held());
-  expect_near(rig::eye_of(r->getMatrix()), {0, 0, 2}, 1e-9);
+  expect_close(rig::eye_of(r->getMatrix()), {0, 0, 2}, 1e-9);
 }
 
 TEST(ManipulatorSpace, RegionsThatTheSettingsDoNotAllowAreRefused) {
-  Rig r(room(), {}, roam::Mode::fly);
+  Rig r(wide_room(), {}, roam::Mode::fly);
   const roam::SizeRegion small = everywhere(0.2), bad = everywhere(2.0);
   r->setRegions({&small, 1});
   EXPECT_THROW(r->setRegions({&bad, 1}), roam::Error);

@@ -8,7 +8,7 @@
 
 namespace {
 
-std::vector<roam::Mesh> scene() {
+std::vector<roam::Mesh> hall_scene() {
   roam::Mesh mesh;
   mesh.name = "hall";
   mesh.vertices = {{0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}, {1.0, 1.0, 0.0}, {0.0, 1.0, 0.0}};
@@ -17,7 +17,7 @@ std::vector<roam::Mesh> scene() {
 }
 
 TEST(ProfileIdentity, OfAMeshWithAVertexThatIsNotThereIsRefused) {
-  auto meshes = scene();
+  auto meshes = hall_scene();
   meshes[1].triangles[1][2] = 99;
   const std::string said = error_of([&] { static_cast<void>(roam::identity_of(meshes)); });
   EXPECT_TRUE(contains(said, "triangle 1 of mesh 1 (\"hall\") uses vertex 99, but the mesh has 4 vertices")) << said;
@@ -26,9 +26,9 @@ TEST(ProfileIdentity, OfAMeshWithAVertexThatIsNotThereIsRefused) {
 TEST(ProfileIdentity, OfNoSceneBelongsToNone) {
   EXPECT_FALSE(roam::Profile{}.belongs_to({}));
   roam::Profile profile;
-  EXPECT_FALSE(profile.belongs_to(roam::identity_of(scene())));
-  profile.scene = roam::identity_of(scene());
-  EXPECT_TRUE(profile.belongs_to(roam::identity_of(scene())));
+  EXPECT_FALSE(profile.belongs_to(roam::identity_of(hall_scene())));
+  profile.scene = roam::identity_of(hall_scene());
+  EXPECT_TRUE(profile.belongs_to(roam::identity_of(hall_scene())));
   EXPECT_FALSE(profile.belongs_to({}));
 }
 

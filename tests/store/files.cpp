@@ -27,7 +27,7 @@ std::string text_of(const fs::path& file) {
   const auto bytes = read_file(file.parent_path(), file.filename(), 1 << 20);
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
-std::size_t files_in(const fs::path& folder) {
+std::size_t count_files(const fs::path& folder) {
   return static_cast<std::size_t>(std::distance(fs::directory_iterator(folder), fs::directory_iterator()));
 }
 
@@ -45,13 +45,13 @@ TEST(NewFile, IsThereOnlyWhenItIsWhole) {
     file.write(bytes_of("half"));
     EXPECT_FALSE(fs::exists(path));
   }
-  EXPECT_EQ(files_in(folder.path()), 0U) << "what was not committed is removed";
+  EXPECT_EQ(count_files(folder.path()), 0U) << "what was not committed is removed";
   NewFile file(path.parent_path(), path.filename());
   file.write(bytes_of("who"));
   file.write(bytes_of("le"));
   file.commit();
   EXPECT_EQ(text_of(path), "whole");
-  EXPECT_EQ(files_in(folder.path()), 1U);
+  EXPECT_EQ(count_files(folder.path()), 1U);
 }
 
 TEST(NewFile, ReplacesInOneStroke) {
@@ -215,7 +215,7 @@ TEST(BuildLock, IsForOneProcessAtATimeAndEndsWithIt) {
   if (child == 0) {
     const BuildLock lock(folder.path());
     const char ready = 'r';
-    static_cast<void>(!write(pipe_ends[1], &ready, 1));
+    static_cast<void>(!::write(pipe_ends[1], &ready, 1));
     pause();
     _exit(0);
   }

@@ -126,21 +126,23 @@ class StoredWorld final : public roam::Space {
 };
 
 /// Bits, not values: -0 is not 0.
-bool same(double a, double b) { return std::memcmp(&a, &b, sizeof a) == 0; }
-bool same(const Vec3& a, const Vec3& b) { return same(a.x, b.x) && same(a.y, b.y) && same(a.z, b.z); }
+bool same_bits(double a, double b) { return std::memcmp(&a, &b, sizeof a) == 0; }
+bool same_bits(const Vec3& a, const Vec3& b) {
+  return same_bits(a.x, b.x) && same_bits(a.y, b.y) && same_bits(a.z, b.z);
+}
 template <class Answer>
 bool same_touch(const Answer& a, const Answer& b) {
-  return same(a.point, b.point) && same(a.normal, b.normal) && a.feature == b.feature && same(a.distance, b.distance) &&
-         a.unknown == b.unknown;
+  return same_bits(a.point, b.point) && same_bits(a.normal, b.normal) && a.feature == b.feature &&
+         same_bits(a.distance, b.distance) && a.unknown == b.unknown;
 }
 
-struct Tally {
+struct IdentityTally {
   long sweeps = 0, hits = 0, contacts = 0, clearances = 0, floors = 0, other_time = 0, other_triangle = 0,
        other_clearance = 0;
 };
 
 void compare(const roam::Space& pager, const roam::Space& world, bool lossless, std::span<const Mesh> meshes,
-             int queries, Tally& tally) {
+             int queries, IdentityTally& tally) {
   clutter::Random random(11);
   for (int i = 0; i < queries; ++i) {
     const Mesh& mesh = meshes[random.engine() % meshes.size()];
@@ -158,7 +160,7 @@ void compare(const roam::Space& pager, const roam::Space& world, bool lossless, 
       ASSERT_EQ(a.hit, b.hit);
       const double apart = std::abs(a.time - b.time) * glm::length(way);
       ASSERT_LE(apart, along(way, b));
-      if (!same(a.time, b.time)) {
+      if (!same_bits(a.time, b.time)) {
         ++tally.other_time;
       } else if (a.hit && a.triangle != b.triangle) {
         ++tally.other_triangle;
@@ -176,7 +178,7 @@ void compare(const roam::Space& pager, const roam::Space& world, bool lossless, 
       ASSERT_EQ(n, m);
       for (std::size_t k = 0; k < n; ++k) {
         ++tally.contacts;
-        ASSERT_TRUE(same(left[k].distance, right[k].distance));
+        ASSERT_TRUE(same_bits(left[k].distance, right[k].distance));
         if (n < left.size()) {  // else of those that are equally far others may be left out
           const auto b =
               std::find_if(right.begin(), right.end(), [&](auto& c) { return c.triangle == left[k].triangle; });
@@ -186,7 +188,7 @@ void compare(const roam::Space& pager, const roam::Space& world, bool lossless, 
       }
       const Clearance a = pager.clearance(body, from, way, reach), b = world.clearance(body, from, way, reach);
       ++tally.clearances;
-      tally.other_clearance += same(a.distance, b.distance) ? 0 : 1;
+      tally.other_clearance += same_bits(a.distance, b.distance) ? 0 : 1;
       ASSERT_NEAR(a.distance, b.distance, lossless ? query::lossless_tolerance : query::clearance_tolerance);
     }
     roam::Floor floor;
@@ -195,7 +197,7 @@ void compare(const roam::Space& pager, const roam::Space& world, bool lossless, 
     const Clearance b = world.floor_clearance(body, from, reach, floor);
     ++tally.floors;
     ASSERT_EQ(a.found, b.found);
-    ASSERT_TRUE(same(a.distance, b.distance));
+    ASSERT_TRUE(same_bits(a.distance, b.distance));
     if (a.found && a.triangle == b.triangle) {
       ASSERT_TRUE(same_touch(a, b));
     }
@@ -211,7 +213,7 @@ void compare(const char* name, const std::vector<Mesh>& meshes, const made::Stor
   Pager pager(store, {.memory = 64 << 20, .loaders = 2});
   ASSERT_NO_FATAL_FAILURE(made::load_all(pager));
   constexpr int queries = 20'000;
-  Tally tally;
+  IdentityTally tally;
   roam::Filtered some(pager), of_world(world);
   some.ignore_beyond(beyond);
   of_world.ignore_beyond(beyond);

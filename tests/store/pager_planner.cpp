@@ -96,10 +96,10 @@ class Scenery {
   }
 
   /// What a loading thread does.
-  void load(const Work& work) {
+  void load(const paging::Work& work) {
     std::byte* const memory = arena_ + work.unit * unit_bytes;
     const std::vector<store::TileEntry>& tiles = tiles_[work.item.page];
-    Outcome outcome;
+    paging::Outcome outcome;
     if (work.item.is_page()) {
       const std::uint32_t coded = store_.pages[work.item.page].ref.bytes;
       std::memcpy(memory, tiles.data(), coded);

@@ -79,15 +79,15 @@ struct Course {
   int us = 200;           ///< of the clock, that a step takes
 };
 
-struct Tally {
+struct WalkTally {
   double length = 0.0;
   long held = 0, slowed = 0, embedded = 0, resized = 0;
 };
 
 /// Free steps are judged by all triangles. Who was free does not come to be in the unknown by an update.
-Tally walk(Maze& maze, Pager& pager, const Course& course, std::uint64_t seed) {
+WalkTally walk(Maze& maze, Pager& pager, const Course& course, std::uint64_t seed) {
   Random random(seed);
-  Tally tally;
+  WalkTally tally;
   Walker w(pager, {}, course.mode, {42.5, 42.5, 1.0});
   double heading = 1.0;
   for (int i = 0; i < course.steps; ++i) {
@@ -124,7 +124,7 @@ TEST(PagerWalk, OnFootInLittleMemory) {
   Maze maze("pager_on_foot", 1);
   ASSERT_GT(maze.store->info().resident_bytes, 2u << 20);
   Pager pager(maze.store, {.memory = Pager::least_memory});
-  const Tally tally = walk(maze, pager, {.steps = 2000}, 5);
+  const WalkTally tally = walk(maze, pager, {.steps = 2000}, 5);
   EXPECT_EQ(tally.embedded, 0);
   EXPECT_GT(tally.length, 20.0);
 }
@@ -133,7 +133,7 @@ TEST(PagerWalk, AtFiftyMetresASecondInLittleMemory) {
   for (const std::uint64_t seed : {2, 3}) {
     Maze maze("pager_fast", seed);
     Pager pager(maze.store, {.memory = Pager::least_memory, .loaders = static_cast<int>(seed) - 1});
-    const Tally tally =
+    const WalkTally tally =
         walk(maze, pager, {.mode = seed == 2 ? Mode::fly : Mode::walk, .speed = 50.0, .steps = 1500, .us = 300}, seed);
     EXPECT_EQ(tally.embedded, 0);
     EXPECT_GT(tally.length, 200.0);
@@ -144,7 +144,7 @@ TEST(PagerWalk, WithSlowReadsTheBodyGoesSlowlyAndNeverThrough) {
   Maze maze("pager_slow", 4);
   maze.bytes->delay_us = 20'000;
   Pager pager(maze.store, {.memory = Pager::least_memory});
-  const Tally tally = walk(maze, pager, {.speed = 50.0, .steps = 1000, .us = 500}, 4);
+  const WalkTally tally = walk(maze, pager, {.speed = 50.0, .steps = 1000, .us = 500}, 4);
   EXPECT_EQ(tally.embedded, 0);
   EXPECT_GT(tally.slowed, 0);
   EXPECT_GT(tally.length, 5.0);
@@ -154,7 +154,7 @@ TEST(PagerWalk, InAnotherSizeAgainAndAgain) {
   for (const Mode mode : {Mode::walk, Mode::fly}) {
     Maze maze("pager_sizes", 6);
     Pager pager(maze.store, {.memory = Pager::least_memory});
-    const Tally tally =
+    const WalkTally tally =
         walk(maze, pager, {.mode = mode, .speed = 15.0, .steps = 1000, .resize_each = 7, .judge_each = 7}, 7);
     EXPECT_EQ(tally.embedded, 0);
     EXPECT_GT(tally.length, 20.0);
@@ -166,7 +166,7 @@ TEST(PagerWalk, InAnotherSizeAgainAndAgain) {
 TEST(PagerWalk, PutAnywhereAgainAndAgain) {
   Maze maze("pager_teleports", 5);
   Pager pager(maze.store, {.memory = Pager::least_memory, .loaders = 2});
-  const Tally tally =
+  const WalkTally tally =
       walk(maze, pager, {.speed = 5.0, .steps = 2500, .teleport_each = 60, .judge_each = 30, .us = 500}, 6);
   EXPECT_EQ(tally.embedded, 0);
   EXPECT_GT(tally.length, 20.0);

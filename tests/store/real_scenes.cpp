@@ -66,14 +66,14 @@ struct Answer {
   roam::Triangle triangle{};
 };
 
-struct Tally {
+struct SceneTally {
   int hits = 0, free = 0, one_hits = 0, other_time = 0;
   long double largest_gap = 0.0;    ///< of what is met, from the body
   long double largest_depth = 0.0;  ///< of what the other meets, on the way that is said to be free
   double farthest_apart = 0.0;      ///< where both meet something
 };
 
-void expect_near(const Sweep& q, const Answer& answer, const char* which, Tally& tally) {
+void expect_near(const Sweep& q, const Answer& answer, const char* which, SceneTally& tally) {
   if (!answer.hit) return;
   const Vec3 place = q.from + answer.time * q.motion;
   const long double gap = swept_distance(place, place, q.body.half_height, answer.triangle) - q.body.radius;
@@ -82,7 +82,7 @@ void expect_near(const Sweep& q, const Answer& answer, const char* which, Tally&
 }
 
 /// The way that `says` calls free keeps clear of the triangle that `other` meets.
-void expect_clear(const Sweep& q, const Answer& says, const Answer& other, const char* which, Tally& tally) {
+void expect_clear(const Sweep& q, const Answer& says, const Answer& other, const char* which, SceneTally& tally) {
   if (!other.hit || says.time == 0.0) return;
   const Vec3 to = q.from + says.time * q.motion;
   const long double gap = swept_distance(q.from, to, q.body.half_height, other.triangle) - q.body.radius;
@@ -112,7 +112,7 @@ void compare(const char* name, const std::vector<fs::path>& files) {
     return known->second;
   };
   clutter::Random random(17);
-  Tally tally;
+  SceneTally tally;
   for (int i = 0; i < sweeps(); ++i) {
     SCOPED_TRACE(i);
     const roam::Triangle at = source.triangle(random.engine() % source.triangles);

@@ -105,6 +105,12 @@ inline ProgramResult run_program(const std::string& program, const std::vector<s
   return result;
 }
 
+#ifdef ROAM_PROGRAM
+inline ProgramResult run_roam(const std::vector<std::string>& arguments, const ProgramOptions& options = {}) {
+  return run_program(ROAM_PROGRAM, arguments, options);
+}
+#endif
+
 /// Runs a program that cannot write a byte into any file.
 inline ProgramResult run_without_files(const std::string& program, const std::vector<std::string>& arguments) {
   std::vector<std::string> all{"-c", "ulimit -f 0; exec \"$0\" \"$@\"", program};

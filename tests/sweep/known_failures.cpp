@@ -15,7 +15,7 @@ using roam::Feature;
 using roam::Triangle;
 using roam::Vec3;
 
-constexpr double close = 1e-12;  // metres
+constexpr double nearly = 1e-12;  // metres
 
 TEST(KnownFailures, TenMetreSheetMetEdgeOn) {
   const Triangle sheet[] = {{Vec3(0, 0, 0), Vec3(10, 0, 0), Vec3(10, 0, 10)},
@@ -32,7 +32,7 @@ TEST(KnownFailures, TenMetreSheetMetEdgeOn) {
       }
     }
     EXPECT_EQ(feature, Feature::edge);
-    EXPECT_NEAR(first, (5.0 - std::sqrt(0.09 - aside * aside)) / 10.0, close);
+    EXPECT_NEAR(first, (5.0 - std::sqrt(0.09 - aside * aside)) / 10.0, nearly);
   }
 }
 
@@ -42,7 +42,7 @@ TEST(KnownFailures, LegsOfThreeMillimetresAtNormalIncidence) {
     const auto s = roam::sweep({.radius = 0.3}, {0.001, 0.001, side}, {0, 0, -2.0 * side}, t);
     ASSERT_TRUE(s.hit);
     EXPECT_EQ(s.feature, Feature::face);
-    EXPECT_NEAR(s.time, 0.35, close);
+    EXPECT_NEAR(s.time, 0.35, nearly);
   }
 }
 
@@ -80,7 +80,7 @@ TEST(KnownFailures, SliverOfFiveMicrometres) {
     ASSERT_TRUE(s.hit);
     const Body body{.radius = 0.3};
     EXPECT_GE(oracle::least_distance<Quad>(body, from, 4.0 * way, s.time, t), Quad(0.3));
-    EXPECT_LT(oracle::distance_on_the_way<Quad>(body, from, 4.0 * way, s.time, t), Quad(0.3 + close));
+    EXPECT_LT(oracle::distance_on_the_way<Quad>(body, from, 4.0 * way, s.time, t), Quad(0.3 + nearly));
   }
 }
 
@@ -108,7 +108,7 @@ TEST(KnownFailures, GrazedEdgeDoesNotHideTheWallBehindIt) {
   const Vec3 from(-2, 0, 0), motion(10, 0, 0);
   const auto at_wall = roam::sweep(body, from, motion, wall);
   ASSERT_TRUE(at_wall.hit);
-  EXPECT_NEAR(at_wall.time, 0.67, close);
+  EXPECT_NEAR(at_wall.time, 0.67, nearly);
   // The edge z = -0.3 lies beside the way; whichever way its rounding falls, the wall is met at the same time.
   for (const double more : {1e-15, 1e-13, 1e-9, 1e-6}) {
     const Triangle free_edge{Vec3(1, -1, -0.3 - more), Vec3(1, 1, -0.3 - more), Vec3(1, 0, -3)};
@@ -135,10 +135,10 @@ TEST(KnownFailures, PassageOf688MillimetresAdmitsABodyOf640) {
     for (const Triangle& side : {t, mirrored}) {
       const auto s = roam::sweep(body, {-1, 0, 1}, {5, 0, 0}, side);
       EXPECT_FALSE(s.hit);
-      EXPECT_NEAR(s.distance, 0.024, close);
+      EXPECT_NEAR(s.distance, 0.024, nearly);
       // Even a body that fills the passage but for a picometre.
-      EXPECT_FALSE(roam::sweep(Body::capsule(0.344 - close, 1.8), {-1, 0, 1}, {5, 0, 0}, side).hit);
-      EXPECT_TRUE(roam::sweep(Body::capsule(0.344 + close, 1.8), {-1, 0, 1}, {5, 0, 0}, side).hit);
+      EXPECT_FALSE(roam::sweep(Body::capsule(0.344 - nearly, 1.8), {-1, 0, 1}, {5, 0, 0}, side).hit);
+      EXPECT_TRUE(roam::sweep(Body::capsule(0.344 + nearly, 1.8), {-1, 0, 1}, {5, 0, 0}, side).hit);
     }
   }
 }

@@ -27,7 +27,7 @@ namespace certified = roam::certified;
 constexpr int queries = 5000;
 
 /// The triangle of a query at the origin, relative to its start; a single rounding apart from the truth.
-certified::LocalTriangle local(const Query& q, double more_error = 0.0) {
+certified::LocalTriangle blurred_local(const Query& q, double more_error = 0.0) {
   certified::LocalTriangle t{};
   double largest = 0.0;
   for (int i = 0; i < 3; ++i) {
@@ -54,7 +54,7 @@ TEST(CertifiedSweep, HoldsForEveryTriangleWithinTheCornerError) {
   int hits = 0;
   for_each_query([&](const Query& q) {
     const double error = std::pow(10.0, -6.0 + 3.0 * in(random));
-    certified::LocalTriangle blurred = local(q, error);
+    certified::LocalTriangle blurred = blurred_local(q, error);
     for (Vec3& corner : blurred.corner) corner += error * Vec3(in(random), in(random), in(random));
     const auto s = certified::sweep(q.body, q.motion, blurred, 0.0, 1.0, 0.0);
     const Quad least = oracle::least_distance<Quad>(q.body, q.from, q.motion, s.time, q.triangle);
@@ -77,7 +77,7 @@ TEST(CertifiedSweep, ToleranceIsKeptAndStopsEarlier) {
   int sooner = 0;
   for_each_query([&](const Query& q) {
     const double tolerance = 1e-4;
-    const auto t = local(q);
+    const auto t = blurred_local(q);
     const auto s = certified::sweep(q.body, q.motion, t, 0.0, 1.0, tolerance);
     if (!s.hit) {
       EXPECT_GE(oracle::least_distance<Quad>(q.body, q.from, q.motion, 1.0, q.triangle), Quad(q.body.radius));
@@ -111,7 +111,7 @@ TEST(CertifiedSweep, OfASphereKeepsTheSamePromisesFromAnyFreeTimeToAnyEnd) {
         q.body.radius = 1e-7;
         q.motion = (1.0 + share(random)) * (at - q.from);
       }
-      const auto t = local(q);
+      const auto t = blurred_local(q);
       const auto judged = [&](double begin, double end) {
         const double time = certified::sphere_impact_time(q.body, q.motion, t, begin, end, tolerance);
         EXPECT_GE(time, begin);
@@ -144,7 +144,7 @@ TEST(CertifiedSweep, OfASphereKeepsTheSamePromisesFromAnyFreeTimeToAnyEnd) {
 TEST(CertifiedSweep, CanBeginAtAnyTimeThatIsKnownToBeFree) {
   int begun = 0;
   for_each_query([&](const Query& q) {
-    const auto t = local(q);
+    const auto t = blurred_local(q);
     const auto whole = certified::sweep(q.body, q.motion, t, 0.0, 1.0, 0.0);
     if (whole.hit && whole.time == 0.0) return;
     for (const double share : {0.25, 0.9, 1.0}) {
@@ -173,7 +173,7 @@ TEST(CertifiedSweep, CanBeginAtAnyTimeThatIsKnownToBeFree) {
 TEST(CertifiedSweep, ApproachFindsWhereTheGapIsLeast) {
   int inside = 0;
   for_each_query([&](const Query& q) {
-    const auto t = local(q);
+    const auto t = blurred_local(q);
     const auto a = certified::approach(q.body, q.motion, t, 0.0, 1.0);
     ASSERT_GE(a.time, 0.0);
     ASSERT_LE(a.time, 1.0);
@@ -197,7 +197,7 @@ TEST(CertifiedSweep, ApproachFindsWhereTheGapIsLeast) {
 TEST(CertifiedSweep, ApproachOfABodyAtRestIsItsProximity) {
   for_each_query([&](Query q) {
     q.motion = Vec3(0);
-    const auto t = local(q);
+    const auto t = blurred_local(q);
     const auto a = certified::approach(q.body, q.motion, t, 0.0, 1.0);
     const auto p = certified::proximity(q.body, t);
     EXPECT_NEAR(a.proximity.distance, p.distance, certified::hit_resolution(q.body, q.motion, t, 1.0));
@@ -207,7 +207,7 @@ TEST(CertifiedSweep, ApproachOfABodyAtRestIsItsProximity) {
 
 TEST(SupportPlane, BoundsTheDistanceFromBelowAndTightly) {
   for_each_query([&](const Query& q) {
-    const auto t = local(q);
+    const auto t = blurred_local(q);
     certified::Obstacle obstacle(t.corner, q.body.half_height);
     const double doubt = certified::error_bound(q.body, Vec3(0), t).at_start;
     const auto plane = certified::support_plane(obstacle, Vec3(0), doubt);

@@ -17,10 +17,10 @@ using roam::Triangle;
 using roam::Vec3;
 
 constexpr double radius = 0.5;
-const Triangle floor_triangle{Vec3(0, 0, 0), Vec3(4, 0, 0), Vec3(0, 4, 0)};
+const Triangle paper_triangle{Vec3(0, 0, 0), Vec3(4, 0, 0), Vec3(0, 4, 0)};
 
 TEST(PaperEquations, MeetTheFrontOfAFace) {
-  const auto c = paper::collide(radius, {1, 1, 2}, {0, 0, -4}, floor_triangle);
+  const auto c = paper::collide(radius, {1, 1, 2}, {0, 0, -4}, paper_triangle);
   ASSERT_TRUE(c);
   EXPECT_NEAR(c->time, 0.375, 1e-12);
   EXPECT_EQ(c->feature, Feature::face);
@@ -28,37 +28,37 @@ TEST(PaperEquations, MeetTheFrontOfAFace) {
 }
 
 TEST(PaperEquations, MeetEdgesAndVerticesBesideTheFace) {
-  const auto edge = paper::collide(radius, {2, -0.3, 2}, {0, 0, -4}, floor_triangle);
+  const auto edge = paper::collide(radius, {2, -0.3, 2}, {0, 0, -4}, paper_triangle);
   ASSERT_TRUE(edge);
   EXPECT_EQ(edge->feature, Feature::edge);
   EXPECT_NEAR(edge->time, 0.4, 1e-12);
-  const auto vertex = paper::collide(radius, {-0.18, -0.24, 2}, {0, 0, -4}, floor_triangle);
+  const auto vertex = paper::collide(radius, {-0.18, -0.24, 2}, {0, 0, -4}, paper_triangle);
   ASSERT_TRUE(vertex);
   EXPECT_EQ(vertex->feature, Feature::vertex);
   EXPECT_NEAR(vertex->time, 0.4, 1e-12);
 }
 
 TEST(PaperEquations, ThrowAwayWhatLiesBeyondTheBox) {
-  EXPECT_TRUE(paper::beyond_box(radius, {5, 5, 1}, {1, 0, 0}, floor_triangle));
-  EXPECT_FALSE(paper::beyond_box(radius, {2, 2, 0.4}, {1, 0, 0}, floor_triangle));
+  EXPECT_TRUE(paper::beyond_box(radius, {5, 5, 1}, {1, 0, 0}, paper_triangle));
+  EXPECT_FALSE(paper::beyond_box(radius, {2, 2, 0.4}, {1, 0, 0}, paper_triangle));
 }
 
 TEST(PaperEquations, MissFacesFromBehind) {
-  EXPECT_FALSE(paper::collide(radius, {1, 1, -2}, {0, 0, 1.6}, floor_triangle));
-  EXPECT_TRUE(roam::sweep({radius}, {1, 1, -2}, {0, 0, 1.6}, floor_triangle).hit);
+  EXPECT_FALSE(paper::collide(radius, {1, 1, -2}, {0, 0, 1.6}, paper_triangle));
+  EXPECT_TRUE(roam::sweep({radius}, {1, 1, -2}, {0, 0, 1.6}, paper_triangle).hit);
 }
 
 TEST(PaperEquations, MissASheetMetEdgeOn) {
-  EXPECT_FALSE(paper::collide(radius, {1, -5, 0}, {0, 10, 0}, floor_triangle));
-  EXPECT_TRUE(roam::sweep({radius}, {1, -5, 0}, {0, 10, 0}, floor_triangle).hit);
+  EXPECT_FALSE(paper::collide(radius, {1, -5, 0}, {0, 10, 0}, paper_triangle));
+  EXPECT_TRUE(roam::sweep({radius}, {1, -5, 0}, {0, 10, 0}, paper_triangle).hit);
 }
 
 TEST(PaperEquations, TouchABodyThatStartsInsideBesideTheTriangle) {
-  const auto c = paper::collide(radius, {1, 1, 0.2}, {0, 0, -1}, floor_triangle);
+  const auto c = paper::collide(radius, {1, 1, 0.2}, {0, 0, -1}, paper_triangle);
   ASSERT_TRUE(c);
   EXPECT_EQ(c->time, 0.0);
   EXPECT_NEAR(c->point.z, -0.3, 1e-12);
-  EXPECT_NEAR(roam::sweep({radius}, {1, 1, 0.2}, {0, 0, -1}, floor_triangle).point.z, 0.0, 1e-12);
+  EXPECT_NEAR(roam::sweep({radius}, {1, 1, 0.2}, {0, 0, -1}, paper_triangle).point.z, 0.0, 1e-12);
 }
 
 /// Of all that meet an ordinary triangle from a free start, the share that the printed equations miss.

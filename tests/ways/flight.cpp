@@ -16,7 +16,7 @@ using roam::Outcome;
 using roam::Training;
 using roam::words::answer;
 
-constexpr double wanted_error = 5e-4;  // m
+constexpr double flight_error = 5e-4;  // m
 
 Training trained(const Mesh& mesh, double spacing = 0.2) {
   const roam::Survey survey = roam::Survey::build({mesh}, {.threads = 1, .lossless = true, .progress = {}});
@@ -34,7 +34,7 @@ void expect_proven(const Training& t) {
 void expect_largest(const Training& t, double radius) {
   expect_proven(t);
   ASSERT_TRUE(t.largest) << answer(t);
-  EXPECT_NEAR(*t.largest, radius, wanted_error) << answer(t);
+  EXPECT_NEAR(*t.largest, radius, flight_error) << answer(t);
 }
 
 TEST(TrainFlight, ADuctDecidesAndNoEndOfAPathInIt) {

@@ -22,7 +22,7 @@ using roam::Survey;
 constexpr double wanted_error = 2e-4;  // m
 const PassageOptions flying{.mode = Mode::fly};
 
-Survey survey_of(const Mesh& mesh) {
+Survey survey_to_fly(const Mesh& mesh) {
   return Survey::build({mesh}, {.threads = 1, .lossless = true, .progress = {}});
 }
 
@@ -44,8 +44,8 @@ constexpr Vec3 one_end{-2.5, 0.1, 1.3}, other_end{2.5, 0.0, 1.2};
 
 TEST(Flight, IsHalfTheDoor) {
   for (const double width : {0.5, 0.9}) {
-    const Passage p =
-        roam::widest_way(survey_of(rooms(0.2 - 0.5 * width, 0.2 + 0.5 * width, 0.0, 2.0)), one_end, other_end, flying);
+    const Passage p = roam::widest_way(survey_to_fly(rooms(0.2 - 0.5 * width, 0.2 + 0.5 * width, 0.0, 2.0)), one_end,
+                                       other_end, flying);
     ASSERT_TRUE(p.found);
     EXPECT_NEAR(p.radius, 0.5 * width, wanted_error);
     ASSERT_TRUE(p.opening);
@@ -57,7 +57,7 @@ TEST(Flight, IsHalfTheDoor) {
 }
 
 TEST(Flight, IsProvenToSomeMillimetres) {
-  const Survey survey = survey_of(rooms(-0.1, 0.5, 0.0, 2.0));
+  const Survey survey = survey_to_fly(rooms(-0.1, 0.5, 0.0, 2.0));
   for (const double spacing : {0.2, 0.1}) {
     const Passage p = roam::widest_way(survey, one_end, other_end, {.mode = Mode::fly, .spacing = spacing});
     EXPECT_TRUE(p.proven);
@@ -73,7 +73,7 @@ TEST(Flight, DoesNotDependOnWhereTheSceneLies) {
   for (const Vec3& by : {Vec3(-13739.0, 253.0, 182.0), Vec3(1e5, -1e5, 0.0)}) {
     Mesh m = rooms(-0.1, 0.5, 0.0, 2.0);
     for (Vec3& v : m.vertices) v += by;
-    const Passage p = roam::widest_way(survey_of(m), one_end + by, other_end + by, flying);
+    const Passage p = roam::widest_way(survey_to_fly(m), one_end + by, other_end + by, flying);
     EXPECT_NEAR(p.radius, 0.3, wanted_error);
     EXPECT_TRUE(p.proven);
   }
@@ -82,22 +82,22 @@ TEST(Flight, DoesNotDependOnWhereTheSceneLies) {
 TEST(Flight, ComesFromFarOutsideTheScene) {
   // Down by the roof that is not there, and in by the door.
   const Mesh m = rooms(-0.1, 0.5, 0.0, 2.0, false);
-  const Passage down = roam::widest_way(survey_of(m), {40.0, -70.0, 90.0}, other_end, flying);
+  const Passage down = roam::widest_way(survey_to_fly(m), {40.0, -70.0, 90.0}, other_end, flying);
   EXPECT_TRUE(down.found);
   EXPECT_FALSE(down.limited);
   EXPECT_LT(down.places, 100'000u);
   const Passage closed =
-      roam::widest_way(survey_of(rooms(-0.1, 0.5, 0.0, 2.0)), {40.0, -70.0, 90.0}, other_end, flying);
+      roam::widest_way(survey_to_fly(rooms(-0.1, 0.5, 0.0, 2.0)), {40.0, -70.0, 90.0}, other_end, flying);
   EXPECT_FALSE(closed.found);
   EXPECT_LT(closed.bound, 0.2);
-  const Passage nothing = roam::widest_way(survey_of({}), {0.0, 0.0, 0.0}, {3.0, 1.0, 2.0}, flying);
+  const Passage nothing = roam::widest_way(survey_to_fly({}), {0.0, 0.0, 0.0}, {3.0, 1.0, 2.0}, flying);
   EXPECT_TRUE(nothing.found);
   EXPECT_FALSE(nothing.limited);
 }
 
 TEST(Flight, BreaksOffWhereBothSidesAreNearest) {
   Mesh m = rooms(0.2, 0.2, 0.0, 2.0);
-  const Passage flat = roam::widest_way(survey_of(m), one_end, other_end, {.mode = Mode::fly, .spacing = 0.1});
+  const Passage flat = roam::widest_way(survey_to_fly(m), one_end, other_end, {.mode = Mode::fly, .spacing = 0.1});
   EXPECT_FALSE(flat.found);
   ASSERT_TRUE(flat.opening);
   EXPECT_NEAR(flat.opening->point.x, 0.0, 0.1);
@@ -105,20 +105,20 @@ TEST(Flight, BreaksOffWhereBothSidesAreNearest) {
   // Nothing comes near what is 2.4 m away.
   m = rooms(0.2, 0.2, 0.0, 2.0);
   add_box(m, {-1.2, -1.5, 0.0}, {1.2, 1.5, 2.6});
-  const Passage far = roam::widest_way(survey_of(m), one_end, other_end, {.mode = Mode::fly, .spacing = 0.1});
+  const Passage far = roam::widest_way(survey_to_fly(m), one_end, other_end, {.mode = Mode::fly, .spacing = 0.1});
   EXPECT_FALSE(far.found || far.opening);
 }
 
 TEST(Flight, LooksForTheWidestThatIsAskedFor) {
   // The door is 2 mm narrower than what is looked for at most.
-  const Passage p =
-      roam::widest_way(survey_of(rooms(-0.1, 0.5, 0.0, 2.0)), one_end, other_end, {.mode = Mode::fly, .widest = 0.302});
+  const Passage p = roam::widest_way(survey_to_fly(rooms(-0.1, 0.5, 0.0, 2.0)), one_end, other_end,
+                                     {.mode = Mode::fly, .widest = 0.302});
   EXPECT_TRUE(p.found && p.limited && p.proven);
   EXPECT_LE(p.bound, 0.302);
 }
 
 TEST(Flight, IsHalfTheSmallerSideOfAWindow) {
-  const Passage p = roam::widest_way(survey_of(rooms(-0.33, 0.33, 1.1, 1.52)), one_end, other_end, flying);
+  const Passage p = roam::widest_way(survey_to_fly(rooms(-0.33, 0.33, 1.1, 1.52)), one_end, other_end, flying);
   ASSERT_TRUE(p.found);
   EXPECT_NEAR(p.radius, 0.21, wanted_error);
   ASSERT_TRUE(p.opening);
@@ -130,7 +130,7 @@ TEST(Flight, IsHalfTheNarrowestDoorOfSeededGalleries) {
   for (std::uint64_t seed = 0; seed < 6; ++seed) {
     const seeded::Gallery g = seeded::gallery(seed);
     const Vec3 up(0.0, 0.0, 1.2);
-    const Passage p = roam::widest_way(survey_of(g.mesh), g.from + up, g.to + up, flying);
+    const Passage p = roam::widest_way(survey_to_fly(g.mesh), g.from + up, g.to + up, flying);
     EXPECT_NEAR(p.radius, g.upper(), wanted_error) << seed;
     EXPECT_TRUE(p.proven) << seed;
     EXPECT_GE(p.bound, g.upper()) << seed;
@@ -138,7 +138,7 @@ TEST(Flight, IsHalfTheNarrowestDoorOfSeededGalleries) {
 }
 
 TEST(Flight, GoesOverTheWallWhereThereIsNoRoof) {
-  const Passage p = roam::widest_way(survey_of(rooms(-0.25, 0.25, 0.0, 2.0, false)), one_end, other_end, flying);
+  const Passage p = roam::widest_way(survey_to_fly(rooms(-0.25, 0.25, 0.0, 2.0, false)), one_end, other_end, flying);
   ASSERT_TRUE(p.found);
   EXPECT_FALSE(p.limited);
   double highest = 0.0;
@@ -148,7 +148,7 @@ TEST(Flight, GoesOverTheWallWhereThereIsNoRoof) {
 
 TEST(Flight, IsFlownByABodyALittleSlimmer) {
   const Mesh m = rooms(-0.33, 0.33, 1.1, 1.52);
-  const Survey survey = survey_of(m);
+  const Survey survey = survey_to_fly(m);
   const Passage p = roam::widest_way(survey, one_end, other_end, flying);
   for (const double share : {0.97, 1.02}) {
     roam::Walker walker(survey.world(), roam::WalkerSettings::sphere(share * p.radius), Mode::fly, p.way.front());
@@ -162,7 +162,7 @@ TEST(Flight, IsFlownByABodyALittleSlimmer) {
 
 TEST(Flight, EndsAtAClosedWall) {
   Mesh m = rooms(0.0, 0.0, 0.0, 2.6);
-  const Passage p = roam::widest_way(survey_of(m), one_end, other_end, flying);
+  const Passage p = roam::widest_way(survey_to_fly(m), one_end, other_end, flying);
   EXPECT_FALSE(p.found);
   ASSERT_TRUE(p.opening);
   EXPECT_LT(std::abs(p.opening->point.x), 0.3);
@@ -170,7 +170,7 @@ TEST(Flight, EndsAtAClosedWall) {
 
 TEST(Flight, IsHalfOfWhatIsNarrowestAcrossAnObliqueDuct) {
   // 0.5 m high in the wall, and rising by 3 m on 4: 0.4 m across.
-  const Survey survey = survey_of(flight::joined_by_duct(0.6, 0.5, 4.0, 3.0));
+  const Survey survey = survey_to_fly(flight::joined_by_duct(0.6, 0.5, 4.0, 3.0));
   const Passage p = roam::widest_way(survey, {-2.5, 0.3, 1.5}, {6.5, 0.2, 4.4}, flying);
   ASSERT_TRUE(p.found);
   EXPECT_NEAR(p.radius, 0.2, wanted_error);
@@ -181,7 +181,7 @@ TEST(Flight, IsHalfOfWhatIsNarrowestAcrossAnObliqueDuct) {
 
 TEST(Flight, GoesUpAShaft) {
   const Passage p =
-      roam::widest_way(survey_of(flight::joined_by_shaft(0.7, 4.0)), {1.0, 1.0, 1.0}, {-1.0, 0.5, 8.5}, flying);
+      roam::widest_way(survey_to_fly(flight::joined_by_shaft(0.7, 4.0)), {1.0, 1.0, 1.0}, {-1.0, 0.5, 8.5}, flying);
   ASSERT_TRUE(p.found);
   EXPECT_NEAR(p.radius, 0.35, wanted_error);
 }
@@ -189,7 +189,7 @@ TEST(Flight, GoesUpAShaft) {
 TEST(Flight, TakesTheWiderOfADoorAndAWindow) {
   for (const double window : {0.4, 0.9}) {
     const Mesh m = flight::joined_by_openings({{0.5, 1.1, 0.0, 2.0}, {2.2, 2.2 + window, 1.0, 1.0 + window}});
-    const Passage p = roam::widest_way(survey_of(m), {-2.5, 0.0, 1.5}, {2.5, 0.0, 1.5}, flying);
+    const Passage p = roam::widest_way(survey_to_fly(m), {-2.5, 0.0, 1.5}, {2.5, 0.0, 1.5}, flying);
     ASSERT_TRUE(p.found);
     EXPECT_NEAR(p.radius, 0.5 * std::max(window, 0.6), wanted_error);
   }
@@ -198,7 +198,7 @@ TEST(Flight, TakesTheWiderOfADoorAndAWindow) {
 TEST(Flight, TakesTheWiderOfTwoDoorsThatHardlyDiffer) {
   for (const double more : {-0.03, -0.012, 0.012, 0.03}) {
     const Mesh m = flight::joined_by_openings({{0.53, 1.13, 0.0, 2.0}, {2.17, 2.77 + more, 0.0, 2.0}});
-    const Passage p = roam::widest_way(survey_of(m), {-2.5, 0.0, 1.5}, {2.5, 0.0, 1.5}, flying);
+    const Passage p = roam::widest_way(survey_to_fly(m), {-2.5, 0.0, 1.5}, {2.5, 0.0, 1.5}, flying);
     ASSERT_TRUE(p.found);
     EXPECT_NEAR(p.radius, 0.3 + std::max(0.0, 0.5 * more), wanted_error) << more;
     EXPECT_TRUE(p.proven) << more;
@@ -220,7 +220,7 @@ Mesh halls() {
 
 TEST(Flight, LooksAtOpenAirInLargeCubes) {
   // On a lattice of 0.2 m these are 2.2 million places.
-  const Passage p = roam::widest_way(survey_of(halls()), {-20.0, -10.0, 5.0}, {20.0, -10.0, 3.0}, flying);
+  const Passage p = roam::widest_way(survey_to_fly(halls()), {-20.0, -10.0, 5.0}, {20.0, -10.0, 3.0}, flying);
   ASSERT_TRUE(p.found);
   EXPECT_NEAR(p.radius, 0.4, wanted_error);
   EXPECT_TRUE(p.proven);
@@ -228,7 +228,7 @@ TEST(Flight, LooksAtOpenAirInLargeCubes) {
 }
 
 TEST(Flight, SaysWhenItCameToItsMostPlaces) {
-  const Survey survey = survey_of(rooms(0.0, 0.0, 0.0, 2.6));
+  const Survey survey = survey_to_fly(rooms(0.0, 0.0, 0.0, 2.6));
   const Passage whole = roam::widest_way(survey, one_end, other_end, flying);
   EXPECT_FALSE(whole.found);
   EXPECT_TRUE(whole.complete);
@@ -243,7 +243,7 @@ TEST(Flight, SaysWhenItCameToItsMostPlaces) {
 }
 
 TEST(Flight, CertifiesThatAClosedWallLetsNobodyThrough) {
-  const Passage p = roam::widest_way(survey_of(rooms(0.0, 0.0, 0.0, 2.6)), one_end, other_end, flying);
+  const Passage p = roam::widest_way(survey_to_fly(rooms(0.0, 0.0, 0.0, 2.6)), one_end, other_end, flying);
   EXPECT_FALSE(p.found);
   EXPECT_LT(p.bound, 0.2);
 }

@@ -18,27 +18,27 @@ using roam::Passage;
 using roam::PassageOptions;
 using roam::Survey;
 
-constexpr double wanted_error = 2e-4;  // m
-const PassageOptions person{.height = 1.9};
+constexpr double passage_error = 2e-4;  // m
+const PassageOptions tall_person{.height = 1.9};
 
-Survey survey_of(const Mesh& mesh) {
+Survey surveyed(const Mesh& mesh) {
   return Survey::build({mesh}, {.threads = 1, .lossless = true, .progress = {}}, 50.0);
 }
 
-Passage widest(const Mesh& mesh, const Vec3& from, const Vec3& to, const PassageOptions& options = person) {
-  return roam::widest_way(survey_of(mesh), from, to, options);
+Passage widest(const Mesh& mesh, const Vec3& from, const Vec3& to, const PassageOptions& options = tall_person) {
+  return roam::widest_way(surveyed(mesh), from, to, options);
 }
-Passage widest(const seeded::Gallery& g, const PassageOptions& options = person) {
+Passage widest(const seeded::Gallery& g, const PassageOptions& options = tall_person) {
   return widest(g.mesh, g.from, g.to, options);
 }
 
 /// A room from x = 0 to 10, y = -2 to 2, 2.6 m high.
-Mesh room() {
+Mesh long_room() {
   Mesh m;
   add_box(m, {0.0, -2.0, 0.0}, {10.0, 2.0, 2.6});
   return m;
 }
-constexpr Vec3 one_end{1.5, 0.0, 0.0}, other_end{8.5, 0.0, 0.0};
+constexpr Vec3 room_end{1.5, 0.0, 0.0}, room_other_end{8.5, 0.0, 0.0};
 
 /// A wall across the room at x = 5 with an opening from `low` to `high` (y), up to `top`.
 void add_doorway(Mesh& m, double low, double high, double top, double x = 5.0, double y0 = -2.0, double y1 = 2.0) {
@@ -53,12 +53,12 @@ TEST(Passage, IsHalfTheNarrowestDoorOfFiftySeededGalleries) {
     const Passage p = widest(g);
     ASSERT_TRUE(p.found) << seed;
     EXPECT_TRUE(p.limited) << seed;
-    EXPECT_NEAR(p.radius, g.upper(), wanted_error) << seed;
+    EXPECT_NEAR(p.radius, g.upper(), passage_error) << seed;
     ASSERT_TRUE(p.opening) << seed;
     const auto& door = *std::min_element(g.doors.begin(), g.doors.end(),
                                          [](const auto& a, const auto& b) { return a.width < b.width; });
     EXPECT_EQ(p.opening->kind, Opening::Kind::door) << seed;
-    EXPECT_NEAR(p.opening->width, door.width, 2.0 * wanted_error) << seed;
+    EXPECT_NEAR(p.opening->width, door.width, 2.0 * passage_error) << seed;
     EXPECT_LT(std::hypot(p.opening->point.x - door.point.x, p.opening->point.y - door.point.y),
               0.5 * door.thickness + 0.01)
         << seed;
@@ -70,13 +70,13 @@ TEST(Passage, IsTheSameForTheSphereThatRollsOverSills) {
   for (std::uint64_t seed = 0; seed < 12; ++seed) {
     const seeded::Gallery g = seeded::gallery(seed);
     const Passage p = widest(g, {});
-    EXPECT_NEAR(p.radius, g.upper(), wanted_error) << seed;
+    EXPECT_NEAR(p.radius, g.upper(), passage_error) << seed;
   }
 }
 
 /// How a body of a share of the widest radius fares along the answered way through the doors of a gallery.
 roam::Outcome walked(const seeded::Gallery& g, const PassageOptions& options, double share) {
-  const Survey survey = survey_of(g.mesh);
+  const Survey survey = surveyed(g.mesh);
   const Passage p = roam::widest_way(survey, g.from, g.to, options);
   roam::WalkerSettings settings = roam::WalkerSettings::sphere(share * p.radius);
   if (options.height > 0.0) {
@@ -93,8 +93,8 @@ roam::Outcome walked(const seeded::Gallery& g, const PassageOptions& options, do
 TEST(Passage, LeadsAWalkerThatIsALittleSlimmerAndNoneThatIsALittleWider) {
   for (std::uint64_t seed = 0; seed < 50; ++seed) {
     const seeded::Gallery g = seeded::build(seeded::gallery(seed).doors, {});
-    EXPECT_EQ(walked(g, person, 0.97), roam::Outcome::reached) << seed;
-    EXPECT_EQ(walked(g, person, 1.02), roam::Outcome::blocked) << seed;
+    EXPECT_EQ(walked(g, tall_person, 0.97), roam::Outcome::reached) << seed;
+    EXPECT_EQ(walked(g, tall_person, 1.02), roam::Outcome::blocked) << seed;
   }
 }
 
@@ -112,9 +112,9 @@ TEST(Passage, AnswersAWayThatBruteForceFindsFree) {
     const Passage p = widest(g);
     ASSERT_GE(p.way.size(), 2U);
     const Judge judge(g.mesh);
-    const double half = 0.5 * (person.height - person.step);
+    const double half = 0.5 * (tall_person.height - tall_person.step);
     const roam::Body body{p.radius - 5e-4, half - p.radius};
-    const Vec3 above(0.0, 0.0, person.step + half);
+    const Vec3 above(0.0, 0.0, tall_person.step + half);
     double length = 0.0;
     for (std::size_t i = 1; i < p.way.size(); ++i) {
       const Vec3 motion = p.way[i] - p.way[i - 1];
@@ -129,10 +129,10 @@ TEST(Passage, AnswersAWayThatBruteForceFindsFree) {
 TEST(Passage, GrowsNeverNarrowerWithAWiderDoor) {
   double before = 0.0;
   for (const double width : {0.30, 0.31, 0.38, 0.5, 0.501, 0.62, 0.77, 0.9, 1.2, 1.5, 1.59}) {
-    Mesh m = room();
+    Mesh m = long_room();
     add_doorway(m, 0.3 - 0.5 * width, 0.3 + 0.5 * width, 2.6);
-    const Passage p = widest(m, one_end, other_end);
-    EXPECT_NEAR(p.radius, 0.5 * width, wanted_error);
+    const Passage p = widest(m, room_end, room_other_end);
+    EXPECT_NEAR(p.radius, 0.5 * width, passage_error);
     EXPECT_GE(p.radius, before);
     before = p.radius;
   }
@@ -143,7 +143,7 @@ TEST(Passage, DoesNotDependOnWhereTheSceneLiesOrHowItIsMeshed) {
     const seeded::Gallery g = seeded::gallery(seed);
     const double radius = widest(g).radius;
     const auto same = [&](const seeded::Gallery& other, const char* what) {
-      EXPECT_NEAR(widest(other).radius, radius, wanted_error) << seed << " " << what;
+      EXPECT_NEAR(widest(other).radius, radius, passage_error) << seed << " " << what;
     };
     same(seeded::moved(g, {-13739.0, 253.0, 182.0}), "moved");
     same(seeded::moved(g, {1e5, -1e5, 1e5}), "moved far");
@@ -159,26 +159,26 @@ TEST(Passage, DoesNotDependOnWhereTheSceneLiesOrHowItIsMeshed) {
 TEST(Passage, IsTheSameBothWays) {
   for (std::uint64_t seed = 200; seed < 206; ++seed) {
     const seeded::Gallery g = seeded::gallery(seed);
-    EXPECT_NEAR(widest(g.mesh, g.from, g.to).radius, widest(g.mesh, g.to, g.from).radius, 0.25 * wanted_error) << seed;
+    EXPECT_NEAR(widest(g.mesh, g.from, g.to).radius, widest(g.mesh, g.to, g.from).radius, 0.25 * passage_error) << seed;
   }
 }
 
 TEST(Passage, TakesTheWiderOfTwoDoorsAlsoWhereTheLatticePrefersTheOther) {
   // The narrower one lies on the lattice that the start sets, the wider one half a spacing off it.
-  Mesh m = room();
+  Mesh m = long_room();
   add_wall(m, 5.0, -2.0, 5.0, -1.4, 0.0, 2.6);
   add_wall(m, 5.0, -0.8, 5.0, 0.7, 0.0, 2.6);
   add_wall(m, 5.0, 1.32, 5.0, 2.0, 0.0, 2.6);
   for (const Vec3& end : {Vec3(8.5, 0.1, 0.0), Vec3(5.4, -1.1, 0.0)}) {  // the other one just behind the narrower
     const Passage p = widest(m, {1.5, 0.1, 0.0}, end);
-    EXPECT_NEAR(p.radius, 0.31, wanted_error);
+    EXPECT_NEAR(p.radius, 0.31, passage_error);
     ASSERT_TRUE(p.opening);
     EXPECT_NEAR(p.opening->point.y, 1.01, 0.01);
   }
 }
 
 TEST(Passage, IsNotLimitedWhereNothingIsNarrow) {
-  const Passage p = widest(room(), one_end, other_end, {.height = 1.9, .widest = 0.6});
+  const Passage p = widest(long_room(), room_end, room_other_end, {.height = 1.9, .widest = 0.6});
   EXPECT_TRUE(p.found);
   EXPECT_FALSE(p.limited);
   EXPECT_EQ(p.radius, 0.6);
@@ -187,16 +187,16 @@ TEST(Passage, IsNotLimitedWhereNothingIsNarrow) {
 }
 
 TEST(Passage, OfATallBodyIsWhatItsHeightLeavesAboveTheKnee) {
-  const Passage p = widest(room(), one_end, other_end, {.height = 1.5});
+  const Passage p = widest(long_room(), room_end, room_other_end, {.height = 1.5});
   EXPECT_FALSE(p.limited);
   EXPECT_DOUBLE_EQ(p.radius, 0.6);
   EXPECT_TRUE(p.proven);
 }
 
 TEST(Passage, EndsAtAClosedWallAndSaysWhere) {
-  Mesh m = room();
+  Mesh m = long_room();
   add_wall(m, 5.0, -2.0, 5.0, 2.0, 0.0, 2.6);
-  const Passage p = widest(m, one_end, other_end);
+  const Passage p = widest(m, room_end, room_other_end);
   EXPECT_FALSE(p.found);
   EXPECT_EQ(p.radius, 0.0);
   EXPECT_TRUE(p.way.empty());
@@ -205,38 +205,38 @@ TEST(Passage, EndsAtAClosedWallAndSaysWhere) {
 }
 
 TEST(Passage, DoesNotJoinRoomsThatLieApart) {
-  Mesh m = room(), other = room();
+  Mesh m = long_room(), other = long_room();
   shift(other, {20.0, 0.0, 0.0});
   m.vertices.insert(m.vertices.end(), other.vertices.begin(), other.vertices.end());
   for (auto t : other.triangles) m.triangles.push_back({t[0] + 24, t[1] + 24, t[2] + 24});
   for (auto& t : m.triangles)
     for (auto& v : t) ASSERT_LT(v, m.vertices.size());
-  const Passage p = widest(m, one_end, other_end + Vec3(20.0, 0.0, 0.0));
+  const Passage p = widest(m, room_end, room_other_end + Vec3(20.0, 0.0, 0.0));
   EXPECT_FALSE(p.found);
   EXPECT_TRUE(p.complete);
 }
 
 TEST(Passage, PassesUnderALintelOnlyWhatIsLower) {
-  Mesh m = room();
+  Mesh m = long_room();
   add_doorway(m, -0.6, 0.6, 1.85);
-  EXPECT_FALSE(widest(m, one_end, other_end).found);
-  EXPECT_NEAR(widest(m, one_end, other_end, {.height = 1.84}).radius, 0.6, wanted_error);
+  EXPECT_FALSE(widest(m, room_end, room_other_end).found);
+  EXPECT_NEAR(widest(m, room_end, room_other_end, {.height = 1.84}).radius, 0.6, passage_error);
 }
 
 TEST(Passage, OfASphereUnderALintelIsHalfItsHeight) {
-  Mesh m = room();
+  Mesh m = long_room();
   add_doorway(m, -1.0, 1.0, 0.9);
-  const Passage p = widest(m, one_end, other_end, {});
-  EXPECT_NEAR(p.radius, 0.45, wanted_error);
+  const Passage p = widest(m, room_end, room_other_end, {});
+  EXPECT_NEAR(p.radius, 0.45, passage_error);
   ASSERT_TRUE(p.opening);
   EXPECT_EQ(p.opening->kind, Opening::Kind::lintel);
 }
 
 TEST(Passage, GoesOverAKerbAndNotOverALowWall) {
   for (const double height : {0.05, 0.15, 0.28, 0.35, 0.5}) {
-    Mesh m = room();
+    Mesh m = long_room();
     add_box(m, {4.8, -2.0, 0.0}, {5.2, 2.0, height});
-    const Passage p = widest(m, one_end, other_end, {.height = 1.8});
+    const Passage p = widest(m, room_end, room_other_end, {.height = 1.8});
     EXPECT_EQ(p.found, height < 0.3) << height;
     EXPECT_FALSE(p.found && p.limited) << height;
   }
@@ -253,7 +253,7 @@ TEST(Passage, ClimbsStairsAndIsNotNarrowerForThem) {
   }
   add_floor(m, 4.0 + 10 * tread, -2.0, 10.0, 2.0, 10 * rise);
   for (const double y : {-2.0, 2.0}) add_wall(m, 0.0, y, 10.0, y, 0.0, 5.0);
-  const Passage p = widest(m, one_end, {8.5, 0.0, 1.7}, {.height = 1.8});
+  const Passage p = widest(m, room_end, {8.5, 0.0, 1.7}, {.height = 1.8});
   ASSERT_TRUE(p.found);
   EXPECT_FALSE(p.limited);
   EXPECT_NEAR(p.way.back().z, 1.7, 0.01);
@@ -261,27 +261,27 @@ TEST(Passage, ClimbsStairsAndIsNotNarrowerForThem) {
 
 TEST(Passage, OfASphereClimbsNoMoreThanItsRadius) {
   // A sphere that fits the door is lower than its sill.
-  Mesh m = room();
+  Mesh m = long_room();
   add_doorway(m, -0.12, 0.12, 2.6);
   add_box(m, {4.95, -0.12, 0.0}, {5.05, 0.12, 0.2});
-  EXPECT_FALSE(widest(m, one_end, other_end, {}).found);
-  EXPECT_NEAR(widest(m, one_end, other_end, {.height = 1.8}).radius, 0.12, wanted_error);
+  EXPECT_FALSE(widest(m, room_end, room_other_end, {}).found);
+  EXPECT_NEAR(widest(m, room_end, room_other_end, {.height = 1.8}).radius, 0.12, passage_error);
 }
 
 TEST(Passage, IsBoundedAndProvenByWhatFitsAtItsEnds) {
   const Vec3 narrow(0.4, 0.0, 0.0);
-  for (const auto& [from, to] : {std::pair{narrow, other_end}, {other_end, narrow}}) {
-    const Passage p = widest(room(), from, to);
-    EXPECT_NEAR(p.radius, 0.4, wanted_error);
+  for (const auto& [from, to] : {std::pair{narrow, room_other_end}, {room_other_end, narrow}}) {
+    const Passage p = widest(long_room(), from, to);
+    EXPECT_NEAR(p.radius, 0.4, passage_error);
     EXPECT_LE(p.radius, p.bound);
     EXPECT_TRUE(p.limited);
     EXPECT_TRUE(p.proven);
-    EXPECT_NEAR(p.bound, 0.4, wanted_error);
+    EXPECT_NEAR(p.bound, 0.4, passage_error);
   }
 }
 
 TEST(Passage, TakesEndsDownToTheFloorAndAwayFromWalls) {
-  Mesh m = room();
+  Mesh m = long_room();
   add_doorway(m, -0.4, 0.4, 2.6);
   const Passage p = widest(m, {1.5, 0.0, 1.7}, {9.99, 0.0, 1.7});
   ASSERT_TRUE(p.found);
@@ -297,20 +297,20 @@ TEST(Passage, IsLookedForOnceWhereTheWallBesideAnEndDecides) {
     return true;
   };
   const Vec3 beside_wall{8.5, 1.69, 0.0};  // nearer to it than any place of the lattice that is taken
-  const Passage p = widest(room(), one_end, beside_wall, sphere);
+  const Passage p = widest(long_room(), room_end, beside_wall, sphere);
   ASSERT_TRUE(p.found && p.limited);
-  EXPECT_NEAR(p.radius, 0.31, wanted_error);
+  EXPECT_NEAR(p.radius, 0.31, passage_error);
   EXPECT_LT(searches, 10) << "a way round what stands beside the end was looked for again and again";
 }
 
 TEST(Passage, RefusesAnEndWithinAWall) {
-  Mesh m = room();
+  Mesh m = long_room();
   add_box(m, {4.96, -2.0, 0.0}, {5.04, 2.0, 2.6});
-  EXPECT_THROW(static_cast<void>(widest(m, one_end, {5.0, 0.0, 0.0})), roam::Error);
-  EXPECT_THROW(static_cast<void>(widest(m, one_end, {50.0, 0.0, 0.0})), roam::Error);
-  EXPECT_THROW(static_cast<void>(widest(m, {NAN, 0.0, 0.0}, other_end)), roam::Error);
-  EXPECT_THROW(static_cast<void>(widest(m, one_end, other_end, {.height = 0.2})), roam::Error);
-  EXPECT_THROW(static_cast<void>(widest(m, one_end, other_end, {.narrowest = 2.0})), roam::Error);
+  EXPECT_THROW(static_cast<void>(widest(m, room_end, {5.0, 0.0, 0.0})), roam::Error);
+  EXPECT_THROW(static_cast<void>(widest(m, room_end, {50.0, 0.0, 0.0})), roam::Error);
+  EXPECT_THROW(static_cast<void>(widest(m, {NAN, 0.0, 0.0}, room_other_end)), roam::Error);
+  EXPECT_THROW(static_cast<void>(widest(m, room_end, room_other_end, {.height = 0.2})), roam::Error);
+  EXPECT_THROW(static_cast<void>(widest(m, room_end, room_other_end, {.narrowest = 2.0})), roam::Error);
 }
 
 TEST(Passage, SaysThatAnEndLiesFartherOffThanItsLatticeReaches) {
@@ -323,12 +323,12 @@ TEST(Passage, SaysThatAnEndLiesFartherOffThanItsLatticeReaches) {
 }
 
 TEST(Passage, SaysWhenItWasEndedEarly) {
-  const Passage few = widest(room(), one_end, other_end, {.height = 1.9, .most_places = 50});
+  const Passage few = widest(long_room(), room_end, room_other_end, {.height = 1.9, .most_places = 50});
   EXPECT_FALSE(few.complete);
   EXPECT_FALSE(few.found);
-  PassageOptions stopped = person;
+  PassageOptions stopped = tall_person;
   stopped.progress = [](std::uint64_t) { return false; };
-  EXPECT_FALSE(widest(room(), one_end, other_end, stopped).complete);
+  EXPECT_FALSE(widest(long_room(), room_end, room_other_end, stopped).complete);
 }
 
 }  // namespace

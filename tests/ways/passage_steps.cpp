@@ -19,17 +19,17 @@ using roam::Survey;
 using roam::ways::BodyKind;
 using roam::ways::try_way;
 
-constexpr double height = 1.8, person = 0.3;
+constexpr double height = 1.8, person_radius = 0.3;
 
-Survey survey_of(const Mesh& mesh) { return Survey::build({mesh}, {.threads = 1, .lossless = true, .progress = {}}); }
+Survey lossless(const Mesh& mesh) { return Survey::build({mesh}, {.threads = 1, .lossless = true, .progress = {}}); }
 
-Passage widest(const Mesh& mesh, const Vec3& from, const Vec3& to, double step = 0.3) {
-  return roam::widest_way(survey_of(mesh), from, to, {.height = height, .step = step});
+Passage widest_at(const Mesh& mesh, const Vec3& from, const Vec3& to, double step = 0.3) {
+  return roam::widest_way(lossless(mesh), from, to, {.height = height, .step = step});
 }
 
-/// How a person fares along a way, there or back.
+/// How a person_radius fares along a way, there or back.
 Outcome walked(const Mesh& mesh, std::vector<Vec3> way) {
-  return try_way(survey_of(mesh), BodyKind{.height = height}, person, 0.0, way).outcome;
+  return try_way(lossless(mesh), BodyKind{.height = height}, person_radius, 0.0, way).outcome;
 }
 
 /// Walls from -4 to 3 m round 10 by 4 m: without a floor.
@@ -40,12 +40,12 @@ Mesh shaft() {
   return m;
 }
 
-Mesh room() {
+Mesh short_room() {
   Mesh m = shaft();
   add_floor(m, 0.0, -2.0, 10.0, 2.0, 0.0);
   return m;
 }
-constexpr Vec3 one_end{1.0, 0.0, 0.0}, other_end{9.0, 0.0, 0.0};
+constexpr Vec3 left_end{1.0, 0.0, 0.0}, right_end{9.0, 0.0, 0.0};
 
 TEST(PassageSteps, CrossTheWidestGapThatTheLargestDiscSpansAndNoWider) {
   constexpr double foot = 1.0;
@@ -55,9 +55,9 @@ TEST(PassageSteps, CrossTheWidestGapThatTheLargestDiscSpansAndNoWider) {
     add_floor(m, 0.0, -2.0, 5.0 - 0.5 * gap, 2.0, 0.0);
     add_floor(m, 5.0 + 0.5 * gap, -2.0, 10.0, 2.0, 0.0);
     const bool spanned = gap < 2.0 * foot;
-    const Survey survey = survey_of(m);
-    EXPECT_EQ(roam::widest_way(survey, one_end, other_end, {.height = height, .support_max = foot}).found, spanned);
-    EXPECT_EQ(try_way(survey, {.height = height}, person, foot, std::vector{one_end, other_end}).outcome,
+    const Survey survey = lossless(m);
+    EXPECT_EQ(roam::widest_way(survey, left_end, right_end, {.height = height, .support_max = foot}).found, spanned);
+    EXPECT_EQ(try_way(survey, {.height = height}, person_radius, foot, std::vector{left_end, right_end}).outcome,
               spanned ? Outcome::reached : Outcome::fell);
   }
 }
@@ -72,7 +72,7 @@ TEST(PassageSteps, CrossNoGapThatTheLargestDiscSpansByAHairsBreadth) {
       add_floor(m, 0.0, -2.0, 5.0 - 0.5 * gap, 2.0, 0.0);
       add_floor(m, 5.0 + 0.5 * gap, -2.0, 10.0, 2.0, 0.0);
       const roam::PassageOptions options{.height = height, .support_max = foot};
-      EXPECT_EQ(roam::widest_way(survey_of(m), one_end, other_end, options).found, share < 0.998);
+      EXPECT_EQ(roam::widest_way(lossless(m), left_end, right_end, options).found, share < 0.998);
     }
   }
 }
@@ -91,12 +91,12 @@ TEST(PassageSteps, LeadUpAndDownStairsThatAreSteeperThanTheyAreDeep) {
     for (const double y : {-1.5, 1.5}) add_wall(m, 0.0, y, 12.0, y, 0.0, 6.0);
     for (const double x : {0.0, 12.0}) add_wall(m, x, -1.5, x, 1.5, 0.0, 6.0);
     const Vec3 below(1.0, 0.0, 0.0), above(11.0, 0.0, riser * risers);
-    const Survey survey = survey_of(m);
+    const Survey survey = lossless(m);
     for (const auto& [from, to] : {std::pair{below, above}, {above, below}}) {
       SCOPED_TRACE(from.z);
       const Passage passage = roam::widest_way(survey, from, to, {.height = height});
       ASSERT_TRUE(passage.found);
-      EXPECT_EQ(try_way(survey, {.height = height}, person, 0.0, passage.way).outcome, Outcome::reached);
+      EXPECT_EQ(try_way(survey, {.height = height}, person_radius, 0.0, passage.way).outcome, Outcome::reached);
     }
   }
 }
@@ -106,7 +106,7 @@ TEST(PassageSteps, KeepToTheFloorBesideAnOpenDrop) {
   Mesh m = shaft();
   add_floor(m, 0.0, -2.0, 10.0, -1.0, 0.0);
   add_floor(m, 0.0, -2.0, 10.0, 2.0, -4.0);
-  const Passage p = widest(m, {1.0, -1.5, 0.0}, {9.0, -1.5, 0.0});
+  const Passage p = widest_at(m, {1.0, -1.5, 0.0}, {9.0, -1.5, 0.0});
   ASSERT_TRUE(p.found);
   for (const Vec3& place : p.way) EXPECT_LE(place.y, -0.97);
   EXPECT_EQ(walked(m, p.way), Outcome::reached);
@@ -117,13 +117,13 @@ TEST(PassageSteps, LeadOverASplitAndOverNoOpenDrop) {
     Mesh m = shaft();
     add_floor(m, 0.0, -2.0, 5.0 - 0.5 * gap, 2.0, 0.0);
     add_floor(m, 5.0 + 0.5 * gap, -2.0, 10.0, 2.0, 0.0);
-    EXPECT_EQ(widest(m, one_end, other_end).found, gap < 2.0) << gap;
+    EXPECT_EQ(widest_at(m, left_end, right_end).found, gap < 2.0) << gap;
   }
 }
 
 /// A room with two benches along the way, from x = 3 to 7.
 Mesh benches(double apart, double high) {
-  Mesh m = room();
+  Mesh m = short_room();
   add_box(m, {3.0, -2.0, 0.0}, {7.0, -0.5 * apart, high});
   add_box(m, {3.0, 0.5 * apart, 0.0}, {7.0, 2.0, high});
   return m;
@@ -134,8 +134,8 @@ TEST(PassageSteps, BetweenBenchesTooHighToStepOnAreAsWideAsAWalkerIsThere) {
   using Case = std::pair<double, double>;  // heights of benches and body
   for (const auto& [high, tall] : {Case(0.32, height), Case(0.36, height), Case(0.5, height), Case(0.36, 0.0)}) {
     SCOPED_TRACE(testing::Message() << high << " " << tall);
-    const Survey survey = survey_of(benches(2.0 * aside, high));
-    const Passage p = roam::widest_way(survey, one_end, other_end, {.height = tall});
+    const Survey survey = lossless(benches(2.0 * aside, high));
+    const Passage p = roam::widest_way(survey, left_end, right_end, {.height = tall});
     ASSERT_TRUE(p.found && p.limited && p.opening);
     // A round body touches the edge of a low bench with its lower half ball.
     const double touches = high < aside ? (aside * aside + high * high) / (2.0 * high) : aside;
@@ -150,11 +150,11 @@ TEST(PassageSteps, BesideABenchThatIsHardlyTooHighToStepOnLeadNoFartherOverIt) {
   // A straight way would lead over its corner, which a body touches somewhere along its height.
   for (const double high : {0.305, 0.31, 0.33}) {
     SCOPED_TRACE(high);
-    Mesh m = room();
+    Mesh m = short_room();
     add_wall(m, 5.0, -2.0, 5.0, -0.33, 0.0, 3.0);
     add_box(m, {4.3, 0.1, 0.0}, {4.95, 2.0, high});
-    const Survey survey = survey_of(m);
-    const Passage p = roam::widest_way(survey, one_end, other_end, {.height = height});
+    const Survey survey = lossless(m);
+    const Passage p = roam::widest_way(survey, left_end, right_end, {.height = height});
     ASSERT_TRUE(p.found && p.limited);
     const double half = 0.5 * std::hypot(0.43, 0.05);
     EXPECT_NEAR(p.radius, half, 1e-3);
@@ -165,21 +165,21 @@ TEST(PassageSteps, BesideABenchThatIsHardlyTooHighToStepOnLeadNoFartherOverIt) {
 
 TEST(PassageSteps, BetweenWallsThatLeanAreAsWideAsAtTheFeet) {
   constexpr double aside = 0.5, lean = 0.01;
-  Mesh m = room();
+  Mesh m = short_room();
   for (const double side : {-1.0, 1.0}) {
     const double low = side * aside, high = side * (aside + 3.0 * lean);
     add_quad(m, {3.0, low, 0.0}, {7.0, low, 0.0}, {7.0, high, 3.0}, {3.0, high, 3.0});
     for (const double x : {3.0, 7.0})
       add_quad(m, {x, low, 0.0}, {x, side * 2.0, 0.0}, {x, side * 2.0, 3.0}, {x, high, 3.0});
   }
-  const Passage p = widest(m, one_end, other_end);
+  const Passage p = widest_at(m, left_end, right_end);
   ASSERT_TRUE(p.found && p.limited);
   EXPECT_NEAR(p.radius, aside, 0.02);
   EXPECT_EQ(walked(m, p.way), Outcome::reached);
 }
 
 TEST(PassageSteps, BetweenKerbsThatOneStepsOnAreNotNarrow) {
-  const Passage p = widest(benches(0.8, 0.2), one_end, other_end);
+  const Passage p = widest_at(benches(0.8, 0.2), left_end, right_end);
   ASSERT_TRUE(p.found);
   EXPECT_FALSE(p.limited) << p.radius;
 }
@@ -187,26 +187,26 @@ TEST(PassageSteps, BetweenKerbsThatOneStepsOnAreNotNarrow) {
 TEST(PassageSteps, EndWhereTheFloorEnds) {
   Mesh m;
   add_floor(m, 0.0, -2.0, 10.0, 2.0, 0.0);
-  const Passage p = widest(m, one_end, {10.2, 0.0, 0.0});
+  const Passage p = widest_at(m, left_end, {10.2, 0.0, 0.0});
   ASSERT_TRUE(p.found);
   EXPECT_LE(p.way.back().x, 10.02);
   EXPECT_EQ(walked(m, p.way), Outcome::reached);
 }
 
 TEST(PassageSteps, LeadOntoNoTable) {
-  Mesh m = room();
+  Mesh m = short_room();
   add_box(m, {4.0, -1.0, 0.0}, {6.0, 1.0, 0.75});
-  EXPECT_FALSE(widest(m, one_end, {5.0, 0.0, 0.75}).found);
-  EXPECT_FALSE(widest(m, {5.0, 0.0, 0.75}, one_end).found);
-  EXPECT_EQ(walked(m, widest(m, one_end, other_end).way), Outcome::reached);
+  EXPECT_FALSE(widest_at(m, left_end, {5.0, 0.0, 0.75}).found);
+  EXPECT_FALSE(widest_at(m, {5.0, 0.0, 0.75}, left_end).found);
+  EXPECT_EQ(walked(m, widest_at(m, left_end, right_end).way), Outcome::reached);
 }
 
 TEST(PassageSteps, LeadOntoABedByWhatOneStepsOn) {
   for (const bool has_step : {false, true}) {
-    Mesh m = room();
+    Mesh m = short_room();
     add_box(m, {4.0, -1.0, 0.0}, {6.0, 1.0, 0.5});
     if (has_step) add_box(m, {3.4, -1.0, 0.0}, {4.0, 1.0, 0.25});
-    const Passage up = widest(m, one_end, {5.0, 0.0, 0.5}), down = widest(m, {5.0, 0.0, 0.5}, one_end);
+    const Passage up = widest_at(m, left_end, {5.0, 0.0, 0.5}), down = widest_at(m, {5.0, 0.0, 0.5}, left_end);
     EXPECT_EQ(up.found, has_step);
     EXPECT_EQ(down.found, has_step);
     if (!has_step) continue;
@@ -218,9 +218,9 @@ TEST(PassageSteps, LeadOntoABedByWhatOneStepsOn) {
 TEST(PassageSteps, RollOverNothingHigherThanAStep) {
   for (const double top : {0.29, 0.31, 0.36, 0.45, 0.6}) {
     for (const double thick : {0.02, 0.15, 0.8}) {
-      Mesh m = room();
+      Mesh m = short_room();
       add_box(m, {5.0, -2.0, 0.0}, {5.0 + thick, 2.0, top});
-      EXPECT_EQ(widest(m, one_end, other_end).found, top < 0.3) << top << " " << thick;
+      EXPECT_EQ(widest_at(m, left_end, right_end).found, top < 0.3) << top << " " << thick;
     }
   }
 }
@@ -237,7 +237,7 @@ TEST(PassageSteps, LeadUpAndDownStairs) {
   add_floor(m, 3.0 + 8 * tread, -1.0, 9.0, 1.0, 8 * rise);
   for (const double y : {-1.0, 1.0}) add_wall(m, 0.0, y, 9.0, y, 0.0, 4.0);
   const Vec3 top{8.0, 0.0, 8 * rise};
-  const Passage up = widest(m, one_end, top), down = widest(m, top, one_end);
+  const Passage up = widest_at(m, left_end, top), down = widest_at(m, top, left_end);
   ASSERT_TRUE(up.found);
   ASSERT_TRUE(down.found);
   EXPECT_FALSE(up.limited);
@@ -246,11 +246,11 @@ TEST(PassageSteps, LeadUpAndDownStairs) {
 }
 
 TEST(PassageSteps, OfABodyThatClimbsNothingLeadOverLevelFloor) {
-  Mesh m = room();
-  EXPECT_TRUE(widest(m, one_end, other_end, 0.0).found);
+  Mesh m = short_room();
+  EXPECT_TRUE(widest_at(m, left_end, right_end, 0.0).found);
   add_box(m, {5.0, -2.0, 0.0}, {5.5, 2.0, 0.05});
-  EXPECT_FALSE(widest(m, one_end, other_end, 0.0).found);
-  EXPECT_TRUE(widest(m, one_end, other_end, 0.06).found);
+  EXPECT_FALSE(widest_at(m, left_end, right_end, 0.0).found);
+  EXPECT_TRUE(widest_at(m, left_end, right_end, 0.06).found);
 }
 
 /// Two floors, one higher than a body steps: looked at from both ends.
@@ -265,7 +265,7 @@ constexpr Vec3 on_ledge{9.0, 0.0, 0.4};
 constexpr std::uint64_t places_on_ledge = 1000;
 
 TEST(PassageSteps, CountThePlacesOfTheSearchesFromBothEndsTogether) {
-  const Survey survey = survey_of(ledge());
+  const Survey survey = lossless(ledge());
   std::uint64_t last = 0;
   bool counts_back = false;
   roam::PassageOptions options{.height = height};
@@ -274,7 +274,7 @@ TEST(PassageSteps, CountThePlacesOfTheSearchesFromBothEndsTogether) {
     last = places;
     return true;
   };
-  const Passage whole = roam::widest_way(survey, one_end, on_ledge, options);
+  const Passage whole = roam::widest_way(survey, left_end, on_ledge, options);
   EXPECT_FALSE(whole.found);
   EXPECT_TRUE(whole.complete);
   EXPECT_TRUE(whole.opening);
@@ -284,9 +284,9 @@ TEST(PassageSteps, CountThePlacesOfTheSearchesFromBothEndsTogether) {
 }
 
 TEST(PassageSteps, EndWhenTheyAreToldToInTheSearchFromTheOtherEndToo) {
-  const Survey survey = survey_of(ledge());
+  const Survey survey = lossless(ledge());
   const auto expect_ended = [&](std::uint64_t most, const roam::PassageOptions& options) {
-    const Passage p = roam::widest_way(survey, one_end, on_ledge, options);
+    const Passage p = roam::widest_way(survey, left_end, on_ledge, options);
     EXPECT_FALSE(p.found);
     EXPECT_FALSE(p.complete);
     EXPECT_LT(p.places, most + places_on_ledge / 2);
@@ -299,9 +299,9 @@ TEST(PassageSteps, EndWhenTheyAreToldToInTheSearchFromTheOtherEndToo) {
 }
 
 TEST(PassageSteps, AreNotLookedForFromTheOtherEndThroughAWall) {
-  Mesh m = room();
+  Mesh m = short_room();
   add_box(m, {5.0, -2.0, 0.0}, {5.2, 2.0, 3.0});
-  const Passage p = widest(m, one_end, other_end);
+  const Passage p = widest_at(m, left_end, right_end);
   EXPECT_FALSE(p.found);
   ASSERT_TRUE(p.opening);
   EXPECT_LT(p.places, places_on_ledge * 11 / 10);
@@ -314,7 +314,7 @@ TEST(PassageSteps, KnowSoonThatAnEndIsShutIn) {
   add_box(m, {-1.0, -1.0, -0.5}, {1.0, 1.0, 3.0});
   for (const bool from_closet : {true, false}) {
     const Vec3 in{0.0, 0.0, 0.0}, out{5.0, 0.0, 0.0};
-    const Passage p = from_closet ? widest(m, in, out) : widest(m, out, in);
+    const Passage p = from_closet ? widest_at(m, in, out) : widest_at(m, out, in);
     EXPECT_FALSE(p.found);
     EXPECT_TRUE(p.complete);
     EXPECT_LT(p.places, 200'000);

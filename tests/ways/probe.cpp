@@ -24,7 +24,7 @@ using namespace scenes;
 using namespace roam;
 using Kind = ProbeLimit::Kind;
 
-ProbeQuestion flying(ProbeQuestion question) {
+ProbeQuestion by_flight(ProbeQuestion question) {
   question.mode = Mode::fly;
   return question;
 }
@@ -62,7 +62,7 @@ TEST(Probe, SaysNoAndWhatIsMissing) {
 }
 
 TEST(Probe, CallsWhatIsBetweenTwoSidesAGapWhenFlyingAndProvesIt) {
-  const ProbeAnswer answer = probe(survey_of(room(0.5)), flying(across), {.radius = 0.3, .height = 0.6});
+  const ProbeAnswer answer = probe(survey_of(room(0.5)), by_flight(across), {.radius = 0.3, .height = 0.6});
   EXPECT_FALSE(answer.passable);
   ASSERT_TRUE(answer.limit);
   EXPECT_EQ(answer.limit->kind, Kind::gap);
@@ -320,7 +320,7 @@ TEST(Probe, AnswersInASceneHigherThanAMotion) {
   add_floor(tower, -1.0, -1.0, 1.0, 1.0, 2e6);
   const Survey survey = survey_of(tower);
   EXPECT_TRUE(probe(survey, across, {.radius = 0.3, .height = 1.8}).passable);
-  for (const ProbeQuestion& question : {across, flying(across)}) {
+  for (const ProbeQuestion& question : {across, by_flight(across)}) {
     for (const Vec3& to : {Vec3(0.0, 0.0, 2e6 + 1.0), Vec3(0.0, 0.0, 1.9e6), Vec3(0.0, 0.0, 3e6)}) {
       ProbeQuestion far = question;
       far.to = to;
@@ -348,7 +348,7 @@ TEST(Probe, RefusesASpacingThatNeverEnds) {
 }
 
 TEST(Probe, RefusesToFlyWhatIsNoSphereBeforeItSearches) {
-  ProbeQuestion question = flying(across);
+  ProbeQuestion question = by_flight(across);
   bool asked = false;
   question.progress = [&](std::uint64_t) { return asked = true; };
   EXPECT_THROW(static_cast<void>(probe(survey_of(room(0.84)), question, {.radius = 0.3, .height = 1.8})), Error);
@@ -358,25 +358,25 @@ TEST(Probe, RefusesToFlyWhatIsNoSphereBeforeItSearches) {
 TEST(Probe, ProvesANoOnlyOfBodiesThatTheBoundShutsOut) {
   // The widest way is known to some millimetres: a body between it and the bound may still get through.
   const Survey survey = survey_of(room(0.5));
-  const Passage widest = probe(survey, flying(across), {.radius = 0.3, .height = 0.6}).passage;
+  const Passage widest = probe(survey, by_flight(across), {.radius = 0.3, .height = 0.6}).passage;
   ASSERT_TRUE(widest.proven);
   ASSERT_GT(widest.bound, widest.radius + 1e-3);
   const double between = 0.5 * (widest.radius + widest.bound);
-  const ProbeAnswer open = probe(survey, flying(across), {.radius = between, .height = 2.0 * between});
+  const ProbeAnswer open = probe(survey, by_flight(across), {.radius = between, .height = 2.0 * between});
   EXPECT_FALSE(open.wide_enough);
   ASSERT_GT(open.passage.bound, between);
   EXPECT_FALSE(open.proven);
   const double wider = widest.bound + 1e-3;
-  EXPECT_TRUE(probe(survey, flying(across), {.radius = wider, .height = 2.0 * wider}).proven);
+  EXPECT_TRUE(probe(survey, by_flight(across), {.radius = wider, .height = 2.0 * wider}).proven);
   // A yes is about the widest way.
-  EXPECT_TRUE(probe(survey, flying(across), {.radius = 0.2, .height = 0.4}).proven);
+  EXPECT_TRUE(probe(survey, by_flight(across), {.radius = 0.2, .height = 0.4}).proven);
 }
 
 TEST(Probe, FliesStraightWhereThereIsNothing) {
-  const Survey nothing = survey_of({});
-  const ProbeAnswer answer = probe(nothing, flying(across), {.radius = 0.3, .height = 0.6});
+  const Survey nothing = survey_of(Mesh{});
+  const ProbeAnswer answer = probe(nothing, by_flight(across), {.radius = 0.3, .height = 0.6});
   EXPECT_TRUE(answer.passable);
-  const std::vector<Vec3> path = probed_path(nothing, flying(across), answer);
+  const std::vector<Vec3> path = probed_path(nothing, by_flight(across), answer);
   ASSERT_GE(path.size(), 2u);
   EXPECT_EQ(path.front(), across.from);
   EXPECT_EQ(path.back(), across.to);
@@ -397,7 +397,7 @@ TEST(Probe, FliesFromAPlaceToItselfOnAnyLattice) {
 
 TEST(Probe, HasNoPathOfANo) {
   const Survey survey = survey_of(room(0.0));
-  for (const ProbeQuestion& question : {across, flying(across)}) {
+  for (const ProbeQuestion& question : {across, by_flight(across)}) {
     const ProbeAnswer answer = probe(survey, question, {.radius = 0.3, .height = 0.6});
     EXPECT_TRUE(probed_path(survey, question, answer).empty());
   }

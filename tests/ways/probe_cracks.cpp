@@ -12,7 +12,7 @@ namespace {
 using namespace scenes;
 using namespace roam;
 
-constexpr ProbedSize person{.radius = 0.3, .height = 1.8};
+constexpr ProbedSize crossing_person{.radius = 0.3, .height = 1.8};
 
 /// A floor of 20 m by 10 m with a square hole of 0.8 m on the straight way; `depth`: of its bottom, 0: it has none.
 Mesh holed(double depth) {
@@ -30,21 +30,21 @@ const ProbeQuestion over_hole{.from = {2.0, 0.0, 1.0}, .to = {12.0, 0.0, 1.0}};
 TEST(ProbeCracks, AreGoneRoundWhereTheBodyFallsAndThereIsRoom) {
   for (const double depth : {0.0, 1.0}) {
     const Survey survey = survey_of(holed(depth));
-    const ProbeAnswer answer = probe(survey, over_hole, person);
+    const ProbeAnswer answer = probe(survey, over_hole, crossing_person);
     ASSERT_TRUE(answer.passable && answer.walk) << words::report(over_hole, answer).text();
     EXPECT_EQ(answer.walk->outcome, Outcome::reached);
     EXPECT_FALSE(answer.passage.limited);
     EXPECT_GT(answer.passage.length, 10.02);
     ProbeQuestion carried = over_hole;
     carried.support_radius = 0.45;
-    EXPECT_NEAR(probe(survey, carried, person).passage.length, 10.0, 0.01);
+    EXPECT_NEAR(probe(survey, carried, crossing_person).passage.length, 10.0, 0.01);
   }
 }
 
 TEST(ProbeCracks, LetNobodyStandOverThem) {
   ProbeQuestion question = over_hole;
   question.to = {7.0, 0.0, 0.05};
-  const ProbeAnswer answer = probe(survey_of(holed(0.0)), question, person);
+  const ProbeAnswer answer = probe(survey_of(holed(0.0)), question, crossing_person);
   EXPECT_FALSE(answer.passable) << words::report(question, answer).text();
 }
 
@@ -53,11 +53,11 @@ TEST(ProbeCracks, AreCrossedByADiscLargerThanAMetre) {
   ProbeQuestion question = over_hole;
   for (const double disc : {1.25, 1.5}) {
     question.support_radius = disc;
-    const ProbeAnswer answer = probe(survey, question, person);
+    const ProbeAnswer answer = probe(survey, question, crossing_person);
     EXPECT_TRUE(answer.passable) << words::report(question, answer).text();
   }
   question.support_radius = 1.15;
-  EXPECT_FALSE(probe(survey, question, person).passable);
+  EXPECT_FALSE(probe(survey, question, crossing_person).passable);
 }
 
 TEST(ProbeCracks, AreNoneOnOpenFloorForABodyHardlyHigherThanASphere) {

@@ -27,7 +27,7 @@ constexpr double below_lossless = 1e-5;
 Vec3 cross(const Vec3& a, const Vec3& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
-Vec3 unit(const Vec3& v) { return v / std::sqrt(v.x * v.x + v.y * v.y + v.z * v.z); }
+Vec3 unit_of(const Vec3& v) { return v / std::sqrt(v.x * v.x + v.y * v.y + v.z * v.z); }
 
 /// A square wall through `centre`, turned at random.
 struct Wall {
@@ -35,7 +35,7 @@ struct Wall {
   Mesh mesh;
 
   Wall(Random& random, const Vec3& middle, int cells, double width, double roughness)
-      : centre(middle), normal(random.direction()), along(unit(cross(normal, random.direction()))) {
+      : centre(middle), normal(random.direction()), along(unit_of(cross(normal, random.direction()))) {
     up = cross(normal, along);
     for (int j = 0; j <= cells; ++j) {
       for (int i = 0; i <= cells; ++i) {

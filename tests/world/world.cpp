@@ -28,7 +28,7 @@ using roam::Triangle;
 using roam::Vec3;
 using roam::World;
 
-struct Case {
+struct SweepCase {
   const char* name;
   clutter::Recipe scene;
   bool lossless = false;
@@ -43,7 +43,7 @@ long double least_distance(const Mesh& mesh, const Body& body, const Vec3& from,
   return least;
 }
 
-class WorldAgainstBruteForce : public testing::TestWithParam<Case> {};
+class WorldAgainstBruteForce : public testing::TestWithParam<SweepCase> {};
 
 TEST_P(WorldAgainstBruteForce, SweepsAreNeverLateAndNeverEarlyByMoreThanTheGrid) {
   const clutter::Recipe& c = GetParam().scene;
@@ -145,18 +145,19 @@ TEST_P(WorldAgainstBruteForce, ContactsAreAllTrianglesWithinReach) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenes, WorldAgainstBruteForce,
-                         testing::Values(Case{"AtTheOrigin", {600, 5.0, 0.05, 3.0, Vec3(0.0)}},
-                                         Case{"InThePapersGallery", {600, 5.0, 0.05, 3.0, {-13739.0, 253.0, 182.0}}},
-                                         Case{"At1e5", {600, 20.0, 0.01, 10.0, {1e5, -1e5, 40.0}}},
-                                         Case{"At6400km", {600, 5.0, 0.05, 3.0, {4.1e6, 4.8e6, 6.4e6}}},
-                                         Case{"AllSizes", {900, 3000.0, 1e-4, 1e4, {300.0, 20.0, -7.0}}},
-                                         Case{"Huge", {400, 40.0, 20.0, 1e4, {300.0, 20.0, -7.0}}},
-                                         Case{"Tiny", {500, 0.01, 1e-5, 5e-3, {1.0, 2.0, 3.0}}},
-                                         Case{"Lossless", {600, 5.0, 0.05, 3.0, {10.0, 20.0, 30.0}}, true},
-                                         Case{"LosslessAt6400km", {600, 5.0, 0.05, 3.0, {4.1e6, 4.8e6, 6.4e6}}, true},
-                                         Case{"LosslessAllSizes", {900, 3000.0, 1e-4, 1e4, {300.0, 20.0, -7.0}}, true}),
-                         [](const auto& param) { return param.param.name; });
+INSTANTIATE_TEST_SUITE_P(
+    Scenes, WorldAgainstBruteForce,
+    testing::Values(SweepCase{"AtTheOrigin", {600, 5.0, 0.05, 3.0, Vec3(0.0)}},
+                    SweepCase{"InThePapersGallery", {600, 5.0, 0.05, 3.0, {-13739.0, 253.0, 182.0}}},
+                    SweepCase{"At1e5", {600, 20.0, 0.01, 10.0, {1e5, -1e5, 40.0}}},
+                    SweepCase{"At6400km", {600, 5.0, 0.05, 3.0, {4.1e6, 4.8e6, 6.4e6}}},
+                    SweepCase{"AllSizes", {900, 3000.0, 1e-4, 1e4, {300.0, 20.0, -7.0}}},
+                    SweepCase{"Huge", {400, 40.0, 20.0, 1e4, {300.0, 20.0, -7.0}}},
+                    SweepCase{"Tiny", {500, 0.01, 1e-5, 5e-3, {1.0, 2.0, 3.0}}},
+                    SweepCase{"Lossless", {600, 5.0, 0.05, 3.0, {10.0, 20.0, 30.0}}, true},
+                    SweepCase{"LosslessAt6400km", {600, 5.0, 0.05, 3.0, {4.1e6, 4.8e6, 6.4e6}}, true},
+                    SweepCase{"LosslessAllSizes", {900, 3000.0, 1e-4, 1e4, {300.0, 20.0, -7.0}}, true}),
+    [](const auto& param) { return param.param.name; });
 
 /// Where two tiles are about equally near, what one of them leaves out may decide. Motions are short: before longer
 /// ones no boxes are asked in whole numbers.
