@@ -29,7 +29,7 @@ grep . said
 "$roam" cluster slurm "${scene[@]}" -o "$work/array" --shards "$tasks" --threads 1 --submit || exit 1
 running() { squeue --noheader --array --states=running --name=roam-read,roam-tasks --format=%i; }
 declare -A met=()
-for ((i = 0; i < troubles;)); do
+for ((met_all = 0; met_all < troubles;)); do
   [[ -n $(squeue --noheader) ]] || break
   sleep "0.$((RANDOM % 10))"
   mapfile -t now < <(running)
@@ -56,9 +56,10 @@ for ((i = 0; i < troubles;)); do
       slurm_waits 30 "[[ \$(sinfo --noheader --nodes=$node --format=%T) != down* ]]" ||
         scontrol update nodename="$node" state=resume
       ;;
-  esac > out 2>&1 && met[$kind]=$((${met[$kind]:-0} + 1)) && i=$((i + 1))
+  esac > out 2>&1 && met[$kind]=$((${met[$kind]:-0} + 1)) && met_all=$((met_all + 1))
 done
 slurm_waits 7200 '[[ -z $(squeue --noheader) ]]' || complain "the jobs do not end"
+((met_all == troubles)) || complain "the jobs ended after $met_all of $troubles troubles"
 for kind in "${!met[@]}"; do echo "$kind: ${met[$kind]} times"; done
 
 # The merge names the tasks that were killed for good, and the same jobs again end the build.
@@ -69,7 +70,7 @@ if [[ ! -e array/CURRENT ]]; then
   "$roam" cluster slurm "${scene[@]}" -o "$work/array" --shards "$tasks" --threads 1 --submit || exit 1
   slurm_waits 7200 '[[ -z $(squeue --noheader) ]]' || complain "the jobs do not end the second time"
 fi
-expect_same "$work/array" "an array of $tasks tasks, $troubles troubles"
+expect_same "$work/array" "an array of $tasks tasks, $met_all troubles"
 expect_whole_or_none "$work/array" "an array"
 
 # Seconds of each step, alone on this machine.
@@ -98,4 +99,4 @@ awk -v plan="$(number seconds plan.json)" -v balance="$(number balance plan.json
     printf "plan %.2f s (longest task %s times the mean, by triangles), merge %.2f s; together %.1f %% of all\n", plan,
       balance, merge, 100 * (plan + merge) / (all + plan + merge)
   }' shares times
-finish "$tasks tasks, $troubles troubles"
+finish "$tasks tasks, $met_all troubles"

@@ -68,6 +68,23 @@ faulty() {
   env "${settings[@]}" timeout 300 "$@"
 }
 
+# counted CALLS OUTPUT [OPTIONS...]: how many of these calls a build makes. None is a fault that nobody would meet.
+counted() {
+  faulty FAULT_CALLS="$1" FAULT_COUNT="$work/count" -- "$roam" build "${scene[@]}" -o "${@:2}" > "$work/said" 2>&1 ||
+    complain "counting $1: $(tail -1 "$work/said")"
+  count=$(< "$work/count")
+  ((count > 0)) || complain "a build makes no call of $1"
+}
+
+# measured COMMAND...: with its largest size in MiB in $work/peak.
+measured() {
+  /usr/bin/python3 -c '
+import resource, subprocess, sys
+status = subprocess.run(sys.argv[2:]).returncode
+open(sys.argv[1], "w").write(str(resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss >> 10))
+sys.exit(status)' "$work/peak" "$@"
+}
+
 # build OUTPUT [OPTIONS...]: the scene of the test.
 build() {
   local output=$1

@@ -7,7 +7,7 @@
 set -uo pipefail
 source "$(dirname "$0")/complaints.sh"
 source "$(dirname "$0")/../support/nginx.sh"
-bench=$(realpath "${BENCH_SERVING:-$here/../../build-bench/bench_serving}")
+bench=$(realpath "${BENCH_SERVING:-$here/../../build-check/bench_serving}")
 trap 'stop_nginx; [[ ! ${slow:-} ]] || kill $slow; rm -rf "$work"' EXIT
 unset http_proxy all_proxy
 
@@ -21,10 +21,15 @@ fi
 flights=-1 most_walkers=0  # the first flight is on the disk
 # flown STORE WHAT
 flown() {
+  local status
   flights=$((flights + 1))
+  rm -f "$work/trace"
   TIMEFORMAT=%R
   { time "$roam" walk "$1" --path "$path" --mode fly --speed 50 --json --trace "$work/trace" > "$work/report" \
     2> "$work/said"; } 2> "$work/time"
+  status=$?
+  ((status == 0)) && grep -q '"outcome": "reached"' "$work/report" ||
+    complain "$2: status $status: $(tail -1 "$work/said")"
   cut -d, -f1-7,9- "$work/trace" > "$work/places"  # without what is certified of the clearance
   echo "$2: $(grep -m1 '"outcome"' "$work/report" | cut -d'"' -f4), took $(cat "$work/time") s"
 }

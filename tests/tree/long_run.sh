@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Whether the long proofs see what they are to see.
 #   long_run.sh SOURCE WORK Run            results are of the files that are there, or there are none
+#   long_run.sh SOURCE WORK Scripts        a program that proves nothing passes no proof
 set -euo pipefail
 source=$1 folder=$2/$3 roam=${4:-}
 rm -rf "$folder"
@@ -48,5 +49,68 @@ END
     says 'made of two' tests/long/results.md
     tests/long/run build-long certificates > "$folder/log" || { cat "$folder/log"; fail "the proof does not pass any more"; }
     says 'passed | 0 | made of four |' tests/long/results.md
+    ;;
+
+  Scripts)
+    cp -r --parents "$source"/tests/{long,support,programs} "$folder"
+    cd "$folder/$source"
+    mkdir "$folder/bin"
+    export PATH=$folder/bin:$PATH TMPDIR=$folder ROAM=$folder/roam
+    # Its walks are held at their start, and those over the web fail.
+    program "$folder/roam" << 'END'
+#!/bin/bash
+output=$2
+for ((i = 1; i <= $#; ++i)); do
+  [[ ${!i} != -o && ${!i} != --trace ]] || { k=$((i + 1)); output=${!k}; }
+done
+case $1 in
+  make) : > "$output" ;;
+  build | cluster)
+    [[ $output != --* ]] || exit 0
+    mkdir -p "$output/packs"
+    head -c 9999 /dev/zero > "$output/packs/x.pack"
+    : > "$output/CURRENT"
+    echo '"parts_read": 0, "seconds": 1, "balance": 1'
+    ;;
+  publish) mkdir -p "$3" ;;
+  verify) [[ -e $2/packs/x.pack ]] || exit 3 ;;
+  walk)
+    [[ $2 != http:* ]] || { echo 'cannot be reached' >&2; exit 1; }
+    [[ $output == "$2" ]] || echo '1,2,3,4,5,6,7,8,9' > "$output"
+    printf '  "%s": %s,\n' outcome '"reached"' violations 0 overstated_clearances 0 failures 0 failed 0 memory 9 pieces 0
+    [[ $* == *--trace* ]] || exit 3
+    ;;
+esac
+END
+    # fails TEXT COMMAND...: the script ends with status 1 and says so.
+    fails() {
+      local status=0
+      "${@:2}" > "$folder/log" 2>&1 < /dev/null || status=$?
+      ((status == 1)) || { cat "$folder/log"; fail "$2: status $status"; }
+      says "$1" "$folder/log"
+    }
+
+    mkdir "$folder/store"
+    touch "$folder/store/CURRENT" "$folder/way"
+    BENCH_SERVING=$folder/none fails 'WRONG: good: status 1: cannot be reached' \
+      tests/long/serving.sh "$folder/store" "$folder/way"
+
+    program "$folder/bin/strace" << 'END'
+#!/bin/bash
+while [[ $1 == -* ]]; do
+  [[ $1 != -[eo] ]] || shift
+  shift
+done
+exec "$@"
+END
+    fails 'WRONG: fly, undisturbed: does not reach its end' tests/long/failing_reads.sh 0
+    says 'WRONG: fly, undisturbed: no move was checked' "$folder/log"
+    says 'WRONG: walk, pread64 error=EIO:when=3+2: no read has failed' "$folder/log"
+    fails 'WRONG: one read in three fails: no read has failed' \
+      tests/long/failing_store.sh "$folder/way" "$folder/store" "$folder/way" 0
+
+    cat > tests/support/slurm.sh <<< 'start_slurm() { :; }; stop_slurm() { :; }; slurm_waits() { :; }; squeue() { :; }'
+    fails 'WRONG: the jobs ended after 0 of 3 troubles' tests/long/cluster.sh 2 16 3
+    says '2 tasks, 0 troubles' "$folder/log"
     ;;
 esac
