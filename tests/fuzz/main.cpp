@@ -76,11 +76,10 @@ const std::string& folder() {
   struct Folder {
     std::string name;
     Folder() {
-      std::error_code none;
-      const bool in_memory = fs::is_directory("/dev/shm", none) && access("/dev/shm", W_OK) == 0;
-      name = std::string(in_memory ? "/dev/shm" : "/tmp") + "/roam-fuzz-XXXXXX";
+      name = (fs::temp_directory_path() / "roam-fuzz-XXXXXX").string();
       if (mkdtemp(name.data()) == nullptr) fail("no folder for files");
     }
+    // A finding ends the process before: fuzz.sh and check.sh remove the folder above.
     ~Folder() {
       std::error_code ignored;
       fs::remove_all(name, ignored);

@@ -85,8 +85,10 @@ run() {
 }
 export -f run executions findings
 export program minutes spent
-table=$(mktemp)
-trap 'rm -f "$table"' EXIT
+TMPDIR=$(mktemp -d /dev/shm/roam-fuzz-XXXXXX 2> /dev/null || mktemp -d)  # in memory, if it can be
+export TMPDIR
+trap 'rm -rf "$TMPDIR"' EXIT
+table=$TMPDIR/table
 echo '| target | minutes | executions | edges | features | findings |'
 echo '|---|---|---|---|---|---|'
 wrong=0

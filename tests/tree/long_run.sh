@@ -2,6 +2,7 @@
 # Whether the long proofs see what they are to see.
 #   long_run.sh SOURCE WORK Run            results are of the files that are there, or there are none
 #   long_run.sh SOURCE WORK Scripts        a program that proves nothing passes no proof
+#   long_run.sh SOURCE WORK Fuzzing        a finding leaves no files in memory
 set -euo pipefail
 source=$1 folder=$2/$3 roam=${4:-}
 rm -rf "$folder"
@@ -112,5 +113,18 @@ END
     cat > tests/support/slurm.sh <<< 'start_slurm() { :; }; stop_slurm() { :; }; slurm_waits() { :; }; squeue() { :; }'
     fails 'WRONG: the jobs ended after 0 of 3 troubles' tests/long/cluster.sh 2 16 3
     says '2 tasks, 0 troubles' "$folder/log"
+    ;;
+
+  Fuzzing)
+    program "$folder/finds" << 'END'
+#!/bin/bash
+echo "$TMPDIR" > "$0.folder"
+touch "$TMPDIR/left"
+exit 77
+END
+    status=0
+    "$source/tests/fuzz/check.sh" "$folder/finds" walk "$folder/work" || status=$?
+    ((status == 77)) || fail "a finding has the status $status"
+    [[ $(< "$folder/finds.folder") == /*/* && ! -e $(< "$folder/finds.folder") ]] || fail "the files are still there"
     ;;
 esac
