@@ -254,7 +254,8 @@ END
     numbers=$(sed -n 's/^#define ROAM_VERSION_\(MAJOR\|MINOR\|PATCH\) \(.*\)$/\2/p' "$prefix/include/roam/version.h")
     [[ $version == "$(paste -sd. <<< "$numbers")" ]] || { echo "version.h tells two versions"; exit 1; }
     expect "is $version." configure "$version REQUIRED" 'message(STATUS "it is ${roam_VERSION}.")'
-    refused 'roam has no component "wings" here; it has: ' 'REQUIRED COMPONENTS files wings'
+    refused 'roam has no component "wings" here; it has: c, files, generate, import, osgRoam, process, profile, store, '\
+'training, ways' 'REQUIRED COMPONENTS files wings'
     refused 'compatible with requested version "99"' '99 REQUIRED'
     expect 'goes without wings' configure 'REQUIRED OPTIONAL_COMPONENTS wings' 'if(NOT roam_wings_FOUND)
       message(STATUS "goes without wings")
