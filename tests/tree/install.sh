@@ -206,7 +206,7 @@ END
     ;;
   osg_paged_scene)
     build osg_paged_scene
-    [[ -d ${ROAM_TEST_DATA-}/pit_osgb ]] || { echo "there is no ROAM_TEST_DATA/pit_osgb: not run"; exit 0; }
+    [[ -d ${ROAM_TEST_DATA-}/pit_osgb ]] || { echo "there is no ROAM_TEST_DATA/pit_osgb: not run"; exit 77; }
     start_screen
     export OSG_WINDOW="0 0 800 600"  # the more pixels, the finer the tiles
     root=("$ROAM_TEST_DATA"/pit_osgb/Data/*/Tile_+000_+000.osgb)
