@@ -44,10 +44,16 @@ command=$(tail -n 1 log)
 eval "$command --headless --size 64x36 --screenshot last.png" > /dev/null
 [[ -s last.png ]]
 # What no verb takes is refused before the build, which this would be.
+mv 'a hall.ply' hall.ply
 echo 'configure() { touch built; }' >> cmake/packages.sh
-for wrong in '--wander 5' '--radius' '--up=z missing.ply'; do
+for wrong in 'hall.ply --wander 5' 'hall.ply --radius' 'hall.ply --up=z missing.ply' '--up=z hall.ply'; do
   status=0
-  ./demo 'a hall.ply' $wrong > log 2>&1 < /dev/null || status=$?
+  ./demo $wrong > log 2>&1 < /dev/null || status=$?
   ((status == 1 || status == 2)) && [[ ! -e built ]] || { echo "$wrong: status $status" && cat log && exit 1; }
 done
+grep -q 'name the scene first' log
+# An address is asked of the program, not of the disk.
+./demo http://127.0.0.1:1/dam.roam --cache 64M > log 2>&1 < /dev/null && exit 1
+! grep -q 'no file or folder' log || { cat log && exit 1; }
+[[ -e built ]]
 rm -rf demo-out
