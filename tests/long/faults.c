@@ -1,6 +1,7 @@
 // Makes system calls of a program go wrong: cc -shared -fPIC -o faults.so faults.c, then LD_PRELOAD=faults.so.
 //
-//   FAULT_CALLS=fsync,rename  which calls: read pread write pwrite open fsync rename mkdir unlink; all where not set
+//   FAULT_CALLS=fsync,rename  which calls: read pread write pwrite truncate open fsync rename link mkdir unlink, by any
+//                             of their names in C (rename, renameat, renameat2); all where not set
 //   FAULT_AT=N                the N-th of them, over all threads of a process (0: none, they are only counted)
 //   FAULT_KIND=KIND           kill: ends the process instead of the call; after: when the call is done;
 //                             short: all reads and writes transfer half of what is asked, and every third is
@@ -145,10 +146,22 @@ int open64(const char* file, int flags, ...) {
   return openat(AT_FDCWD, file, flags, mode);
 }
 int fsync(int descriptor) { CALL("fsync", int, (int)syscall(SYS_fsync, descriptor)); }
-int rename(const char* from, const char* to) {
-  CALL("rename", int, (int)syscall(SYS_renameat, AT_FDCWD, from, AT_FDCWD, to));
+int ftruncate(int descriptor, off_t size) { CALL("truncate", int, (int)syscall(SYS_ftruncate, descriptor, size)); }
+int ftruncate64(int descriptor, off_t size) { return ftruncate(descriptor, size); }
+int renameat2(int from_folder, const char* from, int to_folder, const char* to, unsigned flags) {
+  CALL("rename", int, (int)syscall(SYS_renameat2, from_folder, from, to_folder, to, flags));
 }
-int mkdir(const char* folder, mode_t mode) { CALL("mkdir", int, (int)syscall(SYS_mkdirat, AT_FDCWD, folder, mode)); }
+int renameat(int from_folder, const char* from, int to_folder, const char* to) {
+  return renameat2(from_folder, from, to_folder, to, 0);
+}
+int rename(const char* from, const char* to) { return renameat2(AT_FDCWD, from, AT_FDCWD, to, 0); }
+int linkat(int from_folder, const char* from, int to_folder, const char* to, int flags) {
+  CALL("link", int, (int)syscall(SYS_linkat, from_folder, from, to_folder, to, flags));
+}
+int mkdirat(int above, const char* folder, mode_t mode) {
+  CALL("mkdir", int, (int)syscall(SYS_mkdirat, above, folder, mode));
+}
+int mkdir(const char* folder, mode_t mode) { return mkdirat(AT_FDCWD, folder, mode); }
 int unlinkat(int folder, const char* file, int flags) {
   CALL("unlink", int, (int)syscall(SYS_unlinkat, folder, file, flags));
 }

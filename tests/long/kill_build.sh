@@ -55,12 +55,13 @@ echo "random moments: killed $killed times, $early times it was done before; $wr
 steps=0
 for threads in 1 2; do
   ((every > 0)) || break
+  # Both at last: $count is then of both.
+  for calls in fsync rename fsync,rename; do
+    rm -rf "$work/killed"
+    counted $calls "$work/killed" --threads $threads
+    expect_same "$work/killed" "$threads threads, counted"
+  done
   rm -rf "$work/killed"
-  faulty FAULT_CALLS=fsync,rename FAULT_COUNT="$work/count" -- \
-    "$roam" build "${scene[@]}" -o "$work/killed" --threads $threads > /dev/null 2>&1
-  expect_same "$work/killed" "$threads threads, counted"
-  rm -rf "$work/killed"
-  count=$(< "$work/count")
   for ((n = 1; n <= count; n += every)); do
     kind=$([[ $((steps % 2)) == 0 ]] && echo kill || echo after)
     faulty FAULT_CALLS=fsync,rename FAULT_AT=$n FAULT_KIND=$kind -- \

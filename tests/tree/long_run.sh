@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
 # Whether the long proofs see what they are to see.
+#   long_run.sh SOURCE WORK Faults ROAM    the faults of failing_disk.sh reach roam, by each name that C has for a call
 #   long_run.sh SOURCE WORK Run            results are of the files that are there, or there are none
 #   long_run.sh SOURCE WORK Scripts        a program that proves nothing passes no proof
 #   long_run.sh SOURCE WORK Fuzzing        a finding leaves no files in memory
@@ -16,6 +17,38 @@ says() { grep -qF -- "$1" "$2" || { cat "$2"; fail "does not say: $1"; }; }
 program() { cat > "$1" && chmod +x "$1"; }
 
 case $3 in
+  Faults)
+    export ROAM=$roam TMPDIR=$folder
+    set +e
+    source "$source/tests/long/complaints.sh"
+    need_faults
+    "$roam" make gallery -o "$work/a.ply" --triangles 10k > /dev/null
+    scene=("$work/a.ply")
+    calls=$(sed -n 's/^  calls="\(.* .* .*\)"$/\1/p' "$source/tests/long/failing_disk.sh")
+    (($(wc -w <<< "$calls") > 8)) || fail "failing_disk.sh was not understood"
+    for call in $calls; do
+      counted "$call" "$work/s"
+      echo "$call: $count"
+      rm -rf "$work/s"
+      # Where each of them fails, there is a message, or the build does without.
+      faulty FAULT_CALLS="$call" FAULT_AT=1 FAULT_ON=1 FAULT_KIND=5 -- "$roam" build "${scene[@]}" -o "$work/s" \
+        > "$work/said" 2>&1
+      ((status = $?, status <= 1)) || complain "$call fails: status $status"
+      [[ $call != rename,link && $call != mkdir ]] || grep -q "nput/output error" "$work/said" ||
+        complain "$call fails, and nobody says so"
+      rm -rf "$work/s"
+    done
+    # Whatever of these roam calls can go wrong.
+    names='p?(read|write)v?|open(at)?|f?truncate|f(data)?sync|rename(at2?)?|link(at)?|mkdir(at)?|unlink(at)?|remove|rmdir'
+    names+='|symlink(at)?|copy_file_range|sendfile|(posix_)?fallocate'
+    undefined=$(nm -D --undefined-only "$roam" | grep -oE " U ($names)(64)?(@|$)" | grep -oE '[a-z]+[a-z_0-9]*')
+    defined=$(nm -D --defined-only "$work/faults.so" | awk '{ print $3 }')
+    grep -q renameat <<< "$undefined" || complain "no call of roam was understood"
+    missing=$(grep -vxF "$defined" <<< "$undefined") && complain "cannot go wrong: $missing"
+    rm -rf "$work"
+    finish "$(wc -w <<< "$calls") kinds of calls"
+    ;;
+
   Run)
     # A build of a program that says what it was made of.
     mkdir -p "$folder/tree/tests/long" "$folder/tree/tests/fuzz"
