@@ -45,7 +45,11 @@ inline std::vector<long> control() {
   return all;
 }
 
-/// Sets an environment for its lifetime. Only call the library meanwhile: a trapped rounding is a signal.
+/// The exception flag that an environment has from its host.
+constexpr int host_flag = FE_DIVBYZERO;
+
+/// Sets an environment and the host's flag for its lifetime. Only call the library meanwhile: a trapped rounding is a
+/// signal.
 class Set {
  public:
   explicit Set(const Environment& environment) {
@@ -53,6 +57,7 @@ class Set {
     std::feclearexcept(FE_ALL_EXCEPT);
     std::fesetround(environment.rounding);
     if (environment.flushed) flush();
+    raise();
     if (environment.trapped) feenableexcept(FE_ALL_EXCEPT);
   }
   ~Set() { std::fesetenv(&before_); }
@@ -60,6 +65,14 @@ class Set {
   Set& operator=(const Set&) = delete;
 
  private:
+  /// Raises no signal where the exception is trapped later.
+  static void raise() {
+#if defined(__SSE2__)
+    _mm_setcsr(_mm_getcsr() | host_flag);  // it has the bits of <cfenv>
+#else
+    std::feraiseexcept(host_flag);
+#endif
+  }
   static void flush() {
 #if defined(__SSE2__)
     constexpr unsigned flush_to_zero = 0x8000, denormals_are_zero = 0x40;

@@ -62,13 +62,17 @@ inline void expect_same(const std::function<void(Bits&)>& calls) {
     SCOPED_TRACE(host::name(environment));
     Bits bits;
     std::vector<long> before, after;
+    int flags = 0;
     {
       const host::Set set(environment);
       before = host::control();
       calls(bits);
       after = host::control();
+      flags = std::fetestexcept(FE_ALL_EXCEPT);
     }
     EXPECT_EQ(before, after) << "the environment is another one than before";
+    const bool usual_one = environment.rounding == FE_TONEAREST && !environment.trapped && !environment.flushed;
+    EXPECT_EQ(usual_one ? flags & host::host_flag : flags, host::host_flag) << "the exception flags are others";
     EXPECT_TRUE(bits.all() == usual.all()) << "the answers are others";
   }
 }
