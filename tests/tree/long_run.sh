@@ -139,7 +139,7 @@ exec "$@"
 END
     fails 'WRONG: fly, undisturbed: does not reach its end' tests/long/failing_reads.sh 0
     says 'WRONG: fly, undisturbed: no move was checked' "$folder/log"
-    says 'WRONG: walk, pread64 error=EIO:when=3+2: no read has failed' "$folder/log"
+    says 'WRONG: walk, pread64 error=EIO:when=20+2: no read has failed' "$folder/log"
     fails 'WRONG: one read in three fails: no read has failed' \
       tests/long/failing_store.sh "$folder/way" "$folder/store" "$folder/way" 0
 
