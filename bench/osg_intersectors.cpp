@@ -69,10 +69,12 @@ bool ask_box(osg::Node& scene, const Vec3& from, const Vec3& to) {
   return box->containsIntersections();
 }
 
+/// The same. It stops at the first one, its fastest setting.
 bool ask_polytope(osg::Node& scene, const Vec3& from, const Vec3& to) {
   osg::ref_ptr<osgUtil::PolytopeIntersector> intersector =
       new osgUtil::PolytopeIntersector(osgUtil::Intersector::MODEL, roam::bench::box_of_sweep(Vec3(radius), from, to));
   intersector->setPrimitiveMask(osgUtil::PolytopeIntersector::TRIANGLE_PRIMITIVES);
+  intersector->setIntersectionLimit(osgUtil::Intersector::LIMIT_ONE);
   osgUtil::IntersectionVisitor visitor(intersector);
   scene.accept(visitor);
   return intersector->containsIntersections();
