@@ -87,18 +87,21 @@ fi
 "$roam" build other.ply -o other.roam > /dev/null 2>&1
 hashes=$(for store in dam.roam other.roam; do "$roam" info $store --json | grep '"hash"'; done)
 (
-  for ((i = 0; i < 6; ++i)); do
+  for ((i = 0; i < 200; ++i)); do
+    ((i < 6)) || [[ ! -e seen_both ]] || break
     "$roam" publish other.roam www/dam.roam > /dev/null 2>&1
     "$roam" publish dam.roam www/dam.roam > /dev/null 2>&1
   done
 ) &
-seen=
+: > seen
 while kill -0 $! 2> /dev/null; do
   found=$("$roam" info "$web" --json | grep '"hash"') || fail "a reader found no store"
   grep -qF "$found" <<< "$hashes" || fail "a reader found a mixture: $found"
-  seen+=$found
+  echo "$found" >> seen
+  (($(wc -l < seen) < 10 || $(sort -u seen | wc -l) < 2)) || touch seen_both
 done
 wait $!
+[[ -e seen_both ]] || fail "the readers did not see both versions: $(sort seen | uniq -c)"
 "$roam" verify "$web" > /dev/null || fail "the published store is damaged"
 
 # A cache: the second walk requests nothing but CURRENT. Its size is its limit.
