@@ -25,6 +25,7 @@
 #include "store/pager/tracked_body.h"
 #include "store/tile_reader.h"
 #include "store/web_files.h"
+#include "text/number.h"
 #include "timing.h"
 
 namespace {
@@ -65,6 +66,10 @@ std::vector<Item> items_of(const roam::Store::State& store) {
   return items;
 }
 
+Clock::duration in_clock(double s) {
+  return std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(s));
+}
+
 double seconds_between(Clock::time_point from, Clock::time_point to) {
   return std::chrono::duration<double>(to - from).count();
 }
@@ -94,6 +99,7 @@ class Walker {
         read(next, counts, sums);
       } else {
         std::this_thread::sleep_for(nap);
+        looked_ = Clock::now();  // a pager would have looked meanwhile
       }
       const auto now = Clock::now();
       const double passed = seconds_between(before, now);
@@ -131,14 +137,17 @@ class Walker {
     const auto [at, velocity] = place();
     const roam::paging::TrackedBody body(roam::Body::capsule(0.3, 1.8), at, velocity);
     keys_.resize(items_.size());
+    if (looked_ == Clock::time_point{}) looked_ = now;
     std::size_t nearest = items_.size();
     for (std::size_t i = 0; i < items_.size(); ++i) {
       keys_[i] = body.time_to(items_[i].box);
       if (keys_[i] > horizon) states_[i].wanted = {};
       if (keys_[i] > horizon || states_[i].here) continue;
-      if (states_[i].wanted == Clock::time_point{}) states_[i].wanted = now;
+      if (states_[i].wanted == Clock::time_point{})
+        states_[i].wanted = std::max(looked_, now - in_clock(horizon - keys_[i]));
       if (nearest == items_.size() || keys_[i] < keys_[nearest]) nearest = i;
     }
+    looked_ = now;
     return nearest;
   }
 
@@ -172,6 +181,7 @@ class Walker {
   double along_, speed_;
   std::vector<State> states_;
   std::vector<double> keys_;
+  Clock::time_point looked_{};  ///< what came within the horizon since, did so during a read
   std::uint64_t used_ = 0;
   std::vector<std::byte> buffer_;
   std::shared_ptr<roam::store::StoreBytes> bytes_;
@@ -188,9 +198,7 @@ Bar measure(const Options& options, const std::vector<Item>& items, const std::v
   }
   Sums sums;
   const auto begin = Clock::now();
-  const auto after = [&](double s) {
-    return begin + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(s));
-  };
+  const auto after = [&](double s) { return begin + in_clock(s); };
   std::printf("measuring begins in %g s\n", options.ramp);
   std::fflush(stdout);
   {
@@ -224,7 +232,10 @@ int run(const Options& options) {
   const std::vector<Vec3> way = roam::positions(roam::load_path(options.path));
   std::vector<Bar> bars;
   for (const int count : options.walkers) bars.push_back(measure(options, items, way, count));
-  if (picture) picture->write(bar_chart("Until a tile is there", {{"nginx, walkers at 1.4 m/s", std::move(bars)}}));
+  if (picture) {
+    const std::string title = "nginx, walkers at " + roam::number_text(options.speed) + " m/s";
+    picture->write(bar_chart("Until a tile is there", {{title, std::move(bars)}}));
+  }
   return 0;
 }
 
