@@ -1,11 +1,14 @@
 // roam build, info, verify, walk and sweep with a store, as a shell sees them.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <nlohmann/json.hpp>
 #include <random>
 #include <sstream>
 
+#include "store/opened.h"
 #include "store_verbs.h"
 
 namespace {
@@ -173,8 +176,16 @@ TEST_F(StoreVerbs, EveryTileDamagedHoldsABodyAndLetsNothingThrough) {
   const TestFolder folder;
   const std::string bad = copy(folder);
   const fs::path pack = only_pack(bad);
-  // All of the first half: tiles; the pages lie at the end.
-  for (std::uintmax_t at = 64; at < fs::file_size(pack) / 2; at += 64) flip(pack, static_cast<std::streamoff>(at));
+  // The tiles are before the pages.
+  auto end = static_cast<std::uint64_t>(fs::file_size(pack));
+  for (const auto& page : roam::Store::open(bad)->state().pages) end = std::min(end, page.ref.offset);
+  for (std::uint64_t at = 64; at < end; at += 64) flip(pack, static_cast<std::streamoff>(at));
+  int tiles = 0;
+  const json verified = json::parse(run({"verify", bad, "--json"}).out);
+  for (const json& damage : verified["damage"]) {
+    tiles += contains(damage["what"], "tile ") ? 1 : 0;
+  }
+  EXPECT_EQ(tiles, json::parse(run({"info", bad, "--json"}).out)["tiles"]);
   const ProgramResult walked =
       run({"walk", bad, "--path", path(), "--mode", "fly", "--speed", "20", "--against", scene(), "--json"});
   const json report = json::parse(walked.out);
