@@ -19,8 +19,8 @@ enum class Way : std::uint8_t { checked, any };
 enum class Below : std::uint8_t { anything, ground };
 
 /// The nearest position found, at most `limit` metres away, where the body fits with its skin. The search pushes the
-/// body out of its contacts, and also goes in the 26 directions from a cube's centre to its neighbours; in each of
-/// these it skips no free position.
+/// body out of its contacts, and also goes in the 26 directions from a cube's centre to its neighbours. In each of
+/// these it skips no free part of the way; after 128 positions none longer than a 128th of `limit`.
 [[nodiscard]] std::optional<Vec3> nearest_free(const Space& space, const Body& body, const Vec3& place, double limit,
                                                double skin, Way way, Below below = Below::anything);
 

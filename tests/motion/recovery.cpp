@@ -56,6 +56,20 @@ TEST(Recovery, AStartTooNarrowForAnyWayOutIsHeld) {
   EXPECT_TRUE(w.held());
 }
 
+TEST(Recovery, AStartInASlotThatIsAHairTooNarrowIsFreedThroughItsEnd) {
+  for (const double end : {0.1, 0.5, 1.0}) {
+    Mesh m;
+    for (const double y : {-0.2999, 0.2999}) add_wall(m, -5.0, y, end, y, -5.0, 5.0);
+    for (const bool lossless : {false, true}) {
+      const World world = build(m, lossless);
+      const Walker w(world, {}, Mode::fly, {0.0, 0.0, 0.0});
+      ASSERT_FALSE(w.held()) << end << " m to its end, lossless " << lossless;
+      EXPECT_GT(w.position().x, end);
+      EXPECT_LT(w.position().x, end + 0.1);
+    }
+  }
+}
+
 TEST(Recovery, AStartUnderALowCeilingCrouches) {
   const Mesh m = low_passage(1.2);
   Walk w(m, {}, Mode::walk, {2.5, 0.0, 0.92});
