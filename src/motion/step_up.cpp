@@ -13,14 +13,17 @@ std::optional<double> step_up(Move& move, Gait& gait, const Vec3& motion, double
   if (!gait.firm() || !(step > 0.0) || !(length > 0.0)) return std::nullopt;
   // From a skin above the old ground to a skin above the edge of a kerb of full height.
   const Vec3 up(0.0, 0.0, step + 3.0 * skin);
-  Move trial = move;
-  const Advance raised = trial.probe(up);
-  const Vec3 rise = up * raised.fraction;
-  if (raised.embedded || !(rise.z > 2.0 * skin)) return std::nullopt;
-  trial.place += rise;
   // At least far enough for a body that touches a kerb as high as its radius to reach where the rim carries it.
   const double least = move.settings.radius * (1.0 - rim_sine) + 4.0 * skin;
   const Vec3 ahead = at_least(motion, least);
+  Move trial = move;
+  const Advance raised = trial.probe(up);
+  Vec3 rise = up * raised.fraction;
+  // Under a ceiling that falls, it rises less, by what the ceiling falls over the way ahead.
+  const Vec3& ceiling = raised.contact.normal;
+  if (raised.touched && ceiling.z < 0.0) rise.z -= std::max(0.0, glm::dot(ahead, ceiling) / ceiling.z);
+  if (raised.embedded || !(rise.z > 2.0 * skin)) return std::nullopt;
+  trial.place += rise;
   const Advance forward = trial.probe(ahead);
   const Vec3 onward = ahead * forward.fraction;
   if (!(glm::length(onward) > skin)) return std::nullopt;

@@ -94,6 +94,22 @@ TEST(Ground, StepsOntoAKerbOfStepHeightAtAnySpeedButNotOntoAHigherOne) {
   }
 }
 
+TEST(Ground, StepsOntoAKerbUnderACeilingThatFalls) {
+  for (const double fall : {0.0, 0.01, 0.05, 0.1}) {
+    Mesh m = floor_mesh();
+    add_wall(m, 1.0, -2.0, 1.0, 2.0, 0.0, 0.22);
+    add_floor(m, 1.0, -2.0, 15.0, 2.0, 0.22);
+    const double near = 2.08 + 2.0 * fall, far = 2.08 - 2.0 * fall;  // 2.08 m over the kerb's edge
+    add_quad(m, {-1.0, -2.0, near}, {3.0, -2.0, far}, {3.0, 2.0, far}, {-1.0, 2.0, near});
+    for (const double speed : {0.5, 1.4, 7.0}) {
+      Walk w(m, {}, Mode::walk, {0.3, 0.0, 0.95});
+      w.go({speed, 0.0, 0.0}, 1.1 / speed);
+      EXPECT_NEAR(w.feet(), 0.22, near_ground) << "falls by " << fall << ", speed " << speed;
+      EXPECT_GE(w.walker.position().x, 1.2);
+    }
+  }
+}
+
 TEST(Ground, ABigBallDoesNotRollUpAKerbThatIsTooHighToStepOnto) {
   for (const double speed : {0.2, 1.4, 10.0}) {
     Mesh m = floor_mesh();
