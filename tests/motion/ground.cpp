@@ -110,6 +110,23 @@ TEST(Ground, StepsOntoAKerbUnderACeilingThatFalls) {
   }
 }
 
+TEST(Ground, StepsDownALedgeOfStepHeightAndFallsFromAHigherOne) {
+  for (const double depth : {0.28, 0.2999, 0.32, 0.5}) {
+    Mesh m;
+    add_floor(m, -5.0, -5.0, 1.0, 5.0, 0.0);
+    add_wall(m, 1.0, -5.0, 1.0, 5.0, -depth, 0.0);
+    add_floor(m, 1.0, -5.0, 10.0, 5.0, -depth);
+    for (const double speed : {0.3, 1.4}) {
+      Walk w(m, {}, Mode::walk, {0.5, 0.0, 0.95});
+      w.go({speed, 0.0, 0.0}, 1.5 / speed);
+      SCOPED_TRACE(testing::Message() << "speed " << speed << ", ledge " << depth);
+      EXPECT_NEAR(w.feet(), -depth, near_ground);
+      EXPECT_EQ(w.count(EventKind::stepped_down), depth < 0.3 ? 1 : 0);
+      EXPECT_EQ(w.count(EventKind::airborne), depth < 0.3 ? 0 : 1);
+    }
+  }
+}
+
 TEST(Ground, ABigBallDoesNotRollUpAKerbThatIsTooHighToStepOnto) {
   for (const double speed : {0.2, 1.4, 10.0}) {
     Mesh m = floor_mesh();
@@ -156,6 +173,14 @@ TEST(Ground, KeepsTheSkinOnASlope) {
       ASSERT_NEAR(gap, skin, 0.3 * skin) << speed << " at " << i;
     }
   }
+}
+
+TEST(Ground, LiftsABodyPutNearASlopeToItsSkin) {
+  const World world = build(ramp(44.0), true);
+  const double angle = 44.0 * std::numbers::pi / 180.0;
+  const Vec3 away(-std::sin(angle), 0.0, std::cos(angle)), point(4.0, 0.0, 3.0 * std::tan(angle));
+  const Walker w(world, {}, Mode::walk, point + away * (0.3 + 1e-5) + Vec3(0.0, 0.0, 0.6));
+  EXPECT_NEAR(world.clearance(w.body(), w.position(), 1.0).distance, w.skin(), 0.3 * w.skin());
 }
 
 // Each side is too steep to stand on; both together carry. The body meets one of them first.

@@ -108,6 +108,30 @@ TEST(MoveInstances, StopsADoorThatWouldCrushABody) {
   EXPECT_LT(stage.scene.space.pose(id).heading, heading - 0.3);
 }
 
+TEST(MoveInstances, SqueezesABodyOutAlongAWallThatIsNotTooSteep) {
+  for (const double degrees : {25.0, 45.0, 58.0, 62.0}) {
+    // Five centimetres before a wall along `t`, and half a millimetre before a piston that goes along x.
+    const double angle = degrees * std::numbers::pi / 180.0;
+    const Vec3 t(std::cos(angle), std::sin(angle), 0.0), away(-t.y, t.x, 0.0);
+    const Vec3 from = -0.35 * away - 0.3 * t, to = -0.35 * away + 10.0 * t;
+    Mesh wall, piston;
+    scenes::add_wall(wall, from.x, from.y, to.x, to.y, -3.0, 3.0);
+    scenes::add_box(piston, {-0.1, -5.0, -2.0}, {0.0, 5.0, 2.0});
+    Stage stage(wall);
+    const ObjectId id = stage.scene.add(piston, {{-0.3005, 0.0, 0.0}});
+    Walker& walker = stage.add({}, Mode::fly, {0.0, 0.0, -0.9});
+    stage.scene.space.set_velocity(id, {{0.5, 0.0, 0.0}});
+    bool stopped = false;
+    for (int i = 0; i < 60; ++i) {
+      stopped |= !stage.advance().empty();
+      ASSERT_NEAR(walker.position().x - stage.scene.space.pose(id).position.x, 0.3005, 1.2e-3)
+          << degrees << " at " << i;
+    }
+    EXPECT_EQ(stopped, degrees > 60.0) << degrees;
+    EXPECT_NEAR(glm::dot(walker.position(), away), -0.05, 2e-3) << degrees;
+  }
+}
+
 TEST(MoveInstances, StopsALiftUnderACeiling) {
   Mesh m = ground();
   scenes::add_floor(m, -3.0, -3.0, 3.0, 3.0, 4.0);

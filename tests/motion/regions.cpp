@@ -115,6 +115,23 @@ TEST(Regions, AreLeftFiveCentimetresOutside) {
   EXPECT_EQ(fro.count(EventKind::widened), 0);
 }
 
+TEST(Regions, AreEnteredByTheCentreAndByTheFeet) {
+  const Mesh m = floor_mesh();
+  for (const double z : {0.0, 0.95}) {
+    const SizeRegion flat{{Vec3(-1.0, -0.5, z - 0.1), Vec3(1.0, 0.5, z + 0.1)}, 0.2, 0.0, "flat"};
+    for (const Mode mode : {Mode::walk, Mode::fly}) {
+      Roam r(m, person(0.3), mode, {-2.0, 0.0, 0.95}, {&flat, 1});
+      for (int i = 0; i < 400; ++i) {
+        r.step({0.01 / frame, 0.0, 0.0});
+        const double x = r.walker.position().x;
+        if (std::abs(std::abs(x) - 1.0) > 0.1) {
+          ASSERT_EQ(r.walker.body().radius, std::abs(x) < 1.0 ? 0.2 : 0.3) << to_string(mode) << " at " << x;
+        }
+      }
+    }
+  }
+}
+
 TEST(Regions, ThatEndTooEarlyLeaveTheBodySmallUntilItFits) {
   Mesh m = floor_mesh();  // a passage 0.6 m wide and 4 m long, of which the region is the beginning
   add_box(m, {1.0, -5.0, -0.1}, {5.0, -0.3, 2.5});

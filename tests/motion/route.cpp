@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "changing_room.h"
 #include "motion/vain_steps.h"
 #include "roam/error.h"
 #include "roam/standing.h"
@@ -246,6 +247,15 @@ TEST(Route, AWayOfTheFeetIsGoneBySomebodyWhoStandsOnIt) {
     EXPECT_EQ(r.outcome, Outcome::reached);
     EXPECT_NEAR(r.length, 5.0, 0.01);
   }
+}
+
+TEST(Route, IsHeldWhereTheSpaceLetsItCreepFarFromTheOrigin) {
+  scenes::ChangingRoom room(scenes::hall(), true);
+  Walker walker(room, {}, Mode::fly, {-8.0, -8.0, 0.0});
+  room.limit = 0.02;  // of 1.4 m/s
+  const RouteResult r = roam::follow(walker, std::vector<Vec3>{{-8.0, -8.0, 0.0}, {8.0, -8.0, 0.0}});
+  EXPECT_EQ(r.outcome, Outcome::held);
+  EXPECT_LT(r.end.x, -7.8);
 }
 
 TEST(Route, RefusesAStepAfterItsEnd) {

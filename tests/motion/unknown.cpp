@@ -267,6 +267,21 @@ TEST(WalkerUnknown, ABodyAtRestWhereSomethingNewIsExpectedIsHeldAndSaysNoClearan
   EXPECT_NEAR(w.position().x, 6.0, 0.02);
 }
 
+TEST(WalkerUnknown, ACrouchedBodyThatWaitsStaysLow) {
+  Patchwork space;
+  space.deliver(space.expect({{-20.0, -10.0, -1.0}, {20.0, 10.0, 4.0}}), build(low_passage(1.2)));
+  space.update();
+  Walker w(space, {}, Mode::walk, {2.5, 0.0, 0.92});
+  ASSERT_TRUE(w.crouched());
+  const double low = w.report().height;
+  (void)space.expect({{2.0, -1.0, -1.0}, {3.0, 1.0, 3.0}});
+  space.update(w.body(), w.position());
+  for (int i = 0; i < 3; ++i) {
+    EXPECT_EQ(w.step({}, frame).height, low) << i;
+    EXPECT_TRUE(w.held() && w.report().met_unknown);
+  }
+}
+
 TEST(WalkerUnknown, ABodyHeldByAWallLooksForAWayOutWhenTheSpaceChanges) {
   Patchwork space;
   const Box where{{-5.0, -5.0, -1.0}, {5.0, 5.0, 4.0}};

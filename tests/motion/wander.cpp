@@ -212,6 +212,17 @@ TEST(WanderStart, IsNotOnARoofThatHasMoreRoom) {
   EXPECT_GT(start->place.x, 20.0);
 }
 
+TEST(WanderStart, IsInTheOpenRatherWhereAWallIsInSight) {
+  // A yard with a wall on one side, and far off a larger field.
+  Mesh mesh;
+  scenes::add_floor(mesh, 0, 0, 12, 12, 0);
+  scenes::add_wall(mesh, 12, 0, 12, 12, 0, 2);
+  scenes::add_floor(mesh, 100, 0, 120, 20, 0);
+  const std::optional<WanderStart> start = wander_start(scenes::build(mesh), person, Mode::walk);
+  ASSERT_TRUE(start);
+  EXPECT_LT(start->place.x, 12.0);
+}
+
 TEST(WanderStart, IsLookedForOnceOnEachFloorOfAHugeScene) {
   roam::Mesh huge;
   scenes::add_floor(huge, -1e9, -1e9, 1e9, 1e9, 1e9);

@@ -52,6 +52,17 @@ TEST(Sweep, MeetsAFaceFromEitherSide) {
   }
 }
 
+TEST(Sweep, MeetsASlopeWithTheEndOfAnAxisOfAnyHeight) {
+  const Triangle slope{Vec3(-4, -4, -4), Vec3(4, -4, 4), Vec3(0, 8, 0)};
+  const double touching = 0.3 * std::sqrt(2.0);  // m, height of the lower end over the slope
+  for (const double half : {0.0, 0.5, 1.0, 2.0}) {
+    const auto s = roam::sweep({.radius = 0.3, .half_height = half}, {0, 0, half + 1.4}, {0, 0, -2}, slope);
+    ASSERT_TRUE(s.hit);
+    EXPECT_NEAR(s.time, 0.5 * (1.4 - touching), 1e-9) << half;
+    EXPECT_NEAR(glm::distance(s.point, Vec3(0.5 * touching, 0, 0.5 * touching)), 0.0, 1e-9) << half;
+  }
+}
+
 TEST(Sweep, EndsAtATimeAndIsTheSameBefore) {
   std::mt19937_64 random(11);
   std::uniform_real_distribution<double> in(-3.0, 5.0), fraction(0.0, 1.0);
