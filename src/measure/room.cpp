@@ -24,27 +24,53 @@ Room::Room(const Space& space, const WalkerSettings& settings, Mode mode, double
       slope_cosine_(std::cos(glm::radians(settings.slope_degrees))) {}
 
 Free Room::beside(const Body& body, const Vec3& centre, const Vec3& side) const {
-  const double less = slimmed(body);
+  const double less = slimmed(body), far = reach_ + less;
   Body slim = body;
   slim.radius -= less;
+  const Impact hit = space_.sweep(slim, centre, far * side);
+  if (!hit.hit) return {reach_, false, no_triangle};
+  const Free free{std::clamp(travelled(hit, far) - less, 0.0, reach_), !hit.unknown, hit.triangle};
+  const bool may_be_stepped_onto = hit.point.z <= step_above(body, centre) || hit.normal.z > slope_cosine_;
+  if (mode_ != Mode::walk || !may_be_stepped_onto) return free;
+  const Free over = beside_legs_lifted(body, centre, side);
+  return over.distance < free.distance ? free : over;
+}
+
+Free Room::beside_legs_lifted(const Body& body, const Vec3& centre, const Vec3& side) const {
+  const double less = slimmed(body), far = reach_ + less;
+  Body slim = body;
+  slim.radius -= less;
+  // A body that is hardly taller than wide is lifted as a whole, as far as there is room.
+  const double low = std::min(settings_.step, 2.0 * body.half_height), rest = settings_.step - low;
+  slim.half_height -= 0.5 * low;
   Vec3 place = centre;
-  if (mode_ == Mode::walk) {
-    // The legs are lifted over what is stepped onto; a body that is hardly taller than wide is lifted as a whole.
-    const double low = std::min(settings_.step, 2.0 * body.half_height);
-    slim.half_height -= 0.5 * low;
-    place.z += 0.5 * low;
-    const double rest = settings_.step - low;
-    if (rest > 0.0) {
-      const FirstImpact up = space_.first_impact(slim, place, {0.0, 0.0, rest});
-      place.z += up.hit ? up.time * rest : rest;
-    }
+  place.z += 0.5 * low;
+  if (rest > 0.0) {
+    const FirstImpact up = space_.first_impact(slim, place, {0.0, 0.0, rest});
+    place.z += up.hit ? up.time * rest : rest;
   }
-  const double far = reach_ + less;
   const Impact hit = space_.sweep(slim, place, far * side);
-  // Ground that rises gently to the side is no wall.
-  const bool is_ground = mode_ == Mode::walk && hit.normal.z > slope_cosine_;
-  if (!hit.hit || is_ground) return {reach_, false, no_triangle};
-  return {std::clamp(travelled(hit, far) - less, 0.0, reach_), !hit.unknown, hit.triangle};
+  if (!hit.hit || is_ground(hit, side)) return {reach_, false, no_triangle};
+  double free = travelled(hit, far) - less;
+  if (hit.normal.z > 0.0 && hit.point.z > step_above(body, centre)) {
+    // Its lower end is round there; the body that stands is wider.
+    const double beyond = std::clamp(std::abs(hit.point.z - centre.z) - body.half_height, 0.0, slim.radius);
+    const double standing = std::sqrt(slim.radius * slim.radius - beyond * beyond);
+    free -= std::max(0.0, standing - slim.radius * std::hypot(hit.normal.x, hit.normal.y));
+  }
+  return {std::clamp(free, 0.0, reach_), !hit.unknown, hit.triangle};
+}
+
+double Room::step_above(const Body& body, const Vec3& centre) const {
+  return centre.z - 0.5 * body.height() + settings_.step;
+}
+
+/// Whether it rises as gently as ground that can be walked on. An edge may also be that of a bench.
+bool Room::is_ground(const Impact& hit, const Vec3& side) const {
+  if (hit.normal.z <= slope_cosine_) return false;
+  if (hit.feature == Feature::face) return true;
+  constexpr double before = 0.005;  // m
+  return space_.first_impact({0.0, 0.0}, hit.point - before * side, {0.0, 0.0, -settings_.step - before}).hit;
 }
 
 Free Room::headroom(const Body& body, const Vec3& centre) const {

@@ -32,6 +32,10 @@ class Room {
   [[nodiscard]] bool is_passage(const Body& body, const Vec3& centre, const Vec3& heading) const;
 
  private:
+  [[nodiscard]] Free beside_legs_lifted(const Body& body, const Vec3& centre, const Vec3& side) const;
+  [[nodiscard]] double step_above(const Body& body, const Vec3& centre) const;  ///< z of what is just a step
+  [[nodiscard]] bool is_ground(const Impact& hit, const Vec3& side) const;
+
   const Space& space_;
   const WalkerSettings& settings_;
   Mode mode_;

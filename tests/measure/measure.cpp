@@ -141,6 +141,35 @@ TEST(MeasureAlong, SeesNoWallInGroundThatIsWalkedOn) {
   const std::vector<Vec3> path{{2, 0, 0.902}, {18, 0, 0.902}};
   EXPECT_FALSE(walked(world, {}, path).narrowest());
   EXPECT_TRUE(walked(world, {}, path, Mode::fly).narrowest());
+  Mesh rounded;  // 40 degrees, and 10 from a height of 0.35 m on
+  scenes::add_floor(rounded, 0, -1, 20, 1, 0);
+  for (const double y : {1.0, -1.0}) {
+    scenes::add_quad(rounded, {0, y, 0}, {20, y, 0}, {20, 1.417 * y, 0.35}, {0, 1.417 * y, 0.35});
+    scenes::add_quad(rounded, {0, 1.417 * y, 0.35}, {20, 1.417 * y, 0.35}, {20, 9 * y, 1.69}, {0, 9 * y, 1.69});
+  }
+  EXPECT_FALSE(walked(scenes::build(rounded), {}, path).narrowest());
+}
+
+// The person steps 0.3 m high.
+TEST(MeasureAlong, FindsTheWidthBetweenBenchesThatAreTooHighToStepOnto) {
+  for (const double height : {0.35, 0.45, 0.59, 0.8}) {
+    for (const bool with_ridges : {false, true}) {
+      SCOPED_TRACE(testing::Message() << height << " m high" << (with_ridges ? ", behind ridges" : ""));
+      Mesh mesh;
+      add_corridor(mesh);
+      scenes::add_box(mesh, {9, 0, 0}, {11, 1.65, height});
+      scenes::add_box(mesh, {9, 2.35, 0}, {11, 4, height});
+      if (with_ridges) {
+        for (const double y : {1.9, 2.1}) scenes::add_wall(mesh, 8, y, 12, y, 0, 0.015);
+      }
+      const World world = scenes::build(mesh);
+      Along along(world, {}, Mode::walk);
+      along.put({2, 2, 0.902});
+      along.go({18, 2, 0.902}, Body::capsule(0.3, 1.8));
+      ASSERT_TRUE(along.narrowest());
+      EXPECT_NEAR(along.narrowest()->width, 0.7, 0.004);
+    }
+  }
 }
 
 TEST(MeasureAlong, FindsTheLowestBeamAndCountsHowOftenTheBodyDucked) {
