@@ -47,7 +47,7 @@ Free Room::beside_legs_lifted(const Body& body, const Vec3& centre, const Vec3& 
   place.z += 0.5 * low;
   if (rest > 0.0) {
     const FirstImpact up = space_.first_impact(slim, place, {0.0, 0.0, rest});
-    place.z += up.hit ? up.time * rest : rest;
+    place.z += up.hit ? std::max(0.0, up.time * rest - slimmer) : rest;
   }
   const Impact hit = space_.sweep(slim, place, far * side);
   if (!hit.hit || is_ground(hit, side)) return {reach_, false, no_triangle};

@@ -172,6 +172,31 @@ TEST(MeasureAlong, FindsTheWidthBetweenBenchesThatAreTooHighToStepOnto) {
   }
 }
 
+// The sphere is lifted as a whole, and cannot be lifted as high as it steps.
+TEST(MeasureAlong, FindsTheDoorOfALowTunnel) {
+  for (const Vec3& fall : {Vec3(0.0), Vec3(0.01, 0.0, 0.0), Vec3(0.0, 0.01, 0.0)}) {
+    for (const bool lossless : {false, true}) {
+      SCOPED_TRACE(testing::Message() << "falling by " << fall.x << ", " << fall.y << (lossless ? ", lossless" : ""));
+      Mesh mesh;
+      add_corridor(mesh);
+      const auto ceiling = [&](double x, double y) {
+        return Vec3(x, y, 0.8 - fall.x * (x - 9.1) - fall.y * (y - 2.0));
+      };
+      scenes::add_quad(mesh, ceiling(0, 0), ceiling(20, 0), ceiling(20, 4), ceiling(0, 4));
+      scenes::add_box(mesh, {9, 0, 0}, {9.2, 1.65, 1});
+      scenes::add_box(mesh, {9, 2.35, 0}, {9.2, 4, 1});
+      const World world = scenes::build(mesh, lossless);
+      const roam::WalkerSettings settings = roam::WalkerSettings::sphere(0.3);
+      Along along(world, settings, Mode::walk);
+      along.put({2, 2, 0.302});
+      along.go({18, 2, 0.302}, Body{0.3, 0.0});
+      ASSERT_TRUE(along.narrowest());
+      EXPECT_NEAR(along.narrowest()->width, 0.7, 0.004);
+      EXPECT_NEAR(along.narrowest()->centre.x, 9.1, 0.15);
+    }
+  }
+}
+
 TEST(MeasureAlong, FindsTheLowestBeamAndCountsHowOftenTheBodyDucked) {
   Mesh mesh;
   add_corridor(mesh);
