@@ -1,6 +1,7 @@
 #include "measure/slope.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/trigonometric.hpp>
 #include <vector>
@@ -10,12 +11,23 @@
 namespace roam::measure {
 namespace {
 
-/// The position at a distance along the way, seen from above. `at` is ascending, and so is `i` from call to call.
-Vec3 position(std::span<const Vec3> way, const std::vector<double>& at, double distance, std::size_t& i) {
-  while (i + 2 < way.size() && at[i + 1] < distance) ++i;
-  const double length = at[i + 1] - at[i];
-  const double t = length > 0.0 ? std::clamp((distance - at[i]) / length, 0.0, 1.0) : 0.0;
-  return way[i] + t * (way[i + 1] - way[i]);
+/// Of the length of a way: the rounding of distances along it is less.
+constexpr double rounding = 1e-12;
+
+/// The first and the last position at a distance along the way, seen from above; others lie between them where the way
+/// is vertical. `at` is ascending, and so is `i` from call to call.
+std::array<Vec3, 2> positions(std::span<const Vec3> way, const std::vector<double>& at, double distance,
+                              std::size_t& i) {
+  const double slack = rounding * at.back();
+  const auto position = [&](std::size_t k, double in_vertical) {
+    const double length = at[k + 1] - at[k];
+    const double t = length > 0.0 ? std::clamp((distance - at[k]) / length, 0.0, 1.0) : in_vertical;
+    return way[k] + t * (way[k + 1] - way[k]);
+  };
+  while (i + 2 < way.size() && at[i + 1] < distance - slack) ++i;
+  std::size_t last = i;
+  while (last + 2 < way.size() && at[last + 1] <= distance + slack) ++last;
+  return {position(i, 0.0), position(last, 1.0)};
 }
 
 }  // namespace
@@ -47,11 +59,15 @@ Slope steepest(std::span<const Vec3> way, double over) {
   std::sort(begins.begin(), begins.end());
   std::size_t from = 0, to = 0;
   for (const double begin : begins) {
-    const Vec3 a = position(way, at, begin, from), b = position(way, at, begin + window, to);
-    const double degrees = glm::degrees(std::atan2(std::abs(b.z - a.z), window));
-    if (degrees <= slope.degrees) continue;
-    slope.degrees = degrees;
-    slope.place = 0.5 * (a + b);
+    const auto ends = positions(way, at, begin + window, to);
+    for (const Vec3& a : positions(way, at, begin, from)) {
+      for (const Vec3& b : ends) {
+        const double degrees = glm::degrees(std::atan2(std::abs(b.z - a.z), window));
+        if (degrees <= slope.degrees) continue;
+        slope.degrees = degrees;
+        slope.place = 0.5 * (a + b);
+      }
+    }
   }
   return slope;
 }

@@ -2,6 +2,7 @@
 // construction; slopes, edges and named triangles, against all of them one by one.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <numbers>
@@ -265,6 +266,29 @@ TEST(MeasureSlope, IsThatOfTheSteepestMetreOfAllStretches) {
   }
   EXPECT_EQ(roam::measure::steepest(std::vector<Vec3>{{1, 2, 3}}).degrees, 0.0);
   EXPECT_NEAR(roam::measure::steepest(std::vector<Vec3>{{0, 0, 0}, {0, 0, 3}}).degrees, 90.0, 1e-9);
+}
+
+TEST(MeasureSlope, OfAWayIsThatOfItsReverse) {
+  const auto degrees = [](std::vector<Vec3> way, bool reversed) {
+    if (reversed) std::reverse(way.begin(), way.end());
+    return roam::measure::steepest(way).degrees;
+  };
+  const double by_three = std::atan(3.0) * 180.0 / std::numbers::pi;
+  for (const bool reversed : {false, true}) {
+    EXPECT_NEAR(degrees({{0, 0, 0}, {1, 0, 0}, {1, 0, 3}}, reversed), by_three, 1e-9);
+    EXPECT_NEAR(degrees({{0, 0, 0}, {0, 0, 3}, {1, 0, 0}}, reversed), by_three, 1e-9);
+    EXPECT_NEAR(degrees({{0, 0, 0}, {0.7, 0, 0}, {1.7, 0, 0}, {1.7, 0, 3}, {2.5, 0, 3}}, reversed), by_three, 1e-9);
+  }
+  for (std::uint64_t seed = 0; seed < 50; ++seed) {
+    Random random(seed);
+    std::vector<Vec3> way{{0, 0, 0}};
+    for (int i = 0; i < 12; ++i) {
+      const double level = random.chance(0.4) ? 0.0 : 1.0;
+      way.push_back(way.back() + Vec3(level * random.between(0.0, 0.8), level * random.between(-0.5, 0.5),
+                                      random.between(-0.3, 0.3)));
+    }
+    EXPECT_NEAR(degrees(way, false), degrees(way, true), 1e-6) << seed;
+  }
 }
 
 TEST(MeasureSlope, BelowABodyIsThatOfTheFaceThatItMeets) {
