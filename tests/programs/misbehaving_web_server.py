@@ -50,6 +50,11 @@ class Handler(http.server.BaseHTTPRequestHandler):
             with lock:
                 under_way -= 1
 
+    def do_CONNECT(self):  # to the host "403.invalid": status 403
+        with lock:
+            log.append(f"CONNECT {self.path}")
+        self.answer(int(self.path.partition(".")[0]), b"refused")
+
     def get(self):
         global most
         path, _, query = re.sub("^http://[^/]*", "", self.path).partition("?")  # as a proxy it is given the host, too

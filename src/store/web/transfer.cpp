@@ -30,6 +30,9 @@ constexpr const char* too_much = "the web server sends more bytes than it says";
 constexpr const char* larger = "it is larger than any file of its kind";
 constexpr const char* broken = "the connection to the web server broke";
 
+constexpr const char* no_tunnel =
+    "the proxy refuses to connect to the web server; check https_proxy and no_proxy, or ask whoever runs the proxy";
+
 /// Statuses of failures that may pass.
 constexpr long passing[] = {408, 429, 500, 502, 503, 504};
 
@@ -304,8 +307,16 @@ std::string Transfer::redirected() const {
   return to == nullptr ? std::string() : std::string(to);
 }
 
+const char* Transfer::refusal_of_proxy() const {
+  long status = 0;
+  if (status_ == 0) Curl::library().easy_getinfo(handle.get(), CURLINFO_HTTP_CONNECTCODE, &status);
+  if (status < 400 || status >= 500) return nullptr;
+  return status == 407 ? meaning(status, false) : no_tunnel;
+}
+
 Answer Transfer::answer(CURLcode result) const {
   if (problem_) return {problem_, false, too_large_};
+  if (const char* const refusal = refusal_of_proxy()) return {refusal};
   if (result != CURLE_OK && (status_ < 300 || result != CURLE_WRITE_ERROR)) return {failure_of(result).meaning};
   if (is_redirect(status_)) {
     return {manners_.redirects ? "the web server redirects too often, or to an address without encryption"
@@ -319,7 +330,7 @@ Answer Transfer::answer(CURLcode result) const {
 }
 
 bool Transfer::may_pass(CURLcode result) const {
-  if (problem_) return false;
+  if (problem_ || refusal_of_proxy()) return false;
   return is_cut() || std::find(std::begin(passing), std::end(passing), status_) != std::end(passing) ||
          failure_of(result).may_pass;
 }

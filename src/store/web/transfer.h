@@ -56,6 +56,8 @@ class Transfer {
   void set(CURLoption option, Value value) {
     Curl::library().easy_setopt(handle.get(), option, value);
   }
+  /// Why a proxy does not connect to the web server, which its status 4xx says; null: it says nothing.
+  [[nodiscard]] const char* refusal_of_proxy() const;
   /// Whether the answer ended before the range that it announced.
   [[nodiscard]] bool is_cut() const { return has_range_ && received_ <= range_last_ - range_first_; }
 
