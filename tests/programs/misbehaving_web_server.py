@@ -97,9 +97,9 @@ class Handler(http.server.BaseHTTPRequestHandler):
             if turn == 1:
                 return self.answer(int(mode[:3]), b"busy", Retry_After=1 if mode == "429once" else None)
             mode = "good"
-        if mode == "elsewhere":  # another name for this host
-            port = self.server.server_address[1]
-            return self.answer(302, Location=f"http://localhost:{port}" + path.replace("elsewhere", "good", 1))
+        if mode.startswith("elsewhere"):  # another name for this host; "elsewhere100": by a page of 100 kB
+            to = f"http://localhost:{self.server.server_address[1]}" + path.replace(mode, "good", 1)
+            return self.answer(302, bytes(1000 * int(mode[9:] or 0)), Location=to)
         if mode == "file":
             return self.answer(302, Location="file:///etc/passwd")
         if mode == "loop":

@@ -22,8 +22,9 @@ constexpr long longest_connecting = 10;
 /// Bytes a second: a slower answer is none.
 constexpr long least_speed = 1000;
 
-/// Bytes of an error's page that are read, so that the connection can be used again.
-constexpr std::uint64_t most_ignored = 64 << 10;
+/// Bytes of an error's page that are read, so that the connection can be used again; and of a redirect's, because
+/// libcurl tells where it leads only at the end of it.
+constexpr std::uint64_t most_of_error = 64 << 10, most_of_redirect = 4 << 20;
 
 constexpr const char* wrong_range = "the web server sends another range than requested";
 constexpr const char* too_much = "the web server sends more bytes than it says";
@@ -269,7 +270,7 @@ std::size_t Transfer::take_body(char* bytes, std::size_t one, std::size_t size, 
 bool Transfer::body(std::span<const std::byte> bytes) {
   if (status_ != 200 && status_ != 206) {
     ignored_ += bytes.size();
-    return ignored_ <= most_ignored;
+    return ignored_ <= (is_redirect(status_) ? most_of_redirect : most_of_error);
   }
   const std::uint64_t begin = first_ + received_, end = begin + bytes.size();
   received_ += bytes.size();
