@@ -120,8 +120,11 @@ Manifest read_manifest(StoreBytes& bytes, const std::string& store, std::string*
       current = std::move(now);
       continue;
     }
-    if (sha256(content) != named)
-      throw RootDamage(store, manifest_name, file + " is not what it was when it was written");
+    if (sha256(content) != named) {
+      throw RootDamage(store, manifest_name,
+                       file + " is not what it was when it was written" +
+                           (Store::is_address(store) ? ", or was cut off on the way" : ""));
+    }
     if (hash != nullptr) *hash = named;
     if (text_bytes != nullptr) *text_bytes = content.size() + current.size();
     try {

@@ -47,8 +47,12 @@ class WebFiles : public StoreBytes {
       if (kept && is_named_for(file, *kept)) return std::move(*kept);
     }
     std::vector<std::byte> bytes;
-    const web::Answer answer =
-        server_.get({.file = file, .whole = &bytes, .limit = limit, .anew = file == current_file}, stop_);
+    const auto get = [&](bool anew) {
+      return server_.get({.file = file, .whole = &bytes, .limit = limit, .anew = anew}, stop_);
+    };
+    web::Answer answer = get(file == current_file);
+    // The connection may have ended early, and no length said so; or a cache on the way keeps wrong bytes.
+    if (is_manifest && !answer.problem && !is_named_for(file, bytes)) answer = get(true);
     const std::string place = name_ + "/" + file;
     if (answer.problem) {
       const bool is_none = answer.missing && file == current_file;

@@ -240,6 +240,14 @@ TEST(WebStore, AFailureOfTheServerIsNoDamage) {
   }
 }
 
+TEST(WebStore, AManifestThatIsCutOffOnTheWayIsRequestedOnceMore) {
+  const Served served("web_unsized");
+  const support::Misbehaving server(served.root());
+  EXPECT_EQ(opened(server.address("all-unsizedonce"))->info().hash, Store::open(served.store())->info().hash);
+  const std::string message = refusal(server.address("all-unsized"));
+  EXPECT_NE(message.find("cut off on the way"), std::string::npos) << message;
+}
+
 TEST(WebStore, AReplacedStoreGoesOnAsTheOldOneOrSaysSo) {
   Served served("web_replaced");
   const support::Misbehaving server(served.root());
