@@ -28,7 +28,7 @@ void ReadAhead::begin(const CheckedRange& range) {
   changed_.notify_all();
 }
 
-ReadAhead::Result ReadAhead::take(const CheckedRange& range) {
+ReadAhead::Result ReadAhead::take(const CheckedRange& range, const std::stop_token& stop) {
   std::list<Read> taken;
   {
     std::unique_lock lock(mutex_);
@@ -40,17 +40,17 @@ ReadAhead::Result ReadAhead::take(const CheckedRange& range) {
   }
   if (taken.empty()) taken.push_back({.range = range});
   Read& one = taken.front();
-  if (!one.done) read(one);
+  if (!one.done) read(one, stop);
   if (one.thrown) std::rethrow_exception(one.thrown);
   return std::move(one.result);
 }
 
-void ReadAhead::read(Read& one) const {
+void ReadAhead::read(Read& one, const std::stop_token& stop) const {
   try {
     one.result.bytes.resize(static_cast<std::size_t>(one.range.bytes));
     const CheckedRange& r = one.range;
-    one.result.problem = r.hash ? bytes_.read_checked(r.file, r.offset, one.result.bytes, *r.hash, ending_.get_token())
-                                : bytes_.read(r.file, r.offset, one.result.bytes, ending_.get_token());
+    one.result.problem = r.hash ? bytes_.read_checked(r.file, r.offset, one.result.bytes, *r.hash, stop)
+                                : bytes_.read(r.file, r.offset, one.result.bytes, stop);
   } catch (...) {
     one.thrown = std::current_exception();
   }
@@ -68,7 +68,7 @@ void ReadAhead::run() {
     if (stop.stop_requested()) return;
     next->begun = true;
     lock.unlock();
-    read(*next);
+    read(*next, stop);
     lock.lock();
     next->done = true;
     changed_.notify_all();

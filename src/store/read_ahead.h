@@ -46,8 +46,8 @@ class ReadAhead {
     std::vector<std::byte> bytes;
     const char* problem = nullptr;
   };
-  /// The result of a read; begins it now if it has not begun. Rethrows its exception.
-  [[nodiscard]] Result take(const CheckedRange& range);
+  /// The result of a read; begins it now if it has not begun, and `stop` ends it then. Rethrows its exception.
+  [[nodiscard]] Result take(const CheckedRange& range, const std::stop_token& stop);
 
  private:
   /// Reads begun for each that is best made at once: some must be ready to start when these end.
@@ -60,7 +60,7 @@ class ReadAhead {
     bool begun = false, done = false;
   };
   void run();
-  void read(Read& one) const;
+  void read(Read& one, const std::stop_token& stop) const;
 
   StoreBytes& bytes_;
   std::mutex mutex_;

@@ -51,31 +51,34 @@ class TileNumbers {
 }  // namespace store
 
 struct Store::State::Recent {
-  explicit Recent(const State& state) : store(state), reader(state) {}
+  explicit Recent(const State& state) : store(state) {}
 
   /// Limit in bytes. The largest page and the largest tile's numbers fit in together.
   static constexpr std::size_t most = 1U << 20;
 
-  /// The numbers of a tile's triangles. Throws what TileReader throws, and no_such() if there is no such tile.
-  template <class NoSuch>
-  [[nodiscard]] const store::TileNumbers& numbers_of(std::uint64_t page, std::uint32_t tile, const NoSuch& no_such) {
-    const TriangleId id = store::stored_id(page, tile, 0);
-    const auto known = numbers.find(id);
-    if (known != numbers.end()) return known->second;
-    auto in = pages.find(page);
-    if (in == pages.end()) {
-      store::LoadedPage loaded = reader.page(page);
-      make_room(entry_cost + store.pages[page].ref.bytes);
-      in = pages.emplace(page, std::move(loaded)).first;
-    }
-    if (tile >= in->second.view.tiles.size()) throw no_such();
-    store::TileNumbers read(reader.numbers(page, in->second.view.tiles[tile], tile));
+  /// The page, or the numbers of the tile with this first triangle, if they are kept; else null.
+  [[nodiscard]] const store::LoadedPage* page(std::uint64_t number) const {
+    const auto known = pages.find(number);
+    return known == pages.end() ? nullptr : &known->second;
+  }
+  [[nodiscard]] const store::TileNumbers* numbers_of(TriangleId first) const {
+    const auto known = numbers.find(first);
+    return known == numbers.end() ? nullptr : &known->second;
+  }
+  // Both return what is kept: not what they are given, if another thread has kept it meanwhile.
+  const store::LoadedPage& keep(std::uint64_t number, store::LoadedPage&& read) {
+    if (const store::LoadedPage* const known = page(number)) return *known;
+    make_room(entry_cost + store.pages[number].ref.bytes);
+    return pages.emplace(number, std::move(read)).first->second;
+  }
+  const store::TileNumbers& keep(TriangleId first, store::TileNumbers&& read) {
+    if (const store::TileNumbers* const known = numbers_of(first)) return *known;
     make_room(entry_cost + read.bytes());
-    const auto& kept = numbers.emplace(id, std::move(read)).first->second;
+    const auto& kept = numbers.emplace(first, std::move(read)).first->second;
     try {
-      oldest.push_back(id);
+      oldest.push_back(first);
     } catch (...) {
-      numbers.erase(id);
+      numbers.erase(first);
       throw;
     }
     return kept;
@@ -129,7 +132,6 @@ struct Store::State::Recent {
   }
 
   const State& store;
-  store::TileReader reader;
   std::size_t used = 0;  ///< bytes, or slightly more
   std::map<std::uint64_t, store::LoadedPage> pages;
   std::map<TriangleId, store::TileNumbers> numbers;  ///< for each tile, by the id of its first triangle

@@ -21,8 +21,36 @@ struct Source {
   std::uint64_t number;
 };
 
-/// Needs the lock of the store.
-Source source_of(const Store::State& s, TriangleId triangle) {
+/// The number of a tile's triangle in the scene. Reads what is not kept without the lock. Throws what TileReader
+/// throws, and no_such() if there is no such triangle.
+store::SourceNumber number_of(const Store::State& s, std::unique_lock<std::mutex>& lock, std::uint64_t page,
+                              std::uint32_t tile, std::uint32_t triangle, const std::stop_token& stop,
+                              const auto& no_such) {
+  const TriangleId first = store::stored_id(page, tile, 0);
+  const store::TileNumbers* numbers = s.recent->numbers_of(first);
+  if (!numbers) {
+    store::TileReader reader(s);
+    const store::LoadedPage* in = s.recent->page(page);
+    if (!in) {
+      lock.unlock();
+      store::LoadedPage read = reader.page(page, stop);
+      lock.lock();
+      in = &s.recent->keep(page, std::move(read));
+    }
+    if (tile >= in->view.tiles.size()) throw no_such();
+    const store::TileEntry entry = in->view.tiles[tile];
+    lock.unlock();
+    store::TileNumbers read(reader.numbers(page, entry, tile, stop));
+    lock.lock();
+    numbers = &s.recent->keep(first, std::move(read));
+  }
+  if (triangle >= numbers->size()) throw no_such();
+  return (*numbers)[triangle];
+}
+
+/// Needs the lock of the store, and gives it up while it reads.
+Source source_of(const Store::State& s, std::unique_lock<std::mutex>& lock, TriangleId triangle,
+                 const std::stop_token& stop) {
   const std::uint64_t page = triangle >> (store::triangle_bits + store::tile_bits);
   const auto tile = static_cast<std::uint32_t>(triangle >> store::triangle_bits & ((1U << store::tile_bits) - 1));
   const auto number = static_cast<std::uint32_t>(triangle & ((1U << store::triangle_bits) - 1));
@@ -31,9 +59,7 @@ Source source_of(const Store::State& s, TriangleId triangle) {
                      fmt::format("{} has no triangle {}: it must come from an answer of this store", s.name, triangle));
   };
   if (page >= s.pages.size()) throw no_such();
-  const auto& numbers = s.recent->numbers_of(page, tile, no_such);
-  if (number >= numbers.size()) throw no_such();
-  const store::SourceNumber from = numbers[number];
+  const store::SourceNumber from = number_of(s, lock, page, tile, number, stop, no_such);
   const auto part = s.part_of.find(from.part);
   if (part == s.part_of.end() || from.number >= s.manifest.parts[part->second].triangles) {
     throw Error(s.name, fmt::format("triangle {} comes from a part of the scene that the manifest does not name: the "
@@ -97,7 +123,7 @@ std::optional<std::string> Store::State::Recent::object(std::uint32_t part, std:
 
 SourceTriangle store::find_source(const Store::State& s, TriangleId triangle, const std::stop_token& stop) {
   std::unique_lock lock(s.mutex);
-  const auto [part, number] = source_of(s, triangle);
+  const auto [part, number] = source_of(s, lock, triangle, stop);
   std::optional<std::string> object = s.recent->object(part, number);
   if (!object) {
     lock.unlock();
@@ -115,8 +141,8 @@ SourceTriangle Store::source(TriangleId triangle) const { return store::find_sou
 
 TriangleId Store::scene_triangle(TriangleId triangle) const {
   const State& s = *state_;
-  const std::lock_guard lock(s.mutex);
-  const auto [part, number] = source_of(s, triangle);
+  std::unique_lock lock(s.mutex);
+  const auto [part, number] = source_of(s, lock, triangle, {});
   return s.first[part] + number;
 }
 

@@ -54,8 +54,10 @@ void TileReader::expect_numbers(std::uint64_t page, const TileEntry& entry) {
   ahead_.begin(range_of_numbers(page, entry));
 }
 
-std::vector<std::byte> TileReader::read(const CheckedRange& range, const std::string& what) {
-  ReadAhead::Result result = ahead_.take(range);
+std::vector<std::byte> TileReader::read(const CheckedRange& range, const std::string& what,
+                                        const std::stop_token& stop) {
+  ReadAhead::Result result = ahead_.take(range, stop);
+  if (stop.stop_requested()) throw Cancelled();
   if (result.problem) {
     throw Unusable(store_.name, what + " in " + range.file, result.problem,
                    std::string_view(result.problem) != wrong_checksum);
@@ -63,10 +65,10 @@ std::vector<std::byte> TileReader::read(const CheckedRange& range, const std::st
   return std::move(result.bytes);
 }
 
-LoadedPage TileReader::page(std::uint64_t number) {
+LoadedPage TileReader::page(std::uint64_t number, const std::stop_token& stop) {
   const Store::State::Page& page = store_.pages[number];
   const std::string what = name_of(number, page.ref.box);
-  const std::vector<std::byte> content = read(range_of(number), what);
+  const std::vector<std::byte> content = read(range_of(number), what, stop);
   LoadedPage loaded;
   loaded.memory = blocks_for(content.size());
   std::memcpy(loaded.memory.get(), content.data(), content.size());
@@ -80,20 +82,22 @@ LoadedPage TileReader::page(std::uint64_t number) {
 
 LoadedTile TileReader::tile(std::uint64_t page, const TileEntry& entry, std::uint32_t number) {
   const std::string what = name_of(page, number, box_of(entry));
-  const std::vector<std::byte> content = read(range_of(page, entry), what);
+  const std::vector<std::byte> content = read(range_of(page, entry), what, {});
   const TileShape shape = shape_of(entry);
   LoadedTile loaded;
   loaded.memory = blocks_for(shape.bytes());
   const std::span<std::byte> out(reinterpret_cast<std::byte*>(loaded.memory.get()), shape.bytes());
-  if (const char* problem = decoder_.decode(content, shape, out)) refuse(store_, what, problem);
+  if (!decoder_) decoder_.emplace();
+  if (const char* problem = decoder_->decode(content, shape, out)) refuse(store_, what, problem);
   static_cast<TileView&>(loaded) = view_tile(entry, out);
   if (const char* problem = check_place(entry, loaded)) refuse(store_, what, problem);
   return loaded;
 }
 
-std::vector<SourceNumber> TileReader::numbers(std::uint64_t page, const TileEntry& entry, std::uint32_t number) {
+std::vector<SourceNumber> TileReader::numbers(std::uint64_t page, const TileEntry& entry, std::uint32_t number,
+                                              const std::stop_token& stop) {
   const std::string what = "the source numbers of " + name_of(page, number, box_of(entry));
-  return decode_numbers(read(range_of_numbers(page, entry), what), entry.triangles);
+  return decode_numbers(read(range_of_numbers(page, entry), what, stop), entry.triangles);
 }
 
 }  // namespace roam::store

@@ -5,7 +5,9 @@
 #include <cstddef>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
+#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -49,20 +51,23 @@ class TileReader {
   void expect_numbers(std::uint64_t page, const TileEntry& entry);
   [[nodiscard]] bool expects_more() const { return ahead_.has_room(); }
 
-  // All throw Unusable, or roam::Error that names the page or tile, its position and the cause.
-  [[nodiscard]] LoadedPage page(std::uint64_t number);
+  // All throw Unusable, or roam::Error that names the page or tile, its position and the cause; and Cancelled once
+  // `stop` is requested.
+  [[nodiscard]] LoadedPage page(std::uint64_t number, const std::stop_token& stop = {});
   [[nodiscard]] LoadedTile tile(std::uint64_t page, const TileEntry& entry, std::uint32_t number);
-  [[nodiscard]] std::vector<SourceNumber> numbers(std::uint64_t page, const TileEntry& entry, std::uint32_t number);
+  [[nodiscard]] std::vector<SourceNumber> numbers(std::uint64_t page, const TileEntry& entry, std::uint32_t number,
+                                                  const std::stop_token& stop = {});
 
  private:
   [[nodiscard]] CheckedRange range_of(std::uint64_t page) const;
   [[nodiscard]] CheckedRange range_of(std::uint64_t page, const TileEntry& entry) const;
   [[nodiscard]] CheckedRange range_of_numbers(std::uint64_t page, const TileEntry& entry) const;
-  [[nodiscard]] std::vector<std::byte> read(const CheckedRange& range, const std::string& what);
+  [[nodiscard]] std::vector<std::byte> read(const CheckedRange& range, const std::string& what,
+                                            const std::stop_token& stop);
 
   const Store::State& store_;
   ReadAhead ahead_;
-  TileDecoder decoder_;
+  std::optional<TileDecoder> decoder_;  ///< large; made for the first tile
 };
 
 /// "tile 3 of page 17 (10.5 2.0 0.3 to 20.1 9.9 4.0)"

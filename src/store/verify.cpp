@@ -107,7 +107,7 @@ class Verifier {
       for (begun = std::max(begun, at); begun < bytes && ahead.has_room(); begun += piece_bytes) {
         ahead.begin(piece(begun));
       }
-      const ReadAhead::Result read = ahead.take(piece(at));
+      const ReadAhead::Result read = ahead.take(piece(at), {});
       if (read.problem) {
         demand_reached(file, read.problem);
         throw Error(read.problem);

@@ -199,6 +199,31 @@ TEST(WebStore, APagerOfAStalledServerEndsAtOnce) {
   EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(2));
 }
 
+TEST(WebStore, PagersEndAtOnceWhileNamesAreOnTheirWay) {
+  const Served served("web_stalled_names");
+  const support::Misbehaving server(served.root());
+  const auto store = opened(server.address("stall"), patient(60.0));
+  roam::TriangleId some = 0;
+  Store::open(served.store())->for_each_triangle(store->info().bounds, [&](auto, auto ids) { some = ids[0]; });
+  static_cast<void>(server.requests());
+  std::chrono::steady_clock::time_point begin;
+  {
+    const Pager first(store, {.memory = Pager::least_memory}), second(store, {.memory = Pager::least_memory});
+    for (const Pager* const pager : {&first, &second}) {
+      std::size_t requests = 0;
+      for (int i = 0; i < 1000 && requests == 0; ++i) {
+        EXPECT_EQ(pager->object_name(some), "");
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));
+        requests = server.requests().size();
+      }
+      EXPECT_EQ(requests, 1U) << "its thread waits for something else";
+    }
+    begin = std::chrono::steady_clock::now();
+    EXPECT_THROW(static_cast<void>(store->source(~roam::TriangleId{0})), roam::Error);
+  }
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(2));
+}
+
 TEST(WebStore, WhoStopsTakesNoNeighbourWithHim) {
   const Served served("web_stops");
   const support::Misbehaving server(served.root());
