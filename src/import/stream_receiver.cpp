@@ -6,6 +6,7 @@
 
 #include "import/processor_budget.h"
 #include "import/scene_scope.h"
+#include "text/cut.h"
 #include "text/printable.h"
 
 namespace roam::reader {
@@ -156,12 +157,7 @@ void StreamReceiver::take_name(PayloadReader& fields, std::vector<std::string>& 
 }
 
 std::string StreamReceiver::take_object_name(PayloadReader& fields) {
-  std::string name = fields.take_text();
-  if (name.size() <= object_name_limit) return name;
-  std::size_t end = object_name_limit;
-  // A byte 10xxxxxx continues a character of UTF-8, which has at most four.
-  for (int k = 0; k < 3 && (static_cast<unsigned char>(name[end]) & 0xc0) == 0x80; ++k) --end;
-  return name.substr(0, end);
+  return cut_text(fields.take_text(), object_name_limit);
 }
 
 void StreamReceiver::count_bytes(std::size_t bytes) {

@@ -1,8 +1,11 @@
 #include "store/pager/names.h"
 
 #include <algorithm>
+#include <utility>
 
+#include "import/stream.h"
 #include "store/pager/residents.h"
+#include "text/cut.h"
 
 namespace roam::paging {
 namespace {
@@ -55,7 +58,7 @@ bool Names::serve(Kind kind, const std::function<std::optional<std::string>(Tria
   Entry* const entry = entry_of(triangle);
   if (!entry) return true;
   entry->again = name ? Clock::time_point{} : Clock::now() + retry_after;
-  if (name) entry->name = std::move(*name);
+  if (name) entry->name = cut_text(std::move(*name), reader::object_name_limit);
   return true;
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// A cache of object names. Another thread finds missing ones, for later calls.
+/// A cache of object names, of which it keeps the first KiB. Another thread finds missing ones, for later calls.
 
 #include <array>
 #include <chrono>

@@ -2,27 +2,38 @@
 // and goes, and the process does not grow.
 
 #include <gtest/gtest.h>
+#include <malloc.h>
 
 #include <array>
 #include <cstdlib>
 #include <fstream>
 #include <new>
+#include <optional>
+#include <string>
 #include <utility>
 
 #include "clutter.h"
 #include "pager_made.h"
 #include "roam/generate.h"
 #include "roam/walker.h"
+#include "store/pager/names.h"
 
 namespace {
 
 thread_local bool counting = false;
 thread_local long allocations = 0;
+thread_local long held_bytes = 0;  // allocated by this thread, less what it has freed
 
 void* taken(void* p) {
   if (counting) ++allocations;
-  if (p != nullptr) return p;
-  throw std::bad_alloc();
+  if (p == nullptr) throw std::bad_alloc();
+  held_bytes += static_cast<long>(::malloc_usable_size(p));
+  return p;
+}
+
+void give_back(void* p) {
+  held_bytes -= static_cast<long>(::malloc_usable_size(p));
+  std::free(p);
 }
 
 }  // namespace
@@ -33,10 +44,10 @@ void* taken(void* p) {
   const auto a = static_cast<std::size_t>(alignment);
   return taken(std::aligned_alloc(a, (bytes + a - 1) / a * a));
 }
-[[gnu::noinline]] void operator delete(void* p) noexcept { std::free(p); }
-[[gnu::noinline]] void operator delete(void* p, std::size_t) noexcept { std::free(p); }
-[[gnu::noinline]] void operator delete(void* p, std::align_val_t) noexcept { std::free(p); }
-[[gnu::noinline]] void operator delete(void* p, std::size_t, std::align_val_t) noexcept { std::free(p); }
+[[gnu::noinline]] void operator delete(void* p) noexcept { give_back(p); }
+[[gnu::noinline]] void operator delete(void* p, std::size_t) noexcept { give_back(p); }
+[[gnu::noinline]] void operator delete(void* p, std::align_val_t) noexcept { give_back(p); }
+[[gnu::noinline]] void operator delete(void* p, std::size_t, std::align_val_t) noexcept { give_back(p); }
 
 namespace {
 
@@ -93,6 +104,19 @@ TEST(PagerMemory, NothingIsAllocatedAndTheProcessDoesNotGrow) {
   EXPECT_LE(stats.used, memory);
   EXPECT_GT(stats.evictions, 300u);
   EXPECT_LT(resident_bytes(), grown_from + (512u << 10));
+}
+
+TEST(PagerMemory, KeepsOnlyTheBeginningsOfLongNames) {
+  std::string longest = "x";  // no character ends after 1024 bytes
+  for (int i = 0; i < 32'767; ++i) longest += "\u00fc";
+  roam::paging::Names names;
+  const long before = held_bytes;
+  for (roam::TriangleId triangle = 1; triangle <= 64; ++triangle) {
+    EXPECT_EQ(names.ask(triangle), "");
+    EXPECT_TRUE(names.serve(roam::paging::Names::Kind::object, [&](auto) { return std::optional(longest); }));
+  }
+  EXPECT_LT(held_bytes - before, 64 * 1100);
+  EXPECT_TRUE(names.ask(1) == longest.substr(0, 1023));
 }
 
 }  // namespace
