@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <utility>
 
 #include "math/finite.h"
@@ -84,7 +85,8 @@ Vec3 Velocity::at(const Pose& pose, const Vec3& point) const {
 
 struct Instances::State {
   struct Instance {
-    std::shared_ptr<const World> world;  ///< null if removed
+    ObjectId number = no_object;
+    std::shared_ptr<const World> world;
     const WorldData* data = nullptr;
     Pose pose;
     Velocity velocity;
@@ -95,20 +97,21 @@ struct Instances::State {
 
   explicit State(const Space& unmoved) : space(unmoved), error(std::max(unmoved.largest_error(), usual_error)) {}
 
-  const Space& space;               ///< the space that does not move
-  LiveSpace* live = nullptr;        ///< the same, if it needs updates
-  std::vector<Instance> instances;  ///< element 0 has the number first_instance
+  const Space& space;                       ///< the space that does not move
+  LiveSpace* live = nullptr;                ///< the same, if it needs updates
+  std::vector<Instance> instances;          ///< by the numbers of the tree
+  std::vector<std::uint32_t> unused;        ///< of them; has room for all
+  std::map<ObjectId, std::uint32_t> known;  ///< the others, by their own numbers
+  ObjectId next = first_instance;           ///< the number of the instance that is added next
   BoxTree tree;
   std::uint64_t state = next_revision();  ///< a new number after each change, unique in the program
   double error;                           ///< metres: the largest error of all worlds
   bool lossless = false;                  ///< one of the worlds is lossless
 
   [[nodiscard]] std::uint32_t index(ObjectId instance) const {
-    const std::uint32_t i = instance - first_instance;
-    if (instance < first_instance || i >= instances.size() || !instances[i].world) {
-      throw Error("there is no instance with the number " + std::to_string(instance));
-    }
-    return i;
+    const auto at = known.find(instance);
+    if (at == known.end()) throw Error("there is no instance with the number " + std::to_string(instance));
+    return at->second;
   }
   [[nodiscard]] const Instance& at(ObjectId instance) const { return instances[index(instance)]; }
 
@@ -116,7 +119,7 @@ struct Instances::State {
   void put(std::uint32_t i, const Pose& pose) {
     Instance& it = instances[i];
     const query::Frame frame{pose.position, std::cos(pose.heading), std::sin(pose.heading),
-                             query::instance_bit | TriangleId{i} << 32, first_instance + i};
+                             query::instance_bit | TriangleId{it.number - first_instance} << 32, it.number};
     tree.change({{turned(it.data->reach, frame), i}}, {});
     it.pose = pose;
     it.frame = frame;
@@ -143,7 +146,7 @@ struct Instances::State {
   };
 
   [[nodiscard]] bool is_ignored(std::uint32_t i, const Query& query) const {
-    return query.ignored != nullptr && query.ignored->ignores(first_instance + i);
+    return query.ignored != nullptr && query.ignored->ignores(instances[i].number);
   }
 
   /// Offers the collector the near triangles of one instance.
@@ -185,25 +188,35 @@ ObjectId Instances::add(std::shared_ptr<const World> world, const Pose& pose, st
   if (world->stats().triangles > query::source_bits) {
     throw Error("cannot add an instance: its world has more than 4 billion triangles; divide it");
   }
-  if (s.instances.size() >= most_instances) throw Error("there are no more numbers for instances");
-  const auto i = static_cast<std::uint32_t>(s.instances.size());
+  if (s.next - first_instance >= most_instances) throw Error("there are no more numbers for instances");
+  if (s.unused.empty()) {
+    if (s.unused.capacity() <= s.instances.size()) s.unused.reserve(2 * s.instances.size() + 1);
+    s.instances.emplace_back();
+    s.unused.push_back(static_cast<std::uint32_t>(s.instances.size() - 1));
+  }
+  const std::uint32_t i = s.unused.back();
   const WorldData* const data = world->data_.get();
-  s.instances.push_back({std::move(world), data, pose, {}, std::move(name), user_data, {}});
+  const auto known = s.known.emplace(s.next, i).first;
+  s.instances[i] = {s.next, std::move(world), data, pose, {}, std::move(name), user_data, {}};
   try {
     s.put(i, pose);
   } catch (...) {
-    s.instances.pop_back();
+    s.known.erase(known);
+    s.instances[i] = {};
     throw;
   }
+  s.unused.pop_back();
   s.lossless |= data->lossless;
-  return first_instance + i;
+  return s.next++;
 }
 
 void Instances::remove(ObjectId instance) {
   State& s = *state_;
   const std::uint32_t i = s.index(instance);
   s.tree.change({}, {i});
+  s.known.erase(instance);
   s.instances[i] = {};
+  s.unused.push_back(i);
   s.state = next_revision();
 }
 
@@ -229,16 +242,11 @@ const World& Instances::world(ObjectId instance) const { return *state_->at(inst
 
 std::vector<ObjectId> Instances::instances() const {
   std::vector<ObjectId> all;
-  for (std::uint32_t i = 0; i < state_->instances.size(); ++i) {
-    if (state_->instances[i].world) all.push_back(first_instance + i);
-  }
+  for (const auto& [number, i] : state_->known) all.push_back(number);
   return all;
 }
 
-bool Instances::has(ObjectId instance) const {
-  const std::uint32_t i = instance - first_instance;
-  return instance >= first_instance && i < state_->instances.size() && state_->instances[i].world;
-}
+bool Instances::has(ObjectId instance) const { return state_->known.contains(instance); }
 
 bool Instances::update(const Body& body, const Vec3& place, const Vec3& velocity) {
   return state_->live != nullptr && state_->live->update(body, place, velocity);
@@ -255,11 +263,12 @@ SpaceFacts Instances::facts() const {
 
 Object Instances::object(TriangleId triangle) const {
   if (!query::is_of_instance(triangle)) return state_->space.object(triangle);
-  const auto i = static_cast<std::uint32_t>((triangle & ~query::instance_bit) >> 32);
-  if (i >= state_->instances.size() || !state_->instances[i].world) return {};
-  const State::Instance& it = state_->instances[i];
+  const auto known =
+      state_->known.find(first_instance + static_cast<ObjectId>((triangle & ~query::instance_bit) >> 32));
+  if (known == state_->known.end()) return {};
+  const State::Instance& it = state_->instances[known->second];
   if ((triangle & query::source_bits) >= it.world->stats().triangles) return {};
-  return {first_instance + i, it.name, it.user_data};
+  return {it.number, it.name, it.user_data};
 }
 
 TriangleId Instances::source_triangle(TriangleId triangle) {

@@ -3,11 +3,13 @@
 #include "roam/instances.h"
 
 #include <gtest/gtest.h>
+#include <malloc.h>
 
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <numbers>
+#include <vector>
 
 #include "counted_allocations.h"
 #include "first_impacts.h"
@@ -247,6 +249,29 @@ TEST(Instances, AllocateNothingInQueries) {
     (void)scene->space.floor_clearance(q.body, q.from, 1.0, {});
   }
   EXPECT_EQ(allocations, before);
+}
+
+TEST(Instances, GiveBackWhatRemovedOnesTook) {
+  Mesh floor;
+  scenes::add_floor(floor, -100.0, -100.0, 100.0, 100.0, 0.0);
+  Scene scene(floor);
+  const auto shape = posed::shared(door());
+  const ObjectId stays = scene.space.add(shape, {});
+  const auto used = [] {
+    const auto memory = ::mallinfo2();
+    return memory.uordblks + memory.hblkhd;
+  };
+  const std::size_t before = used();
+  ObjectId last = stays;
+  for (int i = 0; i < 100'000; ++i) {
+    const ObjectId next = scene.space.add(shape, {{3.0 * (i % 30), 0.0, 0.0}});
+    ASSERT_GT(next, last) << "numbers are not reused";
+    scene.space.remove(next);
+    ASSERT_FALSE(scene.space.has(next));
+    last = next;
+  }
+  EXPECT_LT(used(), before + (64U << 10));
+  EXPECT_EQ(scene.space.instances(), std::vector{stays});
 }
 
 TEST(Instances, LieInAThousandPlacesAtOnce) {
