@@ -61,6 +61,8 @@ class Video {
   /// `frames_per_second` in [1, 240]. Throws roam::Error if ffmpeg is not on the PATH (the message says how to install
   /// it), for another extension, and for a size outside [16, 8192].
   Video(std::filesystem::path path, int width, int height, int frames_per_second);
+  /// Throws what the constructor throws of these. Begins no film.
+  static void check(const std::filesystem::path& path, int width, int height, int frames_per_second);
   /// Discards a film that is not finished, and removes its temporary file.
   ~Video();
   Video(const Video&) = delete;

@@ -263,9 +263,8 @@ class Video::Encoder {
   std::thread feeder_;
 };
 
-Video::Video(fs::path path, int width, int height, int frames_per_second) {
-  const Kind* const kind = kind_of(path);
-  if (kind == nullptr) {
+void Video::check(const fs::path& path, int width, int height, int frames_per_second) {
+  if (!is_film(path)) {
     throw Error::at(path.string(),
                     "cannot write the film " + path.string() + ": its name must end in .mp4, .webm, .gif or .webp");
   }
@@ -277,7 +276,13 @@ Video::Video(fs::path path, int width, int height, int frames_per_second) {
     throw Error("a film of " + std::to_string(frames_per_second) +
                 " pictures a second cannot be made: it must be in [1, 240]");
   }
-  encoder_ = std::make_unique<Encoder>(std::move(path), *kind, width, height, frames_per_second);
+  static_cast<void>(find_ffmpeg());
+}
+
+Video::Video(fs::path path, int width, int height, int frames_per_second) {
+  check(path, width, height, frames_per_second);
+  const Kind& kind = *kind_of(path);
+  encoder_ = std::make_unique<Encoder>(std::move(path), kind, width, height, frames_per_second);
 }
 
 Video::~Video() = default;

@@ -67,8 +67,11 @@ class Window {
     }
     scene = folder.write("scene.obj", room_obj());
     std::vector<std::string> arguments{
-        "-c", "cd \"$0\" && exec \"$@\"", folder.file(""), ROAM_PROGRAM, "view", scene, "--size", "320x200", "--json"};
+        "-c", "cd \"$0\" && exec \"$@\"", folder.file(""), ROAM_PROGRAM, "view", scene, "--json"};
     arguments.insert(arguments.end(), more.begin(), more.end());
+    if (std::find(more.begin(), more.end(), "--size") == more.end()) {
+      arguments.insert(arguments.end(), {"--size", "320x200"});
+    }
     program_ = std::thread([this, arguments] {
       result = run_program("/bin/sh", arguments);
       ended_ = true;
@@ -188,6 +191,54 @@ TEST(ViewWindow, SaysThatItsFilmEndsWhenItIsResized) {
   EXPECT_TRUE(contains(w.result.err, "the size of the window has changed")) << w.result.err;
   EXPECT_EQ(report["written"], nlohmann::json({"film.mp4"})) << "as far as it goes";
   EXPECT_GT(w.folder.read("film.mp4").size(), 1000u);
+}
+
+/// A window manager that gives every window its own size, whatever the window wishes.
+class Manager {
+ public:
+  Manager(int width, int height) {
+    need_display(false);
+    Display* const display = XOpenDisplay(nullptr);
+    XSelectInput(display, DefaultRootWindow(display), SubstructureRedirectMask);
+    XSync(display, False);
+    thread_ = std::thread([this, display, width, height] {
+      while (!ended_) {
+        serve(display, static_cast<unsigned>(width), static_cast<unsigned>(height));
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+      }
+      XCloseDisplay(display);
+    });
+  }
+  ~Manager() {
+    ended_ = true;
+    thread_.join();
+  }
+
+ private:
+  static void serve(Display* display, unsigned width, unsigned height) {
+    while (XPending(display) > 0) {
+      XEvent event{};
+      XNextEvent(display, &event);
+      if (event.type == ConfigureRequest) XResizeWindow(display, event.xconfigurerequest.window, width, height);
+      if (event.type != MapRequest) continue;
+      XResizeWindow(display, event.xmaprequest.window, width, height);
+      XMapWindow(display, event.xmaprequest.window);
+    }
+  }
+
+  std::atomic<bool> ended_ = false;
+  std::thread thread_;
+};
+
+TEST(ViewWindow, FilmsInTheSizeThatTheWindowManagerGivesIt) {
+  const Manager manager(400, 300);
+  Window w({"--at", "2,0,0.95,0", "--record", "film.mp4", "--time", "1"}, {}, false);
+  const nlohmann::json report = w.report();
+  EXPECT_EQ(report["written"], nlohmann::json({"film.mp4"}));
+  EXPECT_FALSE(contains(all(report["notes"]), "the film film.mp4 ends")) << report["notes"];
+  const ProgramResult probe = run_program("/usr/bin/ffprobe", {"-v", "error", "-show_entries", "stream=width,height",
+                                                               "-of", "csv=p=0", w.folder.file("film.mp4")});
+  EXPECT_EQ(probe.out, "400,300\n") << probe.err;
 }
 
 TEST(ViewWindow, WritesPicturesWithoutTheDisplayUnlessAsked) {

@@ -11,23 +11,45 @@
 namespace roam::app {
 
 struct Film::State {
+  std::filesystem::path path;
+  int rate = 0;
   std::mutex mutex;
-  std::optional<graphics::Video> video;
+  std::optional<graphics::Video> video;  ///< from the first picture on: a window manager may size the window
   int width = 0, height = 0;
+  bool finished = false;
   std::string problem;
 
   /// `why` the film has no more pictures.
-  void end(const std::string& name, double seconds, const std::string& why) {
-    if (problem.empty()) problem = fmt::format("the film {} ends after {:.1f} s: {}", name, seconds, why);
+  void end(double seconds, const std::string& why) {
+    if (problem.empty()) problem = fmt::format("the film {} ends after {:.1f} s: {}", path.string(), seconds, why);
+  }
+
+  void add(osg::ref_ptr<osg::Image> image, double seconds) {
+    if (finished || !problem.empty()) return;
+    try {
+      if (!video) {
+        width = image->s();
+        height = image->t();
+        video.emplace(path, width, height, rate);
+      }
+      if (image->s() != width || image->t() != height) {
+        return end(seconds, "the size of the window has changed, and a film has one");
+      }
+      video->add(std::move(image), seconds);
+    } catch (const Error& error) {
+      problem = error.what();
+    }
   }
 };
 
 Film::Film(graphics::Frame& frame, const std::filesystem::path& path, int rate)
-    : frame_(frame), path_(path), rate_(rate), state_(std::make_shared<State>()) {
-  state_->width = frame.width();
-  state_->height = frame.height();
-  state_->video.emplace(path, state_->width, state_->height, rate);
+    : frame_(frame), rate_(rate), state_(std::make_shared<State>()) {
+  graphics::Video::check(path, frame.width(), frame.height(), rate);
+  state_->path = path;
+  state_->rate = rate;
 }
+
+const std::filesystem::path& Film::path() const { return state_->path; }
 
 /// The picture of the film that is shown at this time.
 std::int64_t Film::index(double seconds) const {
@@ -39,22 +61,13 @@ bool Film::is_due(double seconds) const { return begin_ < 0.0 || index(seconds) 
 void Film::before_frame(double seconds) {
   if (begin_ < 0.0) begin_ = seconds;
   next_ = index(seconds) + 1;
-  const std::string name = path_.string();
-  const auto add = [state = state_, name, time = seconds - begin_](osg::ref_ptr<osg::Image> image) {
+  const auto add = [state = state_, time = seconds - begin_](osg::ref_ptr<osg::Image> image) {
     const std::lock_guard lock(state->mutex);
-    if (!state->video || !state->problem.empty()) return;
-    if (image->s() != state->width || image->t() != state->height) {
-      return state->end(name, time, "the size of the window has changed, and a film has one");
-    }
-    try {
-      state->video->add(std::move(image), time);
-    } catch (const Error& error) {
-      state->problem = error.what();
-    }
+    state->add(std::move(image), time);
   };
-  const auto fail = [state = state_, name, time = seconds - begin_](const std::string& reason) {
+  const auto fail = [state = state_, time = seconds - begin_](const std::string& reason) {
     const std::lock_guard lock(state->mutex);
-    state->end(name, time, reason);
+    state->end(time, reason);
   };
   frame_.request_picture(true, add, fail);
 }
@@ -66,9 +79,12 @@ std::string Film::problem() const {
 
 void Film::finish() {
   const std::lock_guard lock(state_->mutex);
-  if (!state_->video) return;
+  state_->finished = true;
+  if (!state_->video) {
+    const std::string file = path().string();
+    throw Error::at(file, state_->problem.empty() ? "the film " + file + " has no picture" : state_->problem);
+  }
   state_->video->finish();
-  state_->video.reset();
 }
 
 }  // namespace roam::app

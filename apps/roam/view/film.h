@@ -14,7 +14,8 @@ namespace roam::app {
 
 class Film {
  public:
-  /// `rate`: pictures a second. Throws roam::Error if films cannot be made; see graphics::Video.
+  /// `rate`: pictures a second. The film has the size of its first picture. Throws roam::Error if films cannot be made,
+  /// or none of the frame's present size; see graphics::Video.
   Film(graphics::Frame& frame, const std::filesystem::path& path, int rate);
 
   /// Call it before a frame is drawn: captures the frame if one is due. `seconds`: since the session began, never
@@ -27,14 +28,13 @@ class Film {
   [[nodiscard]] std::string problem() const;
   /// Ends the film and gives the file its name. Throws roam::Error if the film could not be written.
   void finish();
-  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+  [[nodiscard]] const std::filesystem::path& path() const;
 
  private:
   struct State;
   [[nodiscard]] std::int64_t index(double seconds) const;
 
   graphics::Frame& frame_;
-  std::filesystem::path path_;
   int rate_;
   std::shared_ptr<State> state_;  ///< shared with frames still being drawn
   double begin_ = -1.0;
