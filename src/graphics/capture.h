@@ -2,6 +2,7 @@
 /// \file
 /// Pictures and films of a Frame.
 
+#include <chrono>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
@@ -79,9 +80,12 @@ class Video {
   /// Number of pictures in the film so far.
   [[nodiscard]] std::int64_t frames() const;
 
+  static constexpr std::chrono::milliseconds patience{100'000};
   /// Ends the film: waits until it is encoded, and gives the file its name. Throws roam::Error with the last line of
-  /// ffmpeg's output if ffmpeg has failed, or if the film has no picture.
-  void finish();
+  /// ffmpeg's output if ffmpeg has failed, if it neither computes nor writes for `idle` or does not end within
+  /// `longest`, or if the film has no picture.
+  void finish(std::chrono::milliseconds idle = patience,
+              std::chrono::milliseconds longest = std::chrono::milliseconds::max());
 
   /// Whether this extension is that of a film.
   [[nodiscard]] static bool is_film(const std::filesystem::path& path);

@@ -1,12 +1,15 @@
 #include <sys/socket.h>
+#include <sys/stat.h>
 #include <sys/statvfs.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <chrono>
 #include <cmath>
 #include <condition_variable>
+#include <ctime>
 #include <deque>
 #include <mutex>
 #include <osg/Image>
@@ -30,8 +33,6 @@ constexpr std::size_t most_waiting = 8;
 /// Bytes. A disk with no more free space than this counts as full.
 constexpr std::uintmax_t full_disk = 1 << 20;
 constexpr int least_side = 16, largest_side = 8192;
-/// s: for encoding the rest after the last picture; x264 looks ahead some dozens of pictures.
-constexpr std::chrono::seconds ending_patience{100};
 
 /// Number of the film's descriptor in ffmpeg. Its path may lead to another file by then.
 constexpr int film_descriptor = 3;
@@ -186,7 +187,7 @@ class Video::Encoder {
   }
   [[nodiscard]] int rate() const { return rate_; }
 
-  void finish() {
+  void finish(std::chrono::milliseconds idle, std::chrono::milliseconds longest) {
     if (!feeder_.joinable()) return;
     {
       const std::lock_guard lock(mutex_);
@@ -195,13 +196,42 @@ class Video::Encoder {
     }
     feeder_.join();
     line_.close_ours();
-    if (!process_.wait(ending_patience) || !process_.ending().is_success() || broken_) fail();
+    if (!wait(idle, longest)) fail("it did not end");
+    if (!process_.ending().is_success() || broken_) fail();
     if (frames_ == 0) throw Error::at(path_.string(), "the film " + path_.string() + " has no picture");
     files::add_mark(file_);
     file_.commit();
   }
 
  private:
+  /// What changes while ffmpeg works: its processor time, and when it last wrote to the film. Nanoseconds.
+  [[nodiscard]] std::array<std::int64_t, 2> work() const {
+    const auto nanoseconds = [](const timespec& t) { return std::int64_t{t.tv_sec} * 1'000'000'000 + t.tv_nsec; };
+    clockid_t clock{};
+    timespec computed{};
+    if (::clock_getcpuclockid(process_.id(), &clock) == 0) ::clock_gettime(clock, &computed);
+    struct stat film {};
+    ::fstat(file_.descriptor(), &film);
+    return {nanoseconds(computed), nanoseconds(film.st_mtim)};
+  }
+
+  /// Returns whether ffmpeg has ended. The index of a long film, at its beginning, moves all of it: that takes minutes.
+  bool wait(std::chrono::milliseconds idle, std::chrono::milliseconds longest) {
+    using Clock = std::chrono::steady_clock;
+    constexpr std::chrono::milliseconds look{100};
+    const auto begin = Clock::now();
+    auto worked_at = begin;
+    for (auto before = work(); !process_.wait(look);) {
+      const auto now = Clock::now();
+      if (const auto after = work(); std::exchange(before, after) != after) worked_at = now;
+      const auto is_over = [now](Clock::time_point from, std::chrono::milliseconds limit) {
+        return std::chrono::floor<std::chrono::milliseconds>(now - from) > limit;
+      };
+      if (is_over(worked_at, idle) || is_over(begin, longest)) return false;
+    }
+    return true;
+  }
+
   void feed() {
     for (;;) {
       std::pair<osg::ref_ptr<osg::Image>, std::int64_t> next;
@@ -234,9 +264,11 @@ class Video::Encoder {
     return true;
   }
 
-  [[noreturn]] void fail() {
+  /// `why`: if ffmpeg says nothing.
+  [[noreturn]] void fail(const char* why = "") {
     process_.wait(std::chrono::seconds(1));
     std::string words = process_.last_words();
+    if (words.empty()) words = why;
     // One that exceeds `ulimit -f` has no words.
     if (const int number = process_.ending().signal; words.empty() && number != 0) {
       const char* const name = ::sigdescr_np(number);
@@ -297,7 +329,9 @@ void Video::add(osg::ref_ptr<osg::Image> image, double seconds) {
 
 std::int64_t Video::frames() const { return encoder_->frames(); }
 
-void Video::finish() { encoder_->finish(); }
+void Video::finish(std::chrono::milliseconds idle, std::chrono::milliseconds longest) {
+  encoder_->finish(idle, longest);
+}
 
 bool Video::is_film(const fs::path& path) { return kind_of(path) != nullptr; }
 

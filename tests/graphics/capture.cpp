@@ -331,41 +331,64 @@ TEST_F(GraphicsCapture, SaysWhyAFilmCannotBeMade) {
   EXPECT_EQ(files(), 0u);
 }
 
+/// Puts a shell script in the place of ffmpeg while it exists.
+struct InPlaceOfFfmpeg {
+  InPlaceOfFfmpeg(const fs::path& bin, const std::string& script) : path(std::getenv("PATH")) {
+    fs::create_directories(bin);
+    std::ofstream(bin / "ffmpeg") << "#!/bin/sh\n" << script;
+    fs::permissions(bin / "ffmpeg", fs::perms::owner_all);
+    setenv("PATH", (bin.string() + ":" + path).c_str(), 1);
+  }
+  ~InPlaceOfFfmpeg() { setenv("PATH", path.c_str(), 1); }
+  const std::string path;
+};
+
 TEST_F(GraphicsCapture, SaysWhatFfmpegSaidLast) {
   if (!have_ffmpeg()) GTEST_SKIP() << "ffmpeg and ffprobe are not on the PATH";
-  // One that fails stands in for ffmpeg.
-  const fs::path bin = folder / "bin";
-  fs::create_directories(bin);
-  std::ofstream(bin / "ffmpeg") << "#!/bin/sh\necho out of luck >&2\nexit 1\n";
-  fs::permissions(bin / "ffmpeg", fs::perms::owner_all);
-  const std::string path = std::getenv("PATH");
-  setenv("PATH", (bin.string() + ":" + path).c_str(), 1);
+  const InPlaceOfFfmpeg failing(folder / "bin", "echo out of luck >&2\nexit 1\n");
   const std::string words = complaint([&] {
     Video video(folder / "film.mp4", 64, 64, 20);
     for (int i = 0; i < 100; ++i) video.add(plain_image(64, 64, 50));
     video.finish();
   });
-  setenv("PATH", path.c_str(), 1);
   EXPECT_NE(words.find("out of luck"), std::string::npos) << words;
+}
+
+TEST_F(GraphicsCapture, AFilmIsWaitedForWhileFfmpegWritesIt) {
+  const InPlaceOfFfmpeg slow(folder / "bin",
+                             "cat > /dev/null\n"
+                             "for i in 1 2 3 4 5 6 7 8 9 10; do sleep 0.5; echo $i >&3; done\n");
+  Video video(folder / "film.webp", 64, 64, 20);
+  video.add(plain_image(64, 64, 50));
+  EXPECT_EQ(complaint([&] { video.finish(std::chrono::seconds(3)); }), "");
+  EXPECT_EQ(fs::file_size(folder / "film.webp"), 21u);
+}
+
+TEST_F(GraphicsCapture, AFilmIsGivenUpIfFfmpegDoesNothingOrMayNotGoOn) {
+  for (const auto& [script, longest] : {std::pair{"cat > /dev/null\nexec sleep 300\n", std::chrono::hours(1)},
+                                        {"cat > /dev/null\nwhile :; do :; done\n", std::chrono::hours(0)}}) {
+    const InPlaceOfFfmpeg idle(folder / "bin", script);
+    Video video(folder / "film.webp", 64, 64, 20);
+    video.add(plain_image(64, 64, 50));
+    const std::string words = complaint([&, most = longest] { video.finish(std::chrono::milliseconds(500), most); });
+    EXPECT_NE(words.find("it did not end"), std::string::npos) << words;
+  }
+  EXPECT_EQ(files(), 1u) << "only the folder of the program";
 }
 
 TEST_F(GraphicsCapture, AFilmIsNotWrittenWhereALinkInItsPlaceLeads) {
   if (!have_ffmpeg()) GTEST_SKIP() << "ffmpeg and ffprobe are not on the PATH";
-  const fs::path letter = folder / "letter.txt", bin = folder / "bin";
+  const fs::path letter = folder / "letter.txt";
   std::ofstream(letter) << "precious";
   // As whoever may write to the folder: replaces the film before ffmpeg opens it.
-  fs::create_directories(bin);
-  std::ofstream(bin / "ffmpeg") << "#!/bin/sh\nfor film in " << folder.string() << "/*.unfinished; do ln -sf " << letter
-                                << " \"$film\"; done\nexec " << process::find_program("ffmpeg") << " \"$@\"\n";
-  fs::permissions(bin / "ffmpeg", fs::perms::owner_all);
-  const std::string path = std::getenv("PATH");
-  setenv("PATH", (bin.string() + ":" + path).c_str(), 1);
+  const InPlaceOfFfmpeg replacing(folder / "bin", "for film in " + folder.string() + "/*.unfinished; do ln -sf " +
+                                                      letter.string() + " \"$film\"; done\nexec " +
+                                                      process::find_program("ffmpeg").string() + " \"$@\"\n");
   static_cast<void>(complaint([&] {
     Video video(folder / "film.mp4", 64, 64, 20);
     for (int i = 0; i < 5; ++i) video.add(plain_image(64, 64, 50));
     video.finish();
   }));
-  setenv("PATH", path.c_str(), 1);
   EXPECT_EQ(fs::file_size(letter), 8u) << "something was written through the link";
 }
 

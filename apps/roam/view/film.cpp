@@ -6,6 +6,7 @@
 #include <mutex>
 #include <optional>
 
+#include "cli/interrupt.h"
 #include "roam/error.h"
 
 namespace roam::app {
@@ -84,7 +85,12 @@ void Film::finish() {
     const std::string file = path().string();
     throw Error::at(file, state_->problem.empty() ? "the film " + file + " has no picture" : state_->problem);
   }
-  state_->video->finish();
+  if (interrupted()) {
+    // longest_writing is for the report, too.
+    state_->video->finish(graphics::Video::patience, graphics::Video::patience);
+  } else {
+    state_->video->finish();
+  }
 }
 
 }  // namespace roam::app
