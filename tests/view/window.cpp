@@ -241,6 +241,16 @@ TEST(ViewWindow, FilmsInTheSizeThatTheWindowManagerGivesIt) {
   EXPECT_EQ(probe.out, "400,300\n") << probe.err;
 }
 
+TEST(ViewWindow, WritesItsScreenshotInTheSizeThatOneAskedFor) {
+  const Manager manager(400, 300);
+  Window w({"--at", "2,0,0.95,0", "--size", "900x600", "--screenshot", "shot.png"}, {}, false);
+  w.report();
+  const Shot picture(w.folder.file("shot.png"));
+  EXPECT_EQ(picture.width(), 900);
+  EXPECT_EQ(picture.height(), 600);
+  EXPECT_GT(picture.colours(), 8u);
+}
+
 TEST(ViewWindow, WritesPicturesWithoutTheDisplayUnlessAsked) {
   Window w({"--at", "2,0,0.95,0"});
   xdo("key h key p");

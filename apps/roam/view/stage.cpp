@@ -44,6 +44,13 @@ std::optional<std::array<int, 2>> large_size(const ViewOptions& options, const V
   return std::array{plan.width, plan.height};
 }
 
+/// The size of the screenshot, which the window may not have; none if it is to be that of the window.
+std::optional<std::array<int, 2>> screenshot_size(const ViewOptions& options, const ViewPlan& plan) {
+  const bool fills_screen = options.fullscreen && !options.headless && !large_size(options, plan);
+  if (options.screenshot.empty() || options.hud || fills_screen) return std::nullopt;
+  return std::array{plan.width, plan.height};
+}
+
 graphics::Context open(const ViewOptions& options, const ViewPlan& plan) {
   load_plugins();
   int width = plan.width, height = plan.height;
@@ -92,7 +99,7 @@ constexpr std::pair<HudMode, const char*> hud_modes[] = {{HudMode::plain, "displ
 Stage::Stage(const ViewOptions& options, const ViewPlan& plan)
     : context_(open(options, plan)),
       viewer_(new osgViewer::Viewer),
-      large_(large_size(options, plan)),
+      screenshot_(screenshot_size(options, plan)),
       picture_scale_(plan.picture_scale) {
   // One thread: events, steps and drawing follow each other, and the picture is at most one frame old.
   viewer_->setThreadingModel(osgViewer::ViewerBase::SingleThreaded);
@@ -109,9 +116,6 @@ Stage::Stage(const ViewOptions& options, const ViewPlan& plan)
   hud_.emplace(*frame_);
   overlay_.emplace(*frame_);
   set_hud(plan.hud);
-  // Pages are loaded in the detail of the picture that they are for.
-  if (large_)
-    viewer_->getCamera()->setLODScale(static_cast<float>(frame_->height()) / static_cast<float>((*large_)[1]));
   viewer_->realize();
   if (options.fullscreen && !context_.headless) toggle_fullscreen();
   if (options.record.empty()) return;
@@ -290,6 +294,11 @@ void Stage::draw() {
   if (is_filmed()) film_->before_frame(now_);
   const auto begin = Clock::now();
   if (thrift_) frame_->set_timed(thrift_->doubts());
+  // Pages are loaded in the detail of the picture that they are for.
+  if (screenshot_) {
+    const double detail = static_cast<double>(frame_->height()) / (*screenshot_)[1];
+    viewer_->getCamera()->setLODScale(static_cast<float>(std::min(detail, 1.0)));
+  }
   viewer_->updateTraversal();
   viewer_->renderingTraversals();
   const double ns = std::chrono::duration<double, std::nano>(Clock::now() - begin).count();
@@ -360,9 +369,9 @@ void Stage::draw_if_seen(bool wanted) {
 }
 
 void Stage::draw_picture(const std::filesystem::path& path, bool with_display) {
-  if (large_ && !with_display) {
+  if (!with_display && screenshot_ && *screenshot_ != std::array{frame_->width(), frame_->height()}) {
     draw();
-    graphics::Screenshot(large_picture((*large_)[0], (*large_)[1]), path).finish();
+    graphics::Screenshot(large_picture((*screenshot_)[0], (*screenshot_)[1]), path).finish();
   } else {
     graphics::Screenshot picture(*frame_, path, with_display);
     draw();

@@ -125,8 +125,8 @@ class Stage {
   std::optional<Film> film_;
   bool film_held_ = false, film_stopped_ = false;
   std::vector<graphics::Screenshot> pictures_;
-  std::vector<Picture> failed_;              ///< pictures that could not be drawn
-  std::optional<std::array<int, 2>> large_;  ///< pixels, of a picture larger than the window
+  std::vector<Picture> failed_;                   ///< pictures that could not be drawn
+  std::optional<std::array<int, 2>> screenshot_;  ///< pixels; none: the window's
   double picture_scale_ = 1.0;
   bool still_wanted_ = false, picture_wanted_ = false;  ///< of the next frame, the second with the display
   int enlarged_in_ = 0;  ///< frames, so that the window says it before; 0: none is wanted
