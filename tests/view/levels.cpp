@@ -61,6 +61,7 @@ struct Drawn {
   std::map<std::string, float> wanted;
   float scale = 1.0f;
   osg::Matrixd projection = osg::Matrixd::perspective(90, 1.5, 0.1, 1e4);
+  osg::ref_ptr<osg::Viewport> viewport = new osg::Viewport(0, 0, 300, 200);
   unsigned frames = 0;
 
   osg::ref_ptr<osg::Group> group(const std::string& name) {
@@ -80,6 +81,17 @@ struct Drawn {
     made->add_range(1.0f, endless);
     return made;
   }
+  /// A node of a radius of 38 m that is finer nearer than 25 m to its centre.
+  osg::ref_ptr<PageLod> finer_within_25_m(DisplayMeasure measure) {
+    const float pixels = 2.0f * 38.0f * 100.0f / 25.0f;
+    const bool by_pixels = measure == DisplayMeasure::pixels;
+    osg::ref_ptr<PageLod> made = new PageLod({0, {0, 0, 0}, 38.0f, measure, {}}, rules);
+    made->addChild(group("own"));
+    by_pixels ? made->add_range(0.0f, pixels) : made->add_range(25.0f, endless);
+    made->addChild(group("finer"));
+    by_pixels ? made->add_range(pixels, endless) : made->add_range(0.0f, 25.0f);
+    return made;
+  }
   /// The view from a place, looking at zero.
   Names from(osg::Node& node, const osg::Vec3d& eye) {
     seen.clear();
@@ -90,7 +102,7 @@ struct Drawn {
     cull->setDatabaseRequestHandler(requests);
     cull->setFrameStamp(frame);
     cull->setLODScale(scale);
-    cull->pushViewport(new osg::Viewport(0, 0, 300, 200));
+    cull->pushViewport(viewport);
     cull->pushProjectionMatrix(new osg::RefMatrix(projection));
     const osg::Vec3d up(0, 0.1, 1);
     cull->pushModelViewMatrix(new osg::RefMatrix(osg::Matrixd::lookAt(eye, osg::Vec3d(0, 0, 0), up)),
@@ -129,6 +141,37 @@ TEST(ViewLevels, AreChosenByTheErrorOnTheScreen) {
   EXPECT_EQ(d.from(*node, {10 + 49, 0, 0}), finer);
   d.rules->allowed_error = 0.0;
   EXPECT_EQ(d.from(*node, {5000, 0, 0}), finer);
+}
+
+TEST(ViewLevels, ByPixelsAndByDistanceAreTheSameInAllPartsOfAPicture) {
+  for (const DisplayMeasure measure : {DisplayMeasure::pixels, DisplayMeasure::metres}) {
+    Drawn d;
+    const osg::ref_ptr<PageLod> node = d.finer_within_25_m(measure);
+    const auto look = [&](const char* part) {
+      EXPECT_EQ(d.from(*node, {24.9, 0, 0}), Names{"finer"}) << part << int(measure);
+      EXPECT_EQ(d.from(*node, {25.1, 0, 0}), Names{"own"}) << part << int(measure);
+    };
+    look("whole");
+    d.viewport = new osg::Viewport(0, 0, 100, 100);
+    for (const int column : {0, 1, 2}) {
+      for (const int row : {0, 1}) {
+        const double left = 0.1 * column - 0.15, lower = 0.1 * row - 0.1;
+        d.projection = osg::Matrixd::frustum(left, left + 0.1, lower, lower + 0.1, 0.1, 1e4);
+        look("part");
+      }
+    }
+  }
+}
+
+TEST(ViewLevels, ByDistanceDoNotDependOnTheSizeOfThePicture) {
+  Drawn d;
+  const osg::ref_ptr<PageLod> node = d.finer_within_25_m(DisplayMeasure::metres);
+  d.scale = 0.1f;
+  EXPECT_EQ(d.from(*node, {24.9, 0, 0}), Names{"finer"});
+  EXPECT_EQ(d.from(*node, {25.1, 0, 0}), Names{"own"});
+  const osg::ref_ptr<PageLod> by_pixels = d.finer_within_25_m(DisplayMeasure::pixels);
+  EXPECT_EQ(d.from(*by_pixels, {249, 0, 0}), Names{"finer"});
+  EXPECT_EQ(d.from(*by_pixels, {251, 0, 0}), Names{"own"});
 }
 
 TEST(ViewLevels, KeepTheCoarserOneUntilTheFinerHasCome) {

@@ -112,7 +112,6 @@ TEST(ViewPages, AreNodesAsThePictureWantsThem) {
   ASSERT_TRUE(pages && pages->getNumChildren() == 1 && pages->getNumFileNames() == 2);
   EXPECT_EQ(pages->getFileName(1), "page-1");
   EXPECT_EQ(pages->getMinRange(1), 100.0f);
-  EXPECT_EQ(pages->getRangeMode(), osg::LOD::PIXEL_SIZE_ON_SCREEN);
   EXPECT_EQ(pages->getCenter(), osg::LOD::vec_type(1, 2, 3));
 }
 

@@ -18,13 +18,12 @@ bool is_parallel(const osg::CullStack& camera) {
 
 PageLod::PageLod(const DisplayPages& pages, std::shared_ptr<PageRules> rules)
     : rules_(std::move(rules)),
-      by_error_(pages.measure == DisplayMeasure::error),
+      measure_(pages.measure),
       error_(pages.error),
       half_(pages.half.x, pages.half.y, pages.half.z) {
   setCenterMode(USER_DEFINED_CENTER);
   setCenter(osg::Vec3d(pages.center.x, pages.center.y, pages.center.z));
   setRadius(pages.radius);
-  setRangeMode(pages.measure == DisplayMeasure::pixels ? PIXEL_SIZE_ON_SCREEN : DISTANCE_FROM_EYE_POINT);
 }
 
 void PageLod::add_range(float from, float to) {
@@ -33,13 +32,17 @@ void PageLod::add_range(float from, float to) {
 }
 
 float PageLod::value(const osg::Vec3d& eye, double pixels) const {
-  if (rules_->allowed_error <= 0.0) return std::nextafter(infinite, 0.0f);
   const osg::Vec3d from_center = eye - osg::Vec3d(getCenter());
+  if (measure_ == DisplayMeasure::metres) return static_cast<float>(from_center.length());
+  // Not infinite, because ranges end below infinity.
+  const auto at = [](double seen, double distance) {
+    return static_cast<float>(std::min(distance > 0.0 ? seen / distance : seen * infinite, 0.5 * infinite));
+  };
+  if (measure_ == DisplayMeasure::pixels) return at(2.0 * getRadius() * pixels, from_center.length());
+  if (rules_->allowed_error <= 0.0) return std::nextafter(infinite, 0.0f);
   osg::Vec3d outside;
   for (int k = 0; k < 3; ++k) outside[k] = std::max(0.0, std::abs(from_center[k]) - half_[k]);
-  const double seen = error_ * pixels / rules_->allowed_error, distance = outside.length();
-  // Not infinite, because ranges end below infinity.
-  return static_cast<float>(std::min(distance > 0.0 ? seen / distance : seen * infinite, 0.5 * infinite));
+  return at(error_ * pixels / rules_->allowed_error, outside.length());
 }
 
 void PageLod::choose(const osg::CullStack& camera) {
@@ -48,11 +51,12 @@ void PageLod::choose(const osg::CullStack& camera) {
   const double pixels = 0.5 * viewport->height() * std::abs((*camera.getProjectionMatrix())(1, 1));
   const float now = value(osg::Vec3d(camera.getEyeLocal()), pixels / static_cast<double>(camera.getLODScale()));
   for (unsigned i = 0; i < levels_.size(); ++i) {
-    const bool shown = levels_[i].first <= now && now < levels_[i].second;
-    // At any distance, or at none.
-    setRange(i, shown ? 0.0f : infinite, infinite);
-    // The largest error is read first.
-    setPriorityOffset(i, now);
+    const auto [from, to] = levels_[i];
+    const bool shown = from <= now && now < to;
+    // At any distance, or at none. The base class divides by the length of the range.
+    setRange(i, shown ? 0.0f : 0.5f * infinite, infinite);
+    // The largest on the screen is read first; by distance it is as in the base class.
+    setPriorityOffset(i, measure_ == DisplayMeasure::metres ? (to - now) / (to - from) : now);
     setPriorityScale(i, 0.0f);
   }
 }
@@ -62,7 +66,7 @@ void PageLod::traverse(osg::NodeVisitor& visitor) {
       visitor.getVisitorType() == osg::NodeVisitor::CULL_VISITOR ? visitor.asCullStack() : nullptr;
   if (camera == nullptr) return PagedLOD::traverse(visitor);
   if (is_parallel(*camera)) return draw_last(visitor);
-  if (by_error_) choose(*camera);
+  choose(*camera);
   PagedLOD::traverse(visitor);
   note_drawn(visitor);
 }

@@ -21,9 +21,10 @@ struct PageRules {
   std::uint64_t changes = 0;  ///< how often a node was drawn by other levels than before
 };
 
-/// Distance and pixels choose levels as in osg::PagedLOD. By error, the level changes where the node's error is as
-/// large on the screen as is allowed, seen from the eye at the nearest point of the node's box. Each picture chooses
-/// anew; visitors that do not draw find what was drawn last, and so does a parallel projection, such as the sun's.
+/// Levels are chosen by the distance of the node's centre; by the pixels of the node's diameter at that distance; or by
+/// error: the level changes where the node's error is as large on the screen as is allowed, seen from the eye at the
+/// nearest point of the node's box. All parts of a picture choose the same. Each picture chooses anew; visitors that do
+/// not draw find what was drawn last, and so does a parallel projection, such as the sun's.
 class PageLod : public osg::PagedLOD {
  public:
   /// Takes all but the levels from `pages`.
@@ -35,8 +36,8 @@ class PageLod : public osg::PagedLOD {
   void traverse(osg::NodeVisitor& visitor) override;
   bool removeExpiredChildren(double time, unsigned int frame, osg::NodeList& removed) override;
 
-  /// The node's error on the screen of a camera, as a multiple of the allowed one. `eye`: in the frame of the node.
-  /// `pixels`: of a metre at a distance of one metre.
+  /// In the measure of the pages. An error is a multiple of the allowed one. `eye`: in the frame of the node. `pixels`:
+  /// of a metre at a distance of one metre.
   [[nodiscard]] float value(const osg::Vec3d& eye, double pixels) const;
 
  protected:
@@ -48,7 +49,7 @@ class PageLod : public osg::PagedLOD {
   void draw_last(osg::NodeVisitor& visitor);
 
   std::shared_ptr<PageRules> rules_;
-  bool by_error_;
+  DisplayMeasure measure_;
   double error_;
   osg::Vec3d half_;
   RangeList levels_;             ///< in the measure of the pages
