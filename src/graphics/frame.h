@@ -32,7 +32,8 @@
 
 namespace roam::graphics {
 
-/// How a requested picture is drawn: with the frame's quality, or fully (Quality::full) whatever that is.
+/// How a requested picture is drawn: fully (Quality::full); or with the frame's quality, which waits for the next frame
+/// that is not drawn more fully for another request.
 enum class Finish : std::uint8_t { as_shown, full };
 
 struct FrameSettings {

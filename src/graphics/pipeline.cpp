@@ -251,8 +251,8 @@ void Frame::Pipeline::serve(bool with_hud) {
   {
     const std::lock_guard lock(mutex_);
     const auto rest = std::stable_partition(requests_.begin(), requests_.end(), [&](const Request& r) {
-      // A request that came after the frame began waits for the next.
-      const bool later = r.finish == Finish::full && !fully_;
+      // A request that came after the frame began waits for the next; a film waits while stills are drawn.
+      const bool later = r.finish == Finish::full ? !fully_ : fully_ && quality_ != Quality::full;
       return r.with_hud != with_hud || later;
     });
     served.assign(std::make_move_iterator(rest), std::make_move_iterator(requests_.end()));

@@ -198,6 +198,24 @@ TEST(GraphicsEffects, AStillIsSmoothWhateverTheQuality) {
   }
 }
 
+TEST(GraphicsEffects, APictureOfTheFrameIsAsItsNeighboursThoughAStillIsTaken) {
+  for (const Quality quality : {Quality::full, Quality::light, Quality::plain}) {
+    Stage stage(200, 120, {.quality = quality});
+    add_board(stage);
+    const auto before = stage.picture();
+    osg::ref_ptr<osg::Image> still, film;
+    stage.frame.request_picture(
+        false, [&](osg::ref_ptr<osg::Image> image) { still = image; }, {}, graphics::Finish::full);
+    stage.frame.request_picture(false, [&](osg::ref_ptr<osg::Image> image) { film = image; });
+    stage.viewer.frame();
+    EXPECT_TRUE(still);
+    EXPECT_EQ(film.valid(), quality == Quality::full) << int(quality);
+    stage.viewer.frame();
+    ASSERT_TRUE(film);
+    EXPECT_EQ(differing(*film, *before), 0) << int(quality);
+  }
+}
+
 TEST(GraphicsEffects, EffectsFollowTheWindow) {
   Stage stage(160, 90, {.quality = Quality::full});
   add_board(stage);
