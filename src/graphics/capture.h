@@ -42,8 +42,8 @@ class Screenshot {
   [[nodiscard]] bool done() const;
   /// Waits until the file is written. Throws roam::Error with the reason if that failed, or if the picture was too
   /// large to be drawn; then there is no file. In threaded viewers viewer.frame() may return before the frame is drawn,
-  /// so this waits for it. Throws after 10 s if no frame is drawn.
-  void finish();
+  /// so this waits for it. Throws if no frame is drawn within `patience`.
+  void finish(std::chrono::seconds patience = std::chrono::seconds(10));
   /// The file's path; once it is done, also of one that is numbered.
   [[nodiscard]] const std::filesystem::path& path() const;
 

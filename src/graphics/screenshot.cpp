@@ -16,9 +16,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A frame that is not drawn within this time never will be.
-constexpr std::chrono::seconds frame_patience{10};
-
 void check_extension(const fs::path& path) {
   const std::string extension = files::lower_extension(path);
   if (extension == ".png" || extension == ".jpg" || extension == ".jpeg") return;
@@ -159,9 +156,9 @@ bool Screenshot::done() const {
   return state_->written;
 }
 
-void Screenshot::finish() {
+void Screenshot::finish(std::chrono::seconds patience) {
   if (!state_) return;
-  state_->end(frame_patience);
+  state_->end(patience);
   if (!state_->problem.empty()) throw Error::at(state_->path.string(), state_->problem);
 }
 

@@ -458,6 +458,24 @@ TEST(Session, FallsNowhereForGood) {
   EXPECT_LT(d.place().x, 5.6);
 }
 
+TEST(Session, SaysAtItsEndThatAPictureCouldNotBeDrawn) {
+  for (const double scale : {1.0, 2.0}) {
+    ViewSettings settings;
+    settings.picture_scale = scale;
+    Driven d(room_obj(), {10, 0, 0.95, 0}, settings);
+    d.tap('p');
+    d.session->stage().viewer().setDone(true);  // as when the window is closed
+    Unwritten unwritten;
+    static_cast<void>(d.session->finish(unwritten));
+    EXPECT_TRUE(unwritten.any()) << scale;
+    try {
+      unwritten.raise();
+    } catch (const Error& error) {
+      EXPECT_TRUE(contains(error.what(), scale > 1.0 ? "cannot be drawn" : "no picture was drawn")) << error.what();
+    }
+  }
+}
+
 TEST(Session, TakesNoMoreMemoryTheLongerItIs) {
   Driven d(room_obj(), {10, 0, 0.95, 30});
   d.session->stage().set_hud(HudMode::off);

@@ -415,10 +415,13 @@ void Stage::finish(Unwritten& unwritten) {
     hold_film(true);
     draw();
   }
+  for (const Picture& failed : std::exchange(failed_, {})) {
+    unwritten.attempt([&] { throw Error::at(failed.file.string(), failed.problem); });
+  }
   say_what_is_finished();
   for (graphics::Screenshot& picture : pictures_) {
     unwritten.attempt([&] {
-      picture.finish();
+      viewer_->done() ? picture.finish(std::chrono::seconds(0)) : picture.finish();  // nothing more is drawn
       written_.push_back(picture.path().string());
     });
   }
