@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstring>
 #include <memory>
+#include <new>
 #include <string>
 
 #include "graphics/composite.h"
@@ -28,6 +29,10 @@ struct Drawn {
   std::string problem;
 };
 
+std::string size_text(int width, int height) {
+  return std::to_string(width) + " x " + std::to_string(height) + " pixels";
+}
+
 void copy(const osg::Image& from, const Tile& tile, osg::Image& to) {
   const auto left = static_cast<unsigned>(tile.x - tile.drawn.x), lower = static_cast<unsigned>(tile.y - tile.drawn.y);
   const std::size_t bytes = std::size_t{3} * static_cast<std::size_t>(tile.width);
@@ -35,6 +40,30 @@ void copy(const osg::Image& from, const Tile& tile, osg::Image& to) {
     std::memcpy(to.data(static_cast<unsigned>(tile.x), static_cast<unsigned>(tile.y) + row),
                 from.data(left, lower + row), bytes);
   }
+}
+
+osg::ref_ptr<osg::Image> draw_tiles(Frame& frame, int width, int height, const std::function<void()>& draw,
+                                    const TileLimits& limits) {
+  osg::ref_ptr<osg::Image> whole = new osg::Image;
+  whole->allocateImage(width, height, 1, GL_RGB, GL_UNSIGNED_BYTE, 1);
+  struct Window {
+    Frame& frame;
+    ~Window() { frame.set_part({}); }
+  } window{frame};
+  for (const Tile& tile : tiles_of(width, height, limits)) {
+    frame.set_part(tile.drawn);
+    const auto drawn = std::make_shared<Drawn>();
+    frame.request_picture(
+        false, [drawn](osg::ref_ptr<osg::Image> image) { drawn->image = std::move(image); },
+        [drawn](const std::string& reason) { drawn->problem = reason; }, Finish::full);
+    draw();
+    if (!drawn->image) {
+      throw Error("a picture of " + size_text(width, height) + " cannot be drawn" +
+                  (drawn->problem.empty() ? "" : ": " + drawn->problem));
+    }
+    copy(*drawn->image, tile, *whole);
+  }
+  return whole;
 }
 
 }  // namespace
@@ -66,28 +95,11 @@ std::vector<Tile> tiles_of(int width, int height, const TileLimits& limits) {
 
 osg::ref_ptr<osg::Image> draw_large_picture(Frame& frame, int width, int height, const std::function<void()>& draw,
                                             const TileLimits& limits) {
-  const std::string size = std::to_string(width) + " x " + std::to_string(height);
-  osg::ref_ptr<osg::Image> whole = new osg::Image;
-  whole->allocateImage(width, height, 1, GL_RGB, GL_UNSIGNED_BYTE, 1);
-  if (whole->data() == nullptr) throw Error("there is no memory for a picture of " + size + " pixels");
-  struct Window {
-    Frame& frame;
-    ~Window() { frame.set_part({}); }
-  } window{frame};
-  for (const Tile& tile : tiles_of(width, height, limits)) {
-    frame.set_part(tile.drawn);
-    const auto drawn = std::make_shared<Drawn>();
-    frame.request_picture(
-        false, [drawn](osg::ref_ptr<osg::Image> image) { drawn->image = std::move(image); },
-        [drawn](const std::string& reason) { drawn->problem = reason; }, Finish::full);
-    draw();
-    if (!drawn->image) {
-      throw Error("a picture of " + size + " pixels cannot be drawn" +
-                  (drawn->problem.empty() ? "" : ": " + drawn->problem));
-    }
-    copy(*drawn->image, tile, *whole);
+  try {
+    return draw_tiles(frame, width, height, draw, limits);
+  } catch (const std::bad_alloc&) {
+    throw Error("there is no memory for a picture of " + size_text(width, height));
   }
-  return whole;
 }
 
 }  // namespace roam::graphics

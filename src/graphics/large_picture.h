@@ -34,7 +34,7 @@ struct Tile {
 
 /// The view of `frame` in `width` x `height` pixels, fully drawn (Quality::full), without the head-up display: RGB, 3
 /// bytes a pixel. `draw` draws one frame, and returns when that is done. Throws roam::Error if the driver cannot draw a
-/// tile; what `draw` throws, ends it. Afterwards the frame draws its window again.
+/// tile, or if there is no memory; what else `draw` throws, ends it. Afterwards the frame draws its window again.
 [[nodiscard]] osg::ref_ptr<osg::Image> draw_large_picture(Frame& frame, int width, int height,
                                                           const std::function<void()>& draw,
                                                           const TileLimits& limits = {});

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <new>
 #include <osg/GraphicsContext>
 #include <osg/Notify>
 #include <osg/RenderInfo>
@@ -259,15 +260,20 @@ void Frame::Pipeline::serve(bool with_hud) {
     requests_.erase(rest, requests_.end());
   }
   if (served.empty()) return;
-  if (!problem_.empty()) {
-    for (const Request& request : served) {
-      if (request.failed) request.failed(problem_);
-    }
-    return;
-  }
+  std::string problem = problem_;
   osg::ref_ptr<osg::Image> image = new osg::Image;
-  image->readPixels(0, 0, plan_.width, plan_.height, GL_RGB, GL_UNSIGNED_BYTE);
-  for (const Request& request : served) request.done(image);
+  try {
+    if (problem.empty()) image->readPixels(0, 0, plan_.width, plan_.height, GL_RGB, GL_UNSIGNED_BYTE);
+  } catch (const std::bad_alloc&) {
+    problem = "there is no memory for its pixels";
+  }
+  for (const Request& request : served) {
+    if (problem.empty()) {
+      request.done(image);
+    } else if (request.failed) {
+      request.failed(problem);
+    }
+  }
 }
 
 }  // namespace roam::graphics

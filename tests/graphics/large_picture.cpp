@@ -3,6 +3,7 @@
 #include "graphics/large_picture.h"
 
 #include <algorithm>
+#include <new>
 #include <set>
 
 #include "graphics/composite.h"
@@ -128,6 +129,18 @@ TEST(GraphicsLargePicture, ThatIsNotDrawnIsAnError) {
   EXPECT_THROW(static_cast<void>(graphics::draw_large_picture(
                    boards.stage.frame, 300, 300, [] {}, small)),
                Error);
+  EXPECT_EQ(boards.stage.frame.width(), 320);
+}
+
+TEST(GraphicsLargePicture, ForWhichThereIsNoMemoryIsAnError) {
+  Boards boards;
+  try {
+    static_cast<void>(graphics::draw_large_picture(
+        boards.stage.frame, 300, 200, [] { throw std::bad_alloc(); }, small));
+    FAIL() << "it was drawn";
+  } catch (const Error& error) {
+    EXPECT_STREQ(error.what(), "there is no memory for a picture of 300 x 200 pixels");
+  }
   EXPECT_EQ(boards.stage.frame.width(), 320);
 }
 
