@@ -37,7 +37,7 @@ fs::path write_image(const osg::Image& image, const fs::path& path, files::Namin
   if (!plugin->writeImage(image, encoded, nullptr).success()) {
     throw Error::at(path.string(), "cannot write the picture " + path.string() + ": OpenSceneGraph cannot encode it");
   }
-  std::string bytes = encoded.str();
+  std::string bytes = std::move(encoded).str();
   files::add_mark(bytes);
   return files::write_whole(path, bytes, naming);
 }

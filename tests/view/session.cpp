@@ -16,6 +16,7 @@ using namespace roam::app;
 /// In a scene of a few triangles.
 class Driven : public DrivenSession {
  public:
+  Driven() = default;
   explicit Driven(const std::string& text, const std::vector<double>& at = {}, const ViewSettings& settings = {}) {
     write_scene(text);
     options.verify = true;
@@ -474,6 +475,20 @@ TEST(Session, SaysAtItsEndThatAPictureCouldNotBeDrawn) {
       EXPECT_TRUE(contains(error.what(), scale > 1.0 ? "cannot be drawn" : "no picture was drawn")) << error.what();
     }
   }
+}
+
+TEST(Session, KeepsNoMoreThanSomePicturesInMemory) {
+  Driven d;
+  d.options.size = "8000x4000";  // 92 MiB each
+  d.write_scene();
+  d.begin();
+  const auto is_refused = [&] { return contains(d.hud(), "Earlier pictures are still being written"); };
+  for (int i = 0; i < 6; ++i) {
+    EXPECT_FALSE(is_refused()) << i;
+    d.tap('p');
+  }
+  d.tap('p');
+  EXPECT_TRUE(is_refused()) << d.hud();
 }
 
 TEST(Session, TakesNoMoreMemoryTheLongerItIs) {

@@ -162,7 +162,15 @@ void Stage::set_hud(HudMode mode) {
   hud_->set_detail(detail(mode));
 }
 
+/// Whether the pictures that wait for their files take as much memory as they may.
+bool Stage::is_writing_much() const {
+  constexpr std::size_t most = 512u << 20, bytes_a_pixel = 3;
+  const auto [width, height] = enlarged_size();
+  return pictures_.size() * bytes_a_pixel * static_cast<std::size_t>(width) * static_cast<std::size_t>(height) > most;
+}
+
 void Stage::add_to(Commands& commands) {
+  constexpr double busy_seconds = 3.0;
   commands.add("help", [this] {
     if (hud_->help_goes_on()) {
       hud_->turn_help(1);
@@ -176,6 +184,7 @@ void Stage::add_to(Commands& commands) {
   commands.add("fullscreen", [this] { toggle_fullscreen(); });
   for (const auto& [name, with_display] : {std::pair("picture", false), std::pair("picture_with_display", true)}) {
     commands.add(name, [this, with_display = with_display] {
+      if (is_writing_much()) return hint("Earlier pictures are still being written.", busy_seconds);
       if (!with_display && picture_scale_ > 1.0) {
         enlarged_in_ = 2;
         hint(fmt::format("Writing {} x {} ...", enlarged_size()[0], enlarged_size()[1]));

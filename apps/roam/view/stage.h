@@ -109,6 +109,7 @@ class Stage {
   using Clock = std::chrono::steady_clock;
 
   [[nodiscard]] osg::ref_ptr<osg::Image> large_picture(int width, int height);
+  [[nodiscard]] bool is_writing_much() const;
   void take_enlarged();
   [[nodiscard]] std::array<int, 2> enlarged_size() const;
   void say_what_is_finished();
