@@ -184,6 +184,14 @@ void Frame::set_near(double near) {
   project();
 }
 
+std::string Frame::lack() const {
+  const bool samples = pipeline_->lacks_samples(), effects = pipeline_->lacks_effects();
+  if (!samples && !effects) return {};
+  return "the graphics driver has no room for " +
+         (samples ? std::to_string(pipeline_->wished_samples()) + " samples a pixel" : std::string()) +
+         (samples && effects ? " and for " : "") + (effects ? "the effects" : "");
+}
+
 std::string Frame::describe() const {
   const bool wished = settings_.reversed_depth;
   std::string depth = "reversed 32-bit float depth";
@@ -193,9 +201,7 @@ std::string Frame::describe() const {
   }
   const int samples = std::max(1, pipeline_->samples());
   std::string smoothness = samples > 1 ? std::to_string(samples) + " samples a pixel" : "1 sample a pixel";
-  if (samples < pipeline_->wished_samples()) {
-    smoothness += " (the driver has no room for " + std::to_string(pipeline_->wished_samples()) + ")";
-  }
+  if (const std::string missing = lack(); !missing.empty()) smoothness += " (" + missing + ")";
   return context_.describe() + ", " + depth + ", " + smoothness;
 }
 

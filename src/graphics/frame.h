@@ -114,6 +114,8 @@ class Frame {
   /// display, and one a pass of the effects. They are known only if the thread that calls viewer.frame() also draws.
   [[nodiscard]] int draw_calls() const;
 
+  /// What the last frame has not because the driver lacks memory, as a sentence; empty: nothing.
+  [[nodiscard]] std::string lack() const;
   /// One line: renderer, depth, samples, and missing abilities.
   [[nodiscard]] std::string describe() const;
 

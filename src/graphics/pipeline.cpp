@@ -147,10 +147,13 @@ void Frame::Pipeline::resize(osg::GLExtensions& gl, const Plan& plan) {
   problem_.clear();
   const auto [widest, highest] = largest_sides();
   const bool within = plan.width <= widest && plan.height <= highest;
-  for (const Plan& tried :
-       {plan, Plan{plan.width, plan.height, plan.samples, {}}, Plan{plan.width, plan.height, 1, {}}}) {
-    samples_ = tried.samples;
-    if (within && allocate(gl, tried)) return;
+  for (const Effects& effects : {plan.effects, Effects{}}) {
+    for (const int samples : {plan.samples, 1}) {
+      samples_ = samples;
+      lacks_samples_ = samples < plan.samples;
+      lacks_effects_ = effects != plan.effects;
+      if (within && allocate(gl, {plan.width, plan.height, samples, effects})) return;
+    }
   }
   problem_ = refuse(gl);
   // OpenSceneGraph draws in any case, so give it one invisible pixel.

@@ -216,6 +216,22 @@ TEST(GraphicsEffects, APictureOfTheFrameIsAsItsNeighboursThoughAStillIsTaken) {
   }
 }
 
+TEST(GraphicsEffects, WhereThereIsNoRoomForSamplesAreDrawnWithOne) {
+  graphics::Context context = graphics::open_headless(320, 180);
+  context.abilities.samples = 4096;  // which no driver has
+  Stage many(context, {.samples = 4096, .quality = Quality::full}), one(320, 180, with_full);
+  add_board(many);
+  add_board(one);
+  EXPECT_EQ(many.frame.lack(), "");
+  EXPECT_EQ(differing(*many.picture(), *one.picture()), 0) << "with all effects";
+  const std::string lack = many.frame.lack();
+  EXPECT_EQ(lack, "the graphics driver has no room for 4096 samples a pixel");
+  EXPECT_NE(many.frame.describe().find("1 sample a pixel (" + lack + ")"), std::string::npos) << many.frame.describe();
+  many.frame.set_quality(Quality::light);
+  static_cast<void>(many.picture());
+  EXPECT_EQ(many.frame.lack(), "") << "it has one sample";
+}
+
 TEST(GraphicsEffects, EffectsFollowTheWindow) {
   Stage stage(160, 90, {.quality = Quality::full});
   add_board(stage);

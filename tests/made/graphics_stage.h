@@ -13,6 +13,7 @@
 #include <osg/NodeVisitor>
 #include <osg/StateSet>
 #include <osgViewer/Viewer>
+#include <utility>
 #include <vector>
 
 #include "graphics/context.h"
@@ -97,9 +98,9 @@ inline const graphics::FrameSettings with_full{.samples = 1, .quality = graphics
 struct Stage {
   explicit Stage(int width = 320, int height = 180, const graphics::FrameSettings& settings = plain,
                  graphics::Headless how = graphics::Headless::any)
-      : context(graphics::open_headless(width, height, how)),
-        frame(viewer, context, settings),
-        scene(graphics::make_scene_group()) {
+      : Stage(graphics::open_headless(width, height, how), settings) {}
+  Stage(graphics::Context opened, const graphics::FrameSettings& settings)
+      : context(std::move(opened)), frame(viewer, context, settings), scene(graphics::make_scene_group()) {
     viewer.setThreadingModel(osgViewer::Viewer::SingleThreaded);
     viewer.setKeyEventSetsDone(0);
     frame.space()->addChild(graphics::make_sky());

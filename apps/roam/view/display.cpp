@@ -91,6 +91,9 @@ void Display::tell_news() {
                            words::counted(pages_told_, "page"), scene_.page_problem()));
   }
   tell_of_pages();
+  if (const std::string lack = stage_.frame().lack(); lack != std::exchange(driver_lack_told_, lack) && !lack.empty()) {
+    news_.note(lack);
+  }
   for (const Picture& picture : stage_.poll_pictures()) {
     if (picture.problem.empty()) {
       news_.written(picture.file);

@@ -82,6 +82,7 @@ class Display {
   bool display_told_ = false;
   std::uint64_t pages_told_ = 0;
   std::size_t page_notes_told_ = 0;
+  std::string driver_lack_told_;
   bool coarser_told_ = false, lack_told_ = false;
 };
 
