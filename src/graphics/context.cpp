@@ -31,16 +31,6 @@ Headless wished(Headless how) {
   throw Error("the environment variable ROAM_HEADLESS is \"" + word + "\": it may be egl or xvfb, or not be set");
 }
 
-Context on_egl(int width, int height) {
-  Context context;
-  context.headless = true;
-  EglOpening opening = open_egl(width, height);
-  context.window = opening.window;
-  context.place = opening.place;
-  context.abilities = ask_abilities(*context.window);
-  return context;
-}
-
 Context on_xvfb(int width, int height) {
   Context context;
   context.headless = true;
@@ -86,7 +76,7 @@ Context open_headless(int width, int height, Headless how) {
   std::string tried;
   if (how != Headless::xvfb) {
     try {
-      return on_egl(width, height);
+      return open_egl(width, height);
     } catch (const Error& e) {
       tried = std::string("EGL: ") + e.what() + ". ";
       if (how == Headless::egl) throw Error("cannot draw without a screen. " + tried + egl_remedy);

@@ -6,8 +6,10 @@
 #include <array>
 #include <atomic>
 #include <cstring>
+#include <string>
 #include <vector>
 
+#include "graphics/abilities.h"
 #include "roam/error.h"
 
 namespace roam::graphics {
@@ -204,11 +206,17 @@ osg::ref_ptr<EglWindow> open_on(EGLDisplay display, int width, int height, std::
 
 }  // namespace
 
-EglOpening open_egl(int width, int height) {
+Context open_egl(int width, int height) {
   std::string tried;
   for (const Candidate& candidate : candidates()) {
     std::string why;
-    if (auto window = open_on(candidate.display, width, height, why)) return {window, "EGL, " + candidate.name};
+    try {
+      if (const auto window = open_on(candidate.display, width, height, why)) {
+        return {window, ask_abilities(*window), "EGL, " + candidate.name, true};
+      }
+    } catch (const Error& error) {
+      why = std::string("is of no use: ") + error.what();
+    }
     tried += (tried.empty() ? "" : "; ") + candidate.name + " " + why;
   }
   throw Error(tried.empty() ? "EGL has neither the surfaceless platform nor a device" : tried);

@@ -298,6 +298,14 @@ TEST_F(GraphicsContextDeathTest, AnOpenGlThatIsTooOldIsToldSo) {
   EXPECT_EXIT(open(Headless::xvfb), testing::ExitedWithCode(0), "too old.*1\\.4.*2\\.1");
 }
 
+TEST_F(GraphicsContextDeathTest, ADeviceOfNoUseDoesNotEndTheSearch) {
+  const auto open = [] {
+    setenv("MESA_GL_VERSION_OVERRIDE", "1.4", 1);
+    say_complaint(Headless::egl);
+  };
+  EXPECT_EXIT(open(), testing::ExitedWithCode(0), "surfaceless .*too old.*; device [0-9]+ .*too old.*libegl1");
+}
+
 TEST_F(GraphicsContextDeathTest, WithoutClipControlItDrawsWithAnOrdinaryDepth) {
   const auto open = [] {
     setenv("MESA_EXTENSION_OVERRIDE", "-GL_ARB_clip_control", 1);
