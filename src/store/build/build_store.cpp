@@ -240,6 +240,22 @@ void merge_locked(Work& work, const Plan& plan, StoreBuildReport& report) {
   report.store = info_of(work.store);
 }
 
+/// Builds what is missing, and merges. A shard that has been damaged since it was built is built once more.
+void build_and_merge(Work& work, const Plan& plan, const std::set<std::string>& damaged, StoreBuildReport& report) {
+  build_shards(work, plan, plan.to_build(), report);
+  try {
+    merge_locked(work, plan, report);
+    return;
+  } catch (const Incomplete&) {
+  }
+  StoreBuildReport replanned;  // the first plan is reported
+  const std::optional<Plan> again = plan_locked(work, damaged, replanned);
+  if (!again) throw Error(work.store.string(), "another program has changed it meanwhile; build it again");
+  report.parts_read += replanned.parts_read;
+  build_shards(work, *again, again->to_build(), report);
+  merge_locked(work, *again, report);
+}
+
 }  // namespace
 
 std::uint64_t plan_store(const StoreBuildOptions& options, StoreBuildReport& report) {
@@ -314,8 +330,7 @@ StoreBuildReport build_store(const StoreBuildOptions& options) {
   OutputFolder output(work.store, options.through_link, options.progress);
   const auto plan = plan_output(work, output, report);
   if (!plan) return report;
-  build_shards(work, *plan, plan->to_build(), report);
-  merge_locked(work, *plan, report);
+  build_and_merge(work, *plan, {}, report);
   return report;
 }
 
@@ -372,8 +387,7 @@ StoreBuildReport repair_store(const StoreBuildOptions& options) {
         work.store.string(),
         fmt::format("{} was not made of this scene as it is now: build it again instead", work.store.string()));
   }
-  build_shards(work, *plan, plan->to_build(), report);
-  merge_locked(work, *plan, report);
+  build_and_merge(work, *plan, damaged, report);
   return report;
 }
 

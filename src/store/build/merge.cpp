@@ -28,18 +28,18 @@ namespace fs = std::filesystem;
 constexpr std::size_t named = 20;
 
 /// An error that names the tasks to repeat. `missing` and `damaged`: shards, not empty together.
-Error incomplete(const Work& work, const Plan& plan, const std::vector<std::size_t>& missing,
-                 const std::vector<std::size_t>& damaged) {
+Incomplete incomplete(const Work& work, const Plan& plan, const std::vector<std::size_t>& missing,
+                      const std::vector<std::size_t>& damaged) {
   std::set<std::uint64_t> tasks;
   for (const std::size_t i : missing) tasks.insert(plan.shards[i].task);
   for (const std::size_t i : damaged) tasks.insert(plan.shards[i].task);
   const std::vector<std::uint64_t> numbers(tasks.begin(), tasks.end());
-  return Error::at(
+  return Incomplete(Error::at(
       work.store.string(),
       fmt::format(
           "cannot merge {}: missing shards: {}, damaged shards: {}, in tasks {} of {}; build these tasks again, "
           "each with --shard and its number, and merge again; if one says that its run is gone, plan first",
-          work.store.string(), missing.size(), damaged.size(), ranges_text(numbers, named), plan.tasks));
+          work.store.string(), missing.size(), damaged.size(), ranges_text(numbers, named), plan.tasks)));
 }
 
 /// The shards of the plan, each checked. Newly built ones are checked to the last byte.

@@ -7,6 +7,12 @@
 
 namespace roam::store {
 
+/// Thrown for shards of the plan that are missing or damaged. The damaged ones then count as missing.
+class Incomplete : public Error {
+ public:
+  explicit Incomplete(const Error& error) : Error(error) {}
+};
+
 /// Makes one store of the shards of the plan and puts it in force. Then removes files that no manifest in force names,
 /// and the scratch folder. The store must be locked. Returns the result of tidy.
 [[nodiscard]] std::string merge(Work& work, const Plan& plan);

@@ -292,23 +292,38 @@ TEST(StoreBuildResume, AnotherNumberOfTasksKeepsShardsThatAreThere) {
 
 TEST(StoreBuildResume, MergingRefusesAPackThatWasChanged) {
   const TestFolder folder;
+/// Changes a byte of the only pack.
+void spoil_pack(const std::string& store) {
+  std::fstream file(fs::directory_iterator(store + "/packs")->path(), std::ios::in | std::ios::out | std::ios::binary);
+  file.seekp(500);
+  file.put('?');
+}
+
   write_ply(folder.file("a.ply"), field(50, 0.5, {0.0, 0.0, 0.0}));
   const auto o = options({folder.file("a.ply")}, folder.file("s"));
   roam::StoreBuildReport report;
   ASSERT_EQ(roam::plan_store(o, report), 1U);
   roam::build_task(o, 0, report);
-  const auto pack = fs::directory_iterator(folder.file("s") + "/packs")->path();
-  {
-    std::fstream file(pack, std::ios::in | std::ios::out | std::ios::binary);
-    file.seekp(500);
-    file.put('?');
-  }
+  spoil_pack(folder.file("s"));
   const std::string text = refusal([&] { roam::merge_store(o, report); });
   EXPECT_NE(text.find("missing shards: 0, damaged shards: 1, in tasks 0 of 1;"), std::string::npos) << text;
   EXPECT_FALSE(fs::exists(folder.file("s") + "/CURRENT"));
   roam::build_task(o, 0, report);
   roam::merge_store(o, report);
   expect_whole(folder.file("s"));
+}
+
+TEST(StoreBuildResume, BuildsAPackAgainThatWasChanged) {
+  const TestFolder folder;
+  write_ply(folder.file("a.ply"), field(50, 0.5, {0.0, 0.0, 0.0}));
+  const auto o = options({folder.file("a.ply")}, folder.file("s"));
+  roam::build_store(options({folder.file("a.ply")}, folder.file("whole")));
+  roam::StoreBuildReport report;
+  ASSERT_EQ(roam::plan_store(o, report), 1U);
+  roam::build_task(o, 0, report);
+  spoil_pack(folder.file("s"));
+  EXPECT_EQ(refusal([&] { EXPECT_EQ(roam::build_store(o).shards_built, 1U); }), "");
+  expect_same(folder.file("whole"), folder.file("s"));
 }
 
 TEST(StoreBuildResume, StopsWhenTheCallerSaysSoAndGoesOnLater) {
