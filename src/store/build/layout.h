@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <string>
 #include <string_view>
 
@@ -25,6 +26,16 @@ inline std::string shard_file(const std::string& key) { return "scratch/shards/"
 inline std::string record_file(const std::string& id) { return "scratch/parts/" + id + ".json"; }
 inline std::string run_file(const std::string& id, std::size_t run) {
   return fmt::format("scratch/runs/{}.{}.run", id, run);
+}
+/// The id in the name of a run; empty for any other file.
+inline std::string_view id_of_run(std::string_view file) {
+  constexpr std::string_view start = "scratch/runs/", end = ".run";
+  if (!file.starts_with(start) || !file.ends_with(end)) return {};
+  file = file.substr(start.size(), file.size() - start.size() - end.size());
+  const std::string_view id = file.substr(0, file.find('.')),
+                         number = file.substr(std::min(file.size(), id.size() + 1));
+  const bool is_run = !number.empty() && number.find_first_not_of("0123456789") == std::string_view::npos;
+  return is_run && is_digits(id, record_digits) ? id : std::string_view();
 }
 /// State of the scene's files at the last examination: see fingerprint.h. May be removed at any time.
 inline constexpr const char* sources_file = "sources.json";

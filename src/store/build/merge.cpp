@@ -104,13 +104,7 @@ bool is_scratch(std::string_view file) {
     if (!file.starts_with(start) || !file.ends_with(extension)) return false;
     return is_digits(file.substr(start.size(), file.size() - start.size() - extension.size()), digits);
   };
-  if (is("scratch/parts/", ".json", record_digits) || is("scratch/shards/", ".json", 64)) return true;
-  constexpr std::string_view runs = "scratch/runs/";
-  if (!file.starts_with(runs) || !file.ends_with(".run")) return false;
-  file = file.substr(runs.size(), file.size() - runs.size() - 4);
-  const std::size_t dot = std::min(file.find('.'), file.size());
-  return is_digits(file.substr(0, dot), record_digits) && dot + 1 < file.size() &&
-         file.substr(dot + 1).find_first_not_of("0123456789") == std::string_view::npos;
+  return is("scratch/parts/", ".json", record_digits) || is("scratch/shards/", ".json", 64) || !id_of_run(file).empty();
 }
 
 void keep(const Manifest& manifest, std::set<std::string>& files) {

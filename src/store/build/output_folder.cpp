@@ -128,6 +128,12 @@ ReadingSign::~ReadingSign() {
   }
 }
 
+bool is_being_read(const Folder& store) {
+  const std::vector<std::string> records = files_in(store, "scratch/parts");
+  return std::any_of(records.begin(), records.end(),
+                     [&](const std::string& file) { return file.ends_with(".json") && size_of(store, file) == 0U; });
+}
+
 OutputFolder::OutputFolder(Folder& store, bool through_link, const BuildProgress& progress) : store_(store) {
   try {
     store = store_ = Folder::held_or_made(store.path(), through_link, made_);

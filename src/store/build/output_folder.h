@@ -50,6 +50,9 @@ class ReadingSign {
   std::string name_;
 };
 
+/// Whether a ReadingSign is there, perhaps of a process that was killed.
+[[nodiscard]] bool is_being_read(const Folder& store);
+
 /// The folder of a store, locked; made if it does not exist. The destructor removes what builds put there, except after
 /// keep(), if it was there before, or if a later build can continue from it.
 class OutputFolder {

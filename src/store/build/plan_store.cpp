@@ -5,10 +5,12 @@
 
 #include <algorithm>
 #include <map>
+#include <string_view>
 
 #include "roam/error.h"
 #include "store/build/layout.h"
 #include "store/build/merge.h"
+#include "store/build/output_folder.h"
 #include "store/build/plan.h"
 #include "store/build/run.h"
 #include "store/build/scene_reader.h"
@@ -25,6 +27,7 @@ class Planner {
   std::optional<Plan> run() {
     in_force_ = manifest_in_force(work_.store);
     reader_.take_records(in_force_, reader_.all());
+    remove_former_runs();
     plan_.options = reader_.options();
     plan_.lossless = work_.options.lossless;
     if (unchanged()) {
@@ -42,6 +45,17 @@ class Planner {
   }
 
  private:
+  /// Removes the runs of parts that are gone or have changed since a build that never ended. Shares that are being read
+  /// may be those of another state.
+  void remove_former_runs() const {
+    if (is_being_read(work_.store)) return;
+    std::set<std::string_view> ids;
+    for (const PartRecord& part : plan_.parts) ids.insert(part.id);
+    for (const std::string& file : files_in(work_.store, "scratch/runs")) {
+      const std::string_view id = id_of_run(file);
+      if (!id.empty() && !ids.contains(id)) remove_file(work_.store, file);
+    }
+  }
   [[nodiscard]] bool is_there(const ShardInfo& shard) const {
     return !damaged_.contains(shard.pack) && size_of(work_.store, pack_file(shard.pack)) == shard.bytes;
   }

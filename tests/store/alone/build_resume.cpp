@@ -6,6 +6,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cerrno>
 #include <chrono>
@@ -16,6 +17,7 @@
 
 #include "clutter.h"
 #include "killed_builds.h"
+#include "store/build/output_folder.h"
 #include "store/files.h"
 
 namespace {
@@ -290,8 +292,6 @@ TEST(StoreBuildResume, AnotherNumberOfTasksKeepsShardsThatAreThere) {
   expect_same(folder.file("whole"), folder.file("steps"));
 }
 
-TEST(StoreBuildResume, MergingRefusesAPackThatWasChanged) {
-  const TestFolder folder;
 /// Changes a byte of the only pack.
 void spoil_pack(const std::string& store) {
   std::fstream file(fs::directory_iterator(store + "/packs")->path(), std::ios::in | std::ios::out | std::ios::binary);
@@ -299,6 +299,8 @@ void spoil_pack(const std::string& store) {
   file.put('?');
 }
 
+TEST(StoreBuildResume, MergingRefusesAPackThatWasChanged) {
+  const TestFolder folder;
   write_ply(folder.file("a.ply"), field(50, 0.5, {0.0, 0.0, 0.0}));
   const auto o = options({folder.file("a.ply")}, folder.file("s"));
   roam::StoreBuildReport report;
@@ -324,6 +326,33 @@ TEST(StoreBuildResume, BuildsAPackAgainThatWasChanged) {
   spoil_pack(folder.file("s"));
   EXPECT_EQ(refusal([&] { EXPECT_EQ(roam::build_store(o).shards_built, 1U); }), "");
   expect_same(folder.file("whole"), folder.file("s"));
+}
+
+TEST(StoreBuildResume, KeepsNoRunsOfAnEarlierStateOfTheScene) {
+  const TestFolder folder;
+  write_ply(folder.file("b.ply"), field(30, 0.5, {100.0, 0.0, 0.0}));
+  const auto o = options({folder.file("a.ply"), folder.file("b.ply")}, folder.file("s"));
+  std::uint32_t size = 60;
+  const auto runs_after_a_change = [&] {
+    write_ply(folder.file("a.ply"), field(--size, 0.5, {0.0, 0.0, 0.0}));
+    roam::StoreBuildReport report;
+    EXPECT_EQ(roam::plan_store(o, report), 1U);
+    std::vector<std::string> runs = roam::store::files_in(folder.file("s"), "scratch/runs");
+    std::sort(runs.begin(), runs.end());
+    return runs;
+  };
+  const auto first = runs_after_a_change(), second = runs_after_a_change();
+  EXPECT_EQ(first.size(), 2U);
+  EXPECT_EQ(second.size(), 2U);
+  EXPECT_NE(first, second);
+  {
+    const roam::store::ReadingSign sign(folder.file("s"));
+    EXPECT_EQ(runs_after_a_change().size(), 3U) << "a share may be reading it";
+  }
+  EXPECT_EQ(runs_after_a_change().size(), 2U);
+  roam::build_store(o);
+  roam::build_store(options({folder.file("a.ply"), folder.file("b.ply")}, folder.file("fresh")));
+  expect_same(folder.file("fresh"), folder.file("s"));
 }
 
 TEST(StoreBuildResume, StopsWhenTheCallerSaysSoAndGoesOnLater) {
