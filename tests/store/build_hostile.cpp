@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "memory_cost.h"
+#include "store/build/merge.h"
 #include "store/build/plan.h"
 #include "store/files.h"
 #include "store/part.h"
@@ -77,7 +78,7 @@ TEST(StoreBuildHostile, ShardsAndScenesOfMoreTrianglesThanThereCanBeAreRefused) 
   roam::store::PartFile part;
   part.triangles = 1ULL << 40;
   part.cells.push_back({0, part.triangles});
-  roam::store::Manifest manifest = *roam::store::manifest_in_force(store);
+  roam::store::Manifest manifest = *roam::store::manifest_in_force(work);
   const auto bytes = roam::store::encode_part(part);
   roam::store::NewFile file(store, "parts/new.part");
   file.write(bytes);
@@ -88,6 +89,30 @@ TEST(StoreBuildHostile, ShardsAndScenesOfMoreTrianglesThanThereCanBeAreRefused) 
   const Cost planning = cost_of([&] { static_cast<void>(roam::plan_store(o, report)); });
   EXPECT_NE(planning.said.find("more triangles than any scene has"), std::string::npos) << planning.said;
   EXPECT_LT(planning.mebibytes, 200U);
+}
+
+TEST(StoreBuildHostile, AManifestMayTakeAllMemoryOfTheBuildAndNoMore) {
+  const TestFolder folder;
+  auto o = options({write_ply(folder.file("a.ply"), field(60, 1.0, Vec3(0.0)))}, folder.file("s"));
+  roam::StoreBuildReport report;
+  ASSERT_EQ(roam::plan_store(o, report), 1U);
+  roam::build_task(o, 0, report);
+  roam::store::Work work(o);
+  roam::store::Plan plan = roam::store::read_plan(work);
+  plan.parts[0].notes.assign(3'000'000, "a.ply: x");
+  const auto merge = [&] { static_cast<void>(roam::store::merge(work, plan)); };
+  const auto more = o.memory;
+  o.memory = roam::StoreBuildOptions::least_memory;
+  const std::string said = refusal(merge);
+  EXPECT_NE(said.find("--memory"), std::string::npos) << said;
+  EXPECT_FALSE(roam::Store::is_store(o.output)) << "no build of that memory could go on from it";
+  o.memory = more;
+  EXPECT_EQ(refusal(merge), "");
+  EXPECT_FALSE(fs::exists(folder.file("s/scratch")));
+  EXPECT_EQ(refusal([&] { EXPECT_TRUE(roam::build_store(o).unchanged); }), "");
+  EXPECT_EQ(refusal([&] { roam::repair_store(o); }), "");
+  o.memory = roam::StoreBuildOptions::least_memory;
+  EXPECT_NE(refusal([&] { roam::build_store(o); }).find("--memory"), std::string::npos);
 }
 
 }  // namespace

@@ -81,15 +81,17 @@ void note(StoreBuildReport& report, std::string sentence) {
   if (!sentence.empty()) report.notes.push_back(std::move(sentence));
 }
 
-/// From the folder that is held, even if its path leads elsewhere by now.
-StoreInfo info_of(const Folder& store) { return open_store(files_of(store), store.string())->info(); }
+/// The store in the folder that is held, even if its path leads elsewhere by now.
+std::shared_ptr<const Store> opened(const Work& work) {
+  return open_store(files_of(work.store), work.store.string(), work.options.memory);
+}
 
 /// Repairs the root of the store before planning, or removes it. Returns the damage as a sentence for the user.
 /// Throws Error, without any change, if nothing shows that the store was built with the key.
 std::string mend_or_remove_root(Work& work) {
   const std::string store = work.store.string();
   const std::optional<StoreKey> key = work.options.adopt ? std::nullopt : work.options.key;
-  const RootMending mending = mend_root(work.store, key, [&] { work.tick(); });
+  const RootMending mending = mend_root(work, key);
   if (mending.wrong.empty()) return "";
   if (!mending.mended && key && holds_results(work.store)) {
     throw Error(store, fmt::format("its {}, and no copy of its manifest has the code of your key, so nothing shows "
@@ -107,7 +109,7 @@ std::string mend_or_remove_root(Work& work) {
 /// key. Returns the hash of a store that has none, and is to be adopted.
 std::optional<std::string> demand_authentic(const Work& work) {
   if (!work.options.key || !is_file(work.store, current_file)) return {};
-  const auto there = open_store(files_of(work.store), work.store.string());
+  const auto there = opened(work);
   if (there->is_authentic(*work.options.key)) return {};
   if (!work.options.adopt) {
     throw Error(
@@ -122,7 +124,7 @@ std::optional<std::string> demand_authentic(const Work& work) {
 std::optional<Manifest> readable_in_force(const Work& work) {
   try {
     demand_authentic(work);
-    return manifest_in_force(work.store);
+    return manifest_in_force(work);
   } catch (const RootDamage&) {
     return {};
   }
@@ -151,10 +153,10 @@ std::optional<Plan> plan_locked(Work& work, const std::set<std::string>& damaged
     note(report, std::move(mended));
     return plan;
   }
-  std::string left = tidy(work.store);  // a build may have been killed after it had published
+  std::string left = tidy(work.store, work.options.memory);  // a build may have been killed after it had published
   report.unchanged = true;
-  report.store = info_of(work.store);
-  const Manifest manifest = *manifest_in_force(work.store);
+  report.store = opened(work)->info();
+  const Manifest manifest = *manifest_in_force(work);
   report.shards = manifest.shards.size();
   Notes notes;
   const auto by_part = notes_by_part(manifest);
@@ -237,7 +239,7 @@ void build_shards(Work& work, const Plan& plan, std::vector<std::size_t> numbers
 void merge_locked(Work& work, const Plan& plan, StoreBuildReport& report) {
   const Timer timer(report.merge_seconds);
   note(report, merge(work, plan));
-  report.store = info_of(work.store);
+  report.store = opened(work)->info();
 }
 
 /// Builds what is missing, and merges. A shard that has been damaged since it was built is built once more.
@@ -342,7 +344,7 @@ StoreBuildReport repair_store(const StoreBuildOptions& options) {
   StoreBuildOptions as_built = options;
   Work work(as_built);
   work.store = store;
-  const RootMending root = mend_root(store, std::nullopt, [&] { work.tick(); });
+  const RootMending root = mend_root(work, std::nullopt);
   if (!root.wrong.empty() && !root.mended) {
     // A repair must restore the same store, but nothing records how it was built.
     throw Error::at(
@@ -353,10 +355,10 @@ StoreBuildReport repair_store(const StoreBuildOptions& options) {
                     options.output.string(), root.wrong));
   }
   if (!is_file(store, current_file)) refuse_to_open(options.output);
-  const Manifest manifest = *manifest_in_force(store);
+  const Manifest manifest = *manifest_in_force(work);
   as_built.lossless = manifest.lossless;
   read_as(manifest.options, as_built.import);
-  if (options.key && !open_store(files_of(store), store.string())->is_authentic(*options.key)) {
+  if (options.key && !opened(work)->is_authentic(*options.key)) {
     // A repair gives it no code, and does not continue from anything that its builder left.
     as_built.key.reset();
     remove_scratch(store);
@@ -382,7 +384,7 @@ StoreBuildReport repair_store(const StoreBuildOptions& options) {
            plan->parts[i].info.fingerprint == manifest.parts[i].fingerprint;
   }
   if (!same) {
-    static_cast<void>(tidy(work.store));  // the parts of the other scene, too
+    static_cast<void>(tidy(work.store, work.options.memory));  // the parts of the other scene, too
     throw Error::at(
         work.store.string(),
         fmt::format("{} was not made of this scene as it is now: build it again instead", work.store.string()));

@@ -45,7 +45,7 @@ Incomplete incomplete(const Work& work, const Plan& plan, const std::vector<std:
 /// The shards of the plan, each checked. Newly built ones are checked to the last byte.
 std::vector<ShardInfo> collect(Work& work, const Plan& plan) {
   std::map<std::string, ShardInfo> before;
-  if (const auto manifest = manifest_in_force(work.store)) {
+  if (const auto manifest = manifest_in_force(work)) {
     for (const ShardInfo& shard : manifest->shards) before[shard.key] = shard;
   }
   std::vector<ShardInfo> shards(plan.shards.size());
@@ -107,6 +107,14 @@ bool is_scratch(std::string_view file) {
   return is("scratch/parts/", ".json", record_digits) || is("scratch/shards/", ".json", 64) || !id_of_run(file).empty();
 }
 
+/// Throws TooLarge for a manifest that a build of this memory could not read again.
+void demand_fits(const Manifest& manifest, const Work& work) {
+  const std::string text = to_text(manifest);
+  const std::uint64_t memory = work.options.memory;
+  static_cast<void>(parse_manifest(text, "the new manifest of " + work.store.string(),
+                                   memory - std::min<std::uint64_t>(memory, text.size())));
+}
+
 void keep(const Manifest& manifest, std::set<std::string>& files) {
   for (const PartInfo& part : manifest.parts) files.insert(part_file(part.file));
   for (const ShardInfo& shard : manifest.shards) files.insert(pack_file(shard.pack));
@@ -114,9 +122,9 @@ void keep(const Manifest& manifest, std::set<std::string>& files) {
 
 }  // namespace
 
-std::string tidy(const Folder& store, bool keeps_versions) {
+std::string tidy(const Folder& store, std::uint64_t memory, bool keeps_versions) {
   std::string hash;
-  const Manifest manifest = read_manifest(*files_of(store), store.string(), &hash);
+  const Manifest manifest = read_manifest(*files_of(store), store.string(), &hash, nullptr, memory);
   std::set<std::string> needed;
   keep(manifest, needed);
   for (const std::string& file : files_in(store, "manifests")) {
@@ -124,8 +132,9 @@ std::string tidy(const Folder& store, bool keeps_versions) {
     if (!is_named_by_hash(file, ".json") || file == manifest_file(hash)) continue;
     if (!keeps_versions && remove_unless_read(store, file)) continue;
     needed.insert(codes_file(fs::path(file).stem().string()));
-    const std::vector<std::byte> bytes = read_file(store, file, Store::usual_memory);
-    keep(parse_manifest(std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size()), file), needed);
+    const std::vector<std::byte> bytes = read_file(store, file, memory);
+    const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    keep(parse_manifest(text, file, memory - std::min<std::uint64_t>(memory, text.size())), needed);
   }
   needed.insert(spare_file(keep_spare(store, manifest)));
   needed.insert(codes_file(hash));
@@ -177,10 +186,11 @@ std::string merge(Work& work, const Plan& plan) {
     manifest.bounds.include(shard.bounds);
     manifest.geometry_hash += shard.geometry_hash;
   }
+  demand_fits(manifest, work);
   const std::string hash = keep_spare(work.store, manifest);
   if (work.options.key) add_code(work.store, hash, *work.options.key);
   publish(work.store, manifest);
-  return tidy(work.store);
+  return tidy(work.store, work.options.memory);
 }
 
 }  // namespace roam::store

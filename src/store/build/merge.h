@@ -14,12 +14,14 @@ class Incomplete : public Error {
 };
 
 /// Makes one store of the shards of the plan and puts it in force. Then removes files that no manifest in force names,
-/// and the scratch folder. The store must be locked. Returns the result of tidy.
+/// and the scratch folder. The store must be locked. Returns the result of tidy. Throws Incomplete; TooLarge, before
+/// anything is put in force, for a manifest that takes more than the memory of the build.
 [[nodiscard]] std::string merge(Work& work, const Plan& plan);
 
-/// Removes files that no manifest in force names, and the scratch folder. With `keeps_versions` all manifests count as
-/// in force. The store must be locked. Returns the result of remove_scratch.
-[[nodiscard]] std::string tidy(const Folder& store, bool keeps_versions = false);
+/// Removes files that no manifest in force names, and the scratch folder. Reads manifests that take at most `memory`
+/// bytes. With `keeps_versions` all manifests count as in force. The store must be locked. Returns the result of
+/// remove_scratch.
+[[nodiscard]] std::string tidy(const Folder& store, std::uint64_t memory, bool keeps_versions = false);
 
 /// Removes the files with which a build could continue. On failure returns a sentence for the user, else an empty text.
 std::string remove_scratch(const Folder& store);

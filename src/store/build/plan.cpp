@@ -120,9 +120,9 @@ Plan read_plan(const Work& work) {
   }
 }
 
-std::optional<Manifest> manifest_in_force(const Folder& store) {
-  if (!is_file(store, current_file)) return {};
-  return read_manifest(*files_of(store), store.string());
+std::optional<Manifest> manifest_in_force(const Work& work) {
+  if (!is_file(work.store, current_file)) return {};
+  return read_manifest(*files_of(work.store), work.store.string(), nullptr, nullptr, work.options.memory);
 }
 
 std::vector<std::vector<std::string>> notes_by_part(const Manifest& manifest) {

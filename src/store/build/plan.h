@@ -42,8 +42,8 @@ struct Plan {
 [[nodiscard]] Plan read_plan(const Work& work);
 void write_plan(const Work& work, const Plan& plan);
 
-/// The manifest in force, if there is a store.
-[[nodiscard]] std::optional<Manifest> manifest_in_force(const Folder& store);
+/// The manifest in force, if there is a store. Throws TooLarge, and as read_manifest, within the memory of the build.
+[[nodiscard]] std::optional<Manifest> manifest_in_force(const Work& work);
 
 /// The notes of each part of a store, as in PartRecord.
 [[nodiscard]] std::vector<std::vector<std::string>> notes_by_part(const Manifest& manifest);

@@ -25,7 +25,7 @@ class Planner {
       : work_(work), damaged_(damaged), reader_(work, listed_parts(work), damaged, report, plan_.parts) {}
 
   std::optional<Plan> run() {
-    in_force_ = manifest_in_force(work_.store);
+    in_force_ = manifest_in_force(work_);
     reader_.take_records(in_force_, reader_.all());
     remove_former_runs();
     plan_.options = reader_.options();

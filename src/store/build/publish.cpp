@@ -137,7 +137,7 @@ StorePublication publish_store(const std::filesystem::path& store, const std::fi
   const bool is_same = before && before->info().hash == done.hash;
   done.unchanged = is_same && done.files == 0;
   try {
-    static_cast<void>(store::tidy(to, is_same));
+    static_cast<void>(store::tidy(to, Store::usual_memory, is_same));
   } catch (const Error&) {
     if (!is_same) throw;  // else an older version is damaged, and all stays
   }

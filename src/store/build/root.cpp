@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "store/authentic.h"
+#include "store/build/plan.h"
 #include "store/files.h"
 
 namespace roam::store {
@@ -14,13 +15,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Files that may hold a manifest, the newest first.
-std::vector<std::string> copies_of_manifests(const Folder& store) {
+/// Files of at most `most` bytes that may hold a manifest, the newest first.
+std::vector<std::string> copies_of_manifests(const Folder& store, std::uint64_t most) {
   std::vector<std::pair<fs::file_time_type, std::string>> found;
   std::error_code error;
   for (const char* folder : {"manifests", "spare"}) {
     for (std::string& file : files_in(store, folder)) {
-      if (!is_named_by_hash(file, ".json") || size_of(store, file) > Store::usual_memory) continue;
+      if (!is_named_by_hash(file, ".json") || size_of(store, file) > most) continue;
       found.emplace_back(fs::last_write_time(store / file, error), std::move(file));
     }
   }
@@ -42,10 +43,9 @@ bool has_root(const Folder& store) {
   return true;
 }
 
-std::string wrong_with_root(const Folder& store) {
+std::string wrong_with_root(const Work& work) {
   try {
-    if (!is_file(store, current_file)) refuse_to_open(store);
-    static_cast<void>(read_manifest(*files_of(store), store.string()));
+    if (!manifest_in_force(work)) refuse_to_open(work.store);
     return "";
   } catch (const RootDamage& damage) {
     return damage.what_is_damaged + ": " + damage.why;
@@ -65,10 +65,12 @@ std::string keep_spare(const Folder& store, const Manifest& manifest) {
   return hash;
 }
 
-RootMending mend_root(const Folder& store, const std::optional<StoreKey>& key, const std::function<void()>& tick) {
+RootMending mend_root(Work& work, const std::optional<StoreKey>& key) {
+  const Folder& store = work.store;
+  const std::uint64_t memory = work.options.memory;
   RootMending mending;
   if (!has_root(store)) return mending;
-  mending.wrong = wrong_with_root(store);
+  mending.wrong = wrong_with_root(work);
   if (mending.wrong.empty()) return mending;
   if (!holds_store(store)) {
     throw Error::at(
@@ -76,14 +78,15 @@ RootMending mend_root(const Folder& store, const std::optional<StoreKey>& key, c
         fmt::format("{} is no store: its file CURRENT is none of a store; choose another output", store.string()));
   }
   FileHashes hashes(store);
-  for (const std::string& copy : copies_of_manifests(store)) {
+  for (const std::string& copy : copies_of_manifests(store, memory)) {
     const std::string hash = fs::path(copy).stem().string();
     if (key && !has_code(*files_of(store), hash, *key)) continue;
-    if (hashes.sha256(copy, [&](std::uint64_t) { tick(); }) != hash) continue;
-    const std::vector<std::byte> bytes = read_file(store, copy, Store::usual_memory);
+    if (hashes.sha256(copy, [&](std::uint64_t) { work.tick(); }) != hash) continue;
+    const std::vector<std::byte> bytes = read_file(store, copy, memory);
     std::optional<Manifest> manifest;
     try {
-      manifest = parse_manifest({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, (store / copy).string());
+      manifest = parse_manifest({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, (store / copy).string(),
+                                memory - std::min<std::uint64_t>(memory, bytes.size()));
     } catch (const NewerFormat&) {
       throw;
     } catch (const Error&) {

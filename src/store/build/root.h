@@ -3,11 +3,11 @@
 /// The root of a store: CURRENT and the manifest that it names. Keeps a copy, and repairs the root if it is damaged.
 
 #include <filesystem>
-#include <functional>
 #include <optional>
 #include <string>
 
 #include "roam/store.h"
+#include "store/build/work.h"
 #include "store/manifest.h"
 
 namespace roam::store {
@@ -22,10 +22,9 @@ struct RootMending {
 };
 
 /// If CURRENT or the manifest cannot be used, puts the newest undamaged copy of a manifest in force again. With a key,
-/// uses only copies that have a code of it. The store must be locked. Calls `tick`, which may throw, for each MB read.
-/// Throws roam::Error for a store of a newer format, for a CURRENT of another program, and if a file cannot be read or
+/// uses only copies that have a code of it. Reads within the memory of the build. The store must be locked. Throws
+/// roam::Error for a store of a newer format, for a CURRENT of another program, and if a file cannot be read or
 /// written.
-[[nodiscard]] RootMending mend_root(const Folder& store, const std::optional<StoreKey>& key,
-                                    const std::function<void()>& tick);
+[[nodiscard]] RootMending mend_root(Work& work, const std::optional<StoreKey>& key);
 
 }  // namespace roam::store
