@@ -115,4 +115,21 @@ TEST(StoreBuildHostile, AManifestMayTakeAllMemoryOfTheBuildAndNoMore) {
   EXPECT_NE(refusal([&] { roam::build_store(o); }).find("--memory"), std::string::npos);
 }
 
+TEST(StoreBuildHostile, APlanThatTakesMoreThanTheMemoryAsksForMore) {
+  const TestFolder folder;
+  auto o = options({write_ply(folder.file("a.ply"), field(60, 1.0, Vec3(0.0)))}, folder.file("s"));
+  o.memory = roam::StoreBuildOptions::least_memory;
+  roam::StoreBuildReport report;
+  ASSERT_EQ(roam::plan_store(o, report), 1U);
+  const std::string file = folder.file("s/scratch/plan.json");
+  std::string values;
+  for (int i = 0; i < 10'000'000; ++i) values += "[],";
+  for (const std::string& text : {"[" + values + "1]", "\"" + std::string(65 << 20, 'x') + "\""}) {
+    std::ofstream(file) << text;
+    const std::string said = refusal([&] { roam::build_task(o, 0, report); });
+    EXPECT_NE(said.find("--memory"), std::string::npos) << said;
+    EXPECT_EQ(said.find("plan again"), std::string::npos) << said;
+  }
+}
+
 }  // namespace

@@ -71,9 +71,11 @@ void write_plan(const Work& work, const Plan& plan) {
 Plan read_plan(const Work& work) {
   const Folder& store = work.store;
   const std::uint64_t memory = work.options.memory;
-  if (!size_of(store, plan_file)) {
+  const std::optional<std::uint64_t> bytes = size_of(store, plan_file);
+  if (!bytes) {
     throw NothingPlanned(store.string(), "there is no plan: nothing is being built there; begin with --plan");
   }
+  if (*bytes > memory / 4) throw TooLarge((store / plan_file).string(), memory / 4);
   const std::optional<std::string> text = read_coded(store, plan_file, memory / 4, work.options.key);
   if (!text) {
     throw Error::at(
@@ -83,7 +85,7 @@ Plan read_plan(const Work& work) {
                     store.string()));
   }
   try {
-    const Json json = parse_json(*text, plan_file, memory / 2);
+    const Json json = parse_json(*text, (store / plan_file).string(), memory / 2);
     if (json.at("scratch_version").get<int>() != scratch_version) throw std::runtime_error("of another version");
     Plan plan;
     plan.options = json.at("options").get<std::string>();
@@ -114,6 +116,8 @@ Plan read_plan(const Work& work) {
     }
     if (plan.tasks > plan.shards.size()) throw std::runtime_error("it has more tasks than shards");
     return plan;
+  } catch (const TooLarge&) {
+    throw;
   } catch (const std::exception& e) {
     throw Error::at((store / plan_file).string(),
                     fmt::format("{} cannot be used ({}); plan again", (store / plan_file).string(), e.what()));
