@@ -7,6 +7,7 @@
 
 #include "clutter.h"
 #include "store/build/tasks.h"
+#include "store_builds.h"
 
 namespace {
 
@@ -89,6 +90,27 @@ TEST(StoreTasks, OfNothingAreNone) {
   assign_tasks(plan, 64);
   EXPECT_EQ(plan.tasks, 0U);
   EXPECT_EQ(longest_task(plan), 0U);
+}
+
+TEST(StoreTasks, AreReportedEachByItself) {
+  const TestFolder folder;
+  auto o = store_builds::options({store_builds::write_ply(folder.file("a.ply"), store_builds::field(760, 0.5, {}))},
+                                 folder.file("s"));
+  o.tasks = 2;
+  roam::StoreBuildReport report;
+  ASSERT_EQ(roam::plan_store(o, report), 2U);
+  EXPECT_EQ(report.parts_read, 1U);
+  EXPECT_EQ(report.triangles_to_build, report.triangles);
+  for (const std::uint64_t task : {0, 1}) {
+    roam::build_task(o, task, report);
+    EXPECT_EQ(report.parts_read, 0U);
+    EXPECT_EQ(report.shards_built, 1U);
+    EXPECT_EQ(report.triangles_to_build, report.triangles);
+  }
+  roam::merge_store(o, report);
+  EXPECT_EQ(report.shards_built, 0U);
+  EXPECT_EQ(report.triangles_to_build, report.triangles);
+  EXPECT_GT(report.read_seconds, 0.0) << "times add up";
 }
 
 TEST(StoreTasks, AreNamedByRanges) {

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <future>
-#include <map>
 #include <memory>
 #include <set>
 
@@ -13,6 +12,7 @@
 #include "store/build/fingerprint.h"
 #include "store/build/layout.h"
 #include "store/build/merge.h"
+#include "store/build/notes.h"
 #include "store/build/output_folder.h"
 #include "store/build/plan.h"
 #include "store/build/root.h"
@@ -33,37 +33,17 @@ void make_folders(const Folder& store) {
   }
 }
 
-/// The notes of all parts for people. A sentence about several parts appears once, with the first of them.
-class Notes {
- public:
-  void add(const std::string& part, const std::vector<std::string>& notes) {
-    for (const std::string& note : notes) {
-      const std::string sentence = note.substr(part.size() + 2);
-      const auto [it, is_new] = place_.emplace(sentence, said_.size());
-      if (is_new) said_.push_back({part, sentence, 0});
-      if (!is_new) ++said_[it->second].others;
-    }
-  }
-  [[nodiscard]] std::vector<std::string> text() const {
-    std::vector<std::string> lines;
-    for (const Said& s : said_) {
-      const std::string others = s.others > 0 ? fmt::format(" and {} more", s.others) : "";
-      lines.push_back(s.part + others + ": " + s.sentence);
-    }
-    return lines;
-  }
-
- private:
-  struct Said {
-    std::string part, sentence;
-    std::size_t others;
-  };
-  std::map<std::string, std::size_t> place_;
-  std::vector<Said> said_;
-};
+/// Forgets what an earlier step reported, except its time.
+void begin_step(StoreBuildReport& report) {
+  StoreBuildReport now;
+  now.read_seconds = report.read_seconds;
+  now.plan_seconds = report.plan_seconds;
+  now.shard_seconds = report.shard_seconds;
+  now.merge_seconds = report.merge_seconds;
+  report = std::move(now);
+}
 
 void describe(const Plan& plan, StoreBuildReport& report) {
-  report.triangles = 0;
   for (const PlannedShard& shard : plan.shards) report.triangles += shard.stretch.triangles;
   report.shards = plan.shards.size();
   report.shards_to_build = plan.to_build().size();
@@ -73,7 +53,7 @@ void describe(const Plan& plan, StoreBuildReport& report) {
   report.parts = plan.parts.size();
   Notes notes;
   for (const PartRecord& part : plan.parts) notes.add(part.info.name, part.notes);
-  report.notes = notes.text();
+  notes.prepend_to(report.notes);
 }
 
 /// Adds a note. Notes are whole sentences.
@@ -164,7 +144,7 @@ std::optional<Plan> plan_locked(Work& work, const std::set<std::string>& damaged
     report.triangles += manifest.parts[i].triangles;
     notes.add(manifest.parts[i].name, by_part[i]);
   }
-  report.notes = notes.text();
+  notes.prepend_to(report.notes);
   note(report, std::move(mended));
   note(report, std::move(left));
   return plan;
@@ -262,6 +242,7 @@ void build_and_merge(Work& work, const Plan& plan, const std::set<std::string>& 
 
 std::uint64_t plan_store(const StoreBuildOptions& options, StoreBuildReport& report) {
   const DefaultFloatingPoint guard;
+  begin_step(report);
   Work work(options);
   check_output(options);
   OutputFolder output(work.store, options.through_link, options.progress);
@@ -271,6 +252,7 @@ std::uint64_t plan_store(const StoreBuildOptions& options, StoreBuildReport& rep
 
 void read_share(const StoreBuildOptions& options, std::uint64_t i, StoreBuildReport& report) {
   const DefaultFloatingPoint guard;
+  begin_step(report);
   Work work(options);
   check_output(options);
   if (i >= options.tasks) {
@@ -298,6 +280,7 @@ void read_share(const StoreBuildOptions& options, std::uint64_t i, StoreBuildRep
 
 void build_task(const StoreBuildOptions& options, std::uint64_t i, StoreBuildReport& report) {
   const DefaultFloatingPoint guard;
+  begin_step(report);
   Work work(options);
   work.store = Folder::held(options.output, options.through_link);
   const Plan plan = read_plan(work);
@@ -315,6 +298,7 @@ void build_task(const StoreBuildOptions& options, std::uint64_t i, StoreBuildRep
 
 void merge_store(const StoreBuildOptions& options, StoreBuildReport& report) {
   const DefaultFloatingPoint guard;
+  begin_step(report);
   Work work(options);
   work.store = Folder::held(options.output, options.through_link);
   const auto lock = locked(work.store, options.progress);
