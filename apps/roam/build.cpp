@@ -198,6 +198,7 @@ ExitStatus run_steps(const BuildVerb& verb) {
     options.key = build_key(verb);
     if (verb.plan && verb.shard) {
       read_share(options, *verb.shard, report);
+      tell_notes(verb, report);
       tell_task(verb, report, seconds());
       return done;
     }

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <utility>
+
 #include "text/printable.h"
 
 namespace roam::reader {
@@ -51,19 +53,23 @@ void add_count_notes(ImportReport& report, const ImportOptions& options, const s
         count, by_number(count, "reference leads", "references lead"), by_number(count, "was", "were"),
         listed(report.outside_files)));
   }
-  if (const auto& walls = report.confinement; walls && (walls->landlock == 0 || !walls->system_calls)) {
-    notes.push_back(fmt::format(
-        "The scene was read without {}, which this system does not offer; open no scene of a stranger here. "
-        "SECURITY.md says more.",
-        walls->system_calls   ? "Landlock"
-        : walls->landlock > 0 ? "seccomp"
-                              : "Landlock and seccomp"));
-  }
+  if (auto note = note_of_confinement(report)) notes.push_back(std::move(*note));
   for (std::size_t i = 0; i < matched.size(); ++i) {
     if (!matched[i])
       notes.push_back(fmt::format("No object's name matches '{}'; nothing was ignored.", printable(options.ignore[i])));
   }
   report.notes.insert(report.notes.begin(), notes.begin(), notes.end());
+}
+
+std::optional<std::string> note_of_confinement(const ImportReport& report) {
+  const auto& walls = report.confinement;
+  if (!walls || (walls->landlock > 0 && walls->system_calls)) return std::nullopt;
+  return fmt::format(
+      "The scene was read without {}, which this system does not offer; open no scene of a stranger here. "
+      "SECURITY.md says more.",
+      walls->system_calls   ? "Landlock"
+      : walls->landlock > 0 ? "seccomp"
+                            : "Landlock and seccomp");
 }
 
 std::optional<std::string> note_of_missing_images(std::uint64_t count, const std::vector<std::string>& files) {

@@ -14,6 +14,9 @@ namespace roam::reader {
 /// Inserts notes about the report's counts, and about patterns that matched nothing, before report.notes.
 void add_count_notes(ImportReport& report, const ImportOptions& options, const std::vector<bool>& matched);
 
+/// The sentence about a reader that this system could not confine, if it was one. add_count_notes inserts it, too.
+[[nodiscard]] std::optional<std::string> note_of_confinement(const ImportReport& report);
+
 /// The first few names, separated by commas, with a hint if there are others.
 [[nodiscard]] std::string listed(const std::vector<std::string>& names);
 

@@ -7,6 +7,7 @@
 #include <mutex>
 #include <utility>
 
+#include "import/report_notes.h"
 #include "store/authentic.h"
 #include "store/build/histogram.h"
 #include "store/build/layout.h"
@@ -259,7 +260,10 @@ PartRecord read_part(Work& work, const ScenePart& part, const std::string& id, i
   record.runs = intake.runs();
   record.has_runs = true;
   record.content = intake.content();
-  for (const std::string& note : report.notes) record.notes.push_back(valid(note_of(part, note)));
+  record.confinement = reader::note_of_confinement(report);
+  for (const std::string& note : report.notes) {
+    if (note != record.confinement) record.notes.push_back(valid(note_of(part, note)));
+  }
   const std::vector<std::byte> bytes = encode_part(file);
   NewFile out(work.store, part_file("new"));
   out.write(bytes);

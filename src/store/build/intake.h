@@ -27,10 +27,12 @@ struct PartRecord {
   std::vector<Run> runs;
   bool has_runs = false;           ///< the runs are in the scratch folder
   std::vector<std::string> notes;  ///< of the import; each begins with the name of the part
-  std::uint64_t content = 0;       ///< XXH3 of what was read; only of a part that was read just now
+  // Only of a part that was read just now:
+  std::uint64_t content = 0;                 ///< XXH3 of what was read
+  std::optional<std::string> confinement{};  ///< see note_of_confinement; of this machine, so no note of the store
 };
 
-/// All but has_runs and content, for the files of the scratch folder.
+/// All but has_runs and what is of the moment, for the files of the scratch folder.
 [[nodiscard]] Json json_of(const PartRecord& record);
 /// The reverse. Throws an exception if the JSON does not hold a record.
 [[nodiscard]] PartRecord record_of(const Json& json);

@@ -191,6 +191,10 @@ bool SceneReader::read(const std::vector<std::size_t>& numbers) {
     if (failures[n]) read_one(numbers[n], 1);  // again, with all of the memory
   }
   report_.parts_read += numbers.size();
+  for (const std::size_t i : numbers) {
+    const std::optional<std::string>& note = records_[i].confinement;
+    if (note && std::count(report_.notes.begin(), report_.notes.end(), *note) == 0) report_.notes.push_back(*note);
+  }
   return true;
 }
 
