@@ -156,6 +156,23 @@ TEST_F(Publish, AHostileUpstreamRemovesNothing) {
   EXPECT_EQ(all_bytes(*Store::open(to())), right);
 }
 
+TEST_F(Publish, CountsAFileOfTwoPartsOnce) {
+  make(1);
+  roam::store::Manifest manifest = Store::open(from())->state().manifest;
+  ASSERT_EQ(manifest.parts[0].triangles % 2, 0U);
+  manifest.parts[0].triangles /= 2;
+  manifest.parts.push_back(manifest.parts[0]);
+  manifest.parts[1].name = "twin";
+  roam::store::publish(from(), manifest);
+  std::uint64_t last = 0, all = 0;
+  static_cast<void>(roam::publish_store(from(), to(), [&](std::uint64_t done, std::uint64_t total) {
+    last = done;
+    all = total;
+    return true;
+  }));
+  EXPECT_EQ(last, all);
+}
+
 TEST_F(Publish, AManifestThatChangesMeanwhileIsRefused) {
   make(1);
   const std::string file = roam::store::manifest_file(Store::open(from())->info().hash);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <set>
+#include <string_view>
 #include <system_error>
 #include <vector>
 
@@ -25,7 +26,8 @@ class Publisher {
       : from_(from.state()), to_(to), progress_(progress) {
     done_.hash = from_.info.hash;
     for (const ShardInfo& shard : from_.manifest.shards) total_ += shard.bytes;
-    for (const PartInfo& part : from_.manifest.parts) total_ += part.bytes;
+    std::set<std::string_view> files;  // parts of the same content share one
+    for (const PartInfo& part : from_.manifest.parts) total_ += files.insert(part.file).second ? part.bytes : 0;
   }
 
   StorePublication run() {
@@ -95,7 +97,7 @@ class Publisher {
   const Store::State& from_;
   const Folder& to_;
   const std::function<bool(std::uint64_t, std::uint64_t)>& progress_;
-  std::set<std::string> seen_;  ///< parts of the same content share a file
+  std::set<std::string> seen_;
   std::uint64_t bytes_ = 0, total_ = 0;
   StorePublication done_;
 };
