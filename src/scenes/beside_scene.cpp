@@ -10,9 +10,9 @@ namespace roam::app {
 std::filesystem::path store_beside(const std::filesystem::path& scene) {
   std::filesystem::path path = std::filesystem::absolute(scene).lexically_normal();
   if (!path.has_filename()) path = path.parent_path();
-  const bool relative = scene.is_relative() && scene.lexically_normal().has_parent_path() == false;
+  const bool is_here = scene.is_relative() && path.parent_path() == std::filesystem::current_path();
   path += ".roam";
-  return relative ? path.filename() : path;
+  return is_here ? path.filename() : path;
 }
 
 void demand_no_link(const std::filesystem::path& store) {

@@ -38,6 +38,23 @@ TEST(ViewStore, FindsTheStoreBesideTheScene) {
   EXPECT_TRUE(report.notes.empty()) << report.notes.front();
 }
 
+TEST(ViewStore, LiesBesideAFolderHoweverThatIsNamed) {
+  const TestFolder folder;
+  fs::create_directories(folder.file("Data/sub"));
+  const fs::path before = fs::current_path();
+  fs::current_path(folder.file("Data"));
+  const fs::path beside = fs::current_path().parent_path() / "Data.roam";
+  for (const char* name : {".", "./", "sub/..", "../Data", "sub/../../Data/"})
+    EXPECT_EQ(store_beside(name), beside) << name;
+  EXPECT_EQ(store_beside("sub"), "sub.roam");
+  EXPECT_EQ(store_beside("./sub/"), "sub.roam");
+  EXPECT_EQ(store_beside("sub/mine.dae"), fs::current_path() / "sub/mine.dae.roam");
+  EXPECT_EQ(store_beside("sub/../../Data/mine.dae"), "mine.dae.roam");
+  fs::current_path("sub");
+  EXPECT_EQ(store_beside(".."), beside);
+  fs::current_path(before);
+}
+
 TEST(ViewStore, FindsAStartInIt) {
   Driven d;
   d.options.at.clear();
