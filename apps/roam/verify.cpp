@@ -29,6 +29,8 @@ struct VerifyOptions {
   std::filesystem::path store;
   WebAccess web;
   std::vector<std::filesystem::path> scene;  ///< to repair the store from; empty: no repair
+  std::vector<std::filesystem::path> allow;  ///< ImportOptions::allow of the scene
+  std::optional<std::uint64_t> memory;       ///< bytes, for the repair
   int threads = 0;
   bool json = false;
 };
@@ -117,6 +119,8 @@ std::uint64_t repair(const VerifyOptions& options) {
   StoreBuildOptions build;
   build.scene = options.scene;
   build.output = options.store;
+  build.import.allow = options.allow;
+  build.memory = options.memory.value_or(build.memory);
   build.threads = options.threads;
   build.key = user_key().key.value_or(key_of_this_run());
   StoreBuildReport report;
@@ -162,7 +166,8 @@ decodes every tile, and compares counts, boxes and the hash of all triangles. Da
 store is solid there; everywhere else you can walk in it.
 
 --repair builds only the damaged shards again, from the scene that the store was made of. The store knows its --up,
---unit, --ignore and --lossless. The report also says whether you built the store or somebody else.
+--unit, --ignore and --lossless; only --allow must be given again. The report also says whether you built the store or
+somebody else.
 
 Exit status 0 if the store is whole, 3 if it is not, or if its build is not finished; 1 if that cannot be found out,
 such as when the network fails.
@@ -184,8 +189,19 @@ void add_verify(CLI::App& program, Run& run) {
                   *verb->add_option("STORE", o.store, "The store's folder, or its address")->required()->type_name(""),
                   o.web);
   verb->option_defaults()->group("Options");
-  verb->add_option("--repair", o.scene, "Build damaged parts again from this scene, which the store was made of")
-      ->type_name("SCENE");
+  CLI::Option* repair =
+      verb->add_option("--repair", o.scene, "Build damaged parts again from this scene, which the store was made of")
+          ->type_name("SCENE");
+  verb->add_option("--allow", o.allow,
+                   "A folder that the store was built with (--allow), for the repair; may be repeated")
+      ->type_name("DIR")
+      ->expected(1)
+      ->take_all()
+      ->needs(repair);
+  verb->add_option("--memory", o.memory, "Memory for the repair and its reader (default: 1G; at least 256M)")
+      ->transform(bytes())
+      ->type_name("SIZE")
+      ->needs(repair);
   verb->add_option("--threads", o.threads, "Threads for the repair (default: one per core)")
       ->check(thread_count())
       ->type_name("N");

@@ -172,6 +172,24 @@ TEST_F(StoreVerbs, DamageIsNamedSolidAndRepaired) {
   EXPECT_EQ(fs::file_size(only_pack(bad)), fs::file_size(only_pack(store())));
 }
 
+TEST_F(StoreVerbs, ARepairTakesTheFoldersAndTheMemoryOfTheBuild) {
+  const TestFolder folder;
+  const std::string made = folder.file("s.roam"), allowed = folder.file("");
+  ASSERT_EQ(run({"build", scene(), "-o", made, "--allow", allowed}).status, 0);
+  flip(only_pack(made), 1000);
+  const ProgramResult refused = run({"verify", made, "--repair", scene()});
+  EXPECT_EQ(refused.status, 1) << refused.out;
+  EXPECT_TRUE(contains(refused.err, "--allow")) << refused.err;
+  const ProgramResult little = run({"verify", made, "--repair", scene(), "--allow", allowed, "--memory", "255M"});
+  EXPECT_EQ(little.status, 1) << little.out;
+  EXPECT_TRUE(contains(little.err, "256 MiB")) << little.err;
+  const ProgramResult repaired = run({"verify", made, "--repair", scene(), "--allow", allowed, "--memory", "2G"});
+  EXPECT_EQ(repaired.status, 0) << repaired.err;
+  EXPECT_EQ(run({"verify", made}).status, 0);
+  EXPECT_EQ(run({"verify", made, "--allow", allowed}).status, 2);
+  EXPECT_EQ(run({"verify", made, "--memory", "2G"}).status, 2);
+}
+
 TEST_F(StoreVerbs, EveryTileDamagedHoldsABodyAndLetsNothingThrough) {
   const TestFolder folder;
   const std::string bad = copy(folder);

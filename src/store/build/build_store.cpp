@@ -334,8 +334,8 @@ StoreBuildReport repair_store(const StoreBuildOptions& options) {
     throw Error::at(
         options.output.string(),
         fmt::format("{0} cannot be repaired: {1}, and no copy of the manifest is whole, so nothing tells how "
-                    "it was built; `roam build` with its scene, `-o {0}`, --adopt, and the --up, --unit, --ignore and "
-                    "--lossless that it was built with, builds it again",
+                    "it was built; `roam build` with its scene, `-o {0}`, --adopt, and the --up, --unit, --ignore, "
+                    "--allow and --lossless that it was built with, builds it again",
                     options.output.string(), root.wrong));
   }
   if (!is_file(store, current_file)) refuse_to_open(options.output);

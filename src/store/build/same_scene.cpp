@@ -12,7 +12,7 @@ std::string difference(const Store& store, std::span<const std::filesystem::path
                        bool lossless, const std::optional<StoreKey>& key, const std::function<void()>& tick) {
   const Manifest& manifest = store.state().manifest;
   const std::string options = text_of(import);
-  if (manifest.options != options) return "it was built with other options (--up, --unit, --ignore)";
+  if (manifest.options != options) return "it was built with other options (--up, --unit, --ignore, --allow)";
   if (lossless && !manifest.lossless) return "it was built without --lossless";
   const std::vector<ScenePart> parts = scene_parts(scene, import);
   for (std::size_t i = 0; i < std::min(parts.size(), manifest.parts.size()); ++i) {
