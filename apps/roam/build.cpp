@@ -40,7 +40,7 @@ struct BuildVerb {
 };
 
 /// Options that a plan fixes for its shards and its merge.
-constexpr const char* reading_options[] = {"--up", "--unit", "--ignore", "--lossless"};
+constexpr const char* reading_options[] = {"--up", "--unit", "--ignore", "--allow", "--lossless"};
 
 StoreBuildOptions build_options(const BuildVerb& verb, Steps& steps) {
   StoreBuildOptions options;
@@ -241,6 +241,10 @@ void check_usage(const BuildVerb& verb) {
   if (const auto memory = verb.scene.memory; memory && *memory < StoreBuildOptions::least_memory) {
     throw UsageError(fmt::format("--memory {:.5g} MiB", std::ldexp(static_cast<double>(*memory), -20)),
                      fmt::format("a build needs at least {} MiB", StoreBuildOptions::least_memory >> 20));
+  }
+  if (!verb.near.empty() && (verb.plan || verb.merge)) {
+    throw UsageError(fmt::format("--near with {}", verb.plan ? "--plan" : "--merge"),
+                     "only --shard builds shards; name the position there");
   }
   if (!verb.plan && (verb.shard || verb.merge)) {
     if (verb.reading.empty()) return;  // --shard and --merge read the plan, not the scene

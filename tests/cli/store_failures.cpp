@@ -17,8 +17,11 @@ TEST_F(StoreFailures, ReadingOptionsOfAShardOrAMergeAreWrongUsage) {
   const std::string planned = folder.file("planned.roam");
   ASSERT_EQ(run({"build", scene(), "-o", planned, "--plan"}).status, 0);
   for (const std::vector<std::string>& step : {std::vector<std::string>{"--shard", "0"}, {"--merge"}}) {
-    for (const std::vector<std::string>& reading :
-         {std::vector<std::string>{"--up", "y"}, {"--unit", "m"}, {"--ignore", "Door*"}, {"--lossless"}}) {
+    for (const std::vector<std::string>& reading : {std::vector<std::string>{"--up", "y"},
+                                                    {"--unit", "m"},
+                                                    {"--ignore", "Door*"},
+                                                    {"--allow", folder.file("")},
+                                                    {"--lossless"}}) {
       std::vector<std::string> arguments{"build", "-o", planned};
       arguments.insert(arguments.end(), step.begin(), step.end());
       arguments.insert(arguments.end(), reading.begin(), reading.end());
@@ -27,7 +30,15 @@ TEST_F(StoreFailures, ReadingOptionsOfAShardOrAMergeAreWrongUsage) {
       EXPECT_TRUE(contains(told.err, reading[0]) && contains(told.err, "--plan")) << told.err;
     }
   }
-  EXPECT_EQ(run({"build", "-o", planned, "--shard", "0", "--threads", "1", "--memory", "256M"}).status, 0);
+  for (const std::vector<std::string>& step : {std::vector<std::string>{scene(), "--plan"}, {"--merge"}}) {
+    std::vector<std::string> arguments{"build", "-o", planned};
+    arguments.insert(arguments.end(), step.begin(), step.end());
+    arguments.emplace_back("--near=1,2,3");
+    const ProgramResult told = run(arguments);
+    EXPECT_EQ(told.status, 2) << step.back();
+    EXPECT_TRUE(contains(told.err, "--near with " + step.back())) << told.err;
+  }
+  EXPECT_EQ(run({"build", "-o", planned, "--shard", "0", "--near=1,2,3", "--memory", "256M"}).status, 0);
   EXPECT_EQ(run({"build", "-o", planned, "--merge"}).status, 0);
 }
 
