@@ -275,8 +275,10 @@ ExitStatus build(BuildVerb verb) {
   } catch (const std::exception&) {
     // Ctrl-C also ends the reader process, which is then no error of the scene.
     if (!interrupted()) throw;
-    throw Stopped(fmt::format("stopped; what was done is kept in {}: the same command again goes on from there",
-                              verb.output.string()));
+    throw Stopped(user_key().key
+                      ? fmt::format("stopped; what was done is kept in {}: the same command again goes on from there",
+                                    verb.output.string())
+                      : "stopped; the same command begins anew, because no key of yours can be used");
   }
 }
 

@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "cli_scenes.h"
+#include "environment_variable.h"
 #include "roam/error.h"
 #include "scenes/user_key.h"
 #include "store/authentic.h"
@@ -262,6 +263,19 @@ TEST_F(StoreTrust, WithoutAKeyAStoreIsBuiltAndNotBelieved) {
   EXPECT_TRUE(contains(adopted.out, "up to date")) << adopted.out;
   EXPECT_EQ(planned.status, 1);
   EXPECT_TRUE(contains(planned.err, "set HOME or XDG_DATA_HOME")) << planned.err;
+}
+
+TEST_F(StoreTrust, ABuildThatIsStoppedGoesOnWithAKeyAlone) {
+  const std::string reader =
+      folder_.write("reader", "#!/bin/sh\ncase \"$*\" in *--only-list*) exec '" ROAM_READER_PROGRAM
+                              "' \"$@\";; esac\nkill -INT $PPID\nexec sleep 100\n");
+  fs::permissions(reader, fs::perms::owner_all);
+  const EnvironmentVariable slow("ROAM_READER", reader);
+  const ProgramResult own = run({"build", scene()});
+  EXPECT_TRUE(contains(own.err, "the same command again goes on")) << own.err;
+  const EnvironmentVariable nowhere("XDG_DATA_HOME", folder_.write("no folder", ""));
+  const ProgramResult keyless = run({"build", scene()});
+  EXPECT_TRUE(contains(keyless.err, "begins anew") && !contains(keyless.err, "goes on")) << keyless.err;
 }
 
 TEST_F(StoreTrust, AKeyIsTheUsersAlone) {
