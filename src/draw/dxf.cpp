@@ -188,9 +188,16 @@ class Writer {
     entities_ += fmt::format("40\n{:.4f}\n1\n{}\n", height, text_value(value));
   }
 
-  /// Pieces of a line inside a rectangle; an empty one takes all.
-  static std::vector<Polyline> inside(const Polyline& line, const Rect& clip_to) {
+  /// Pieces of a line inside a rectangle, or the part of an area; an empty one takes all.
+  static std::vector<Polyline> inside(Polyline line, bool closed, const Rect& clip_to) {
     if (clip_to.empty()) return {line};
+    if (closed) {
+      for (int axis = 0; axis < 2; ++axis) {
+        keep_side(line, axis, clip_to.lower[axis], -1.0);
+        keep_side(line, axis, clip_to.upper[axis], 1.0);
+      }
+      return {line};
+    }
     std::vector<Polyline> pieces;
     for (std::size_t i = 0; i + 1 < line.size(); ++i) {
       Segment s{line[i], line[i + 1]};
@@ -208,11 +215,11 @@ class Writer {
     const Colour& colour = shape.style.width > 0.0 || !shape.style.fill ? shape.style.stroke : *shape.style.fill;
     for (const Polyline& drawn : shape.lines) {
       if (drawn.empty()) continue;
-      // Lines with a clip may lead out of their view and into it again.
+      // What has a clip may lead out of its view and into it again.
       const Point at = shape.clip.empty() ? drawn.front() : shape.clip.center();
       const Placed* const placed = owner(shape.what, at, sign_room);
       if (placed == nullptr) continue;
-      for (Polyline& piece : shape.closed ? std::vector<Polyline>{drawn} : inside(drawn, shape.clip)) {
+      for (Polyline& piece : inside(drawn, shape.closed, shape.clip)) {
         for (Point& p : piece) p = (*placed)(p);
         line(shape.what, piece, shape.closed, colour);
       }

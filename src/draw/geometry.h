@@ -8,6 +8,7 @@
 #include <glm/common.hpp>
 #include <glm/vec2.hpp>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "roam/math.h"
@@ -105,6 +106,20 @@ struct Turn {
   s.a = glm::clamp(from > 0.0 ? a + from * d : a, r.lower, r.upper);
   s.b = glm::clamp(to < 1.0 ? a + to * d : s.b, r.lower, r.upper);
   return true;
+}
+
+/// Cuts a polygon to its part on one side of a plane: where the coordinate `axis` is at most `limit` if `side` is 1,
+/// and at least that if it is -1.
+template <typename V>
+void keep_side(std::vector<V>& polygon, int axis, double limit, double side) {
+  std::vector<V> kept;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const V a = polygon[i], b = polygon[(i + 1) % polygon.size()];
+    const double from = side * (limit - a[axis]), to = side * (limit - b[axis]);
+    if (from >= 0.0) kept.push_back(a);
+    if ((from < 0.0) != (to < 0.0)) kept.push_back(a + from / (from - to) * (b - a));
+  }
+  polygon = std::move(kept);
 }
 
 }  // namespace roam::draw

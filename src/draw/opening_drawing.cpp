@@ -80,25 +80,13 @@ Polyline floor_area(const Triangle& t, const OpeningView& o, const OpeningDrawin
   return area_of({d.turn.plan(t[0]), d.turn.plan(t[1]), d.turn.plan(t[2])}, d.plan.view);
 }
 
-/// The part of a polygon on one side of the plane `depth` metres along the way.
-void keep_side(std::vector<Vec3>& polygon, double depth, double side) {
-  std::vector<Vec3> kept;
-  for (std::size_t i = 0; i < polygon.size(); ++i) {
-    const Vec3 a = polygon[i], b = polygon[(i + 1) % polygon.size()];
-    const double from = side * (depth - a.y), to = side * (depth - b.y);
-    if (from >= 0.0) kept.push_back(a);
-    if ((from < 0.0) != (to < 0.0)) kept.push_back(a + from / (from - to) * (b - a));
-  }
-  polygon = std::move(kept);
-}
-
 Polyline face_area(const Triangle& t, const OpeningView& o, const OpeningDrawing& d) {
   const double half = 0.5 * o.depth + face_beyond;
   std::vector<Vec3> part{d.turn(t[0]), d.turn(t[1]), d.turn(t[2])};
   const auto [nearest, farthest] = std::minmax({part[0].y, part[1].y, part[2].y});
   if (nearest > half || farthest < -half) return {};
-  keep_side(part, half, 1.0);
-  keep_side(part, -half, -1.0);
+  keep_side(part, 1, half, 1.0);
+  keep_side(part, 1, -half, -1.0);
   Polyline polygon;
   for (const Vec3& corner : part) polygon.emplace_back(corner.x, corner.z);
   return area_of(std::move(polygon), d.section.view);

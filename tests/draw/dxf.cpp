@@ -97,6 +97,25 @@ TEST(Dxf, LinesEndAtTheFrameOfTheirView) {
   EXPECT_NEAR(std::abs(way[0].at().y - way[0].at(11).y), 20.0, 0.01);
 }
 
+TEST(Dxf, AreasEndAtTheFrameOfTheirView) {
+  draw::Page page;
+  const draw::Turn turn{{100, 200, 0}, 1.0, 0.0};
+  draw::Panel plan = page.panel("plan", {{{-10, -5}, {10, 5}}, 80.0, 80.0}, draw::sheet_margin, &turn);
+  plan.areas("floor", {{{-100, -1}, {5, -1}, {5, 2}, {-100, 2}}, {{20, 0}, {21, 0}, {21, 1}}}, draw::floor_style);
+  plan.areas("corner", {{{8, 3}, {14, 3}, {8, 9}}}, draw::floor_style);
+  const std::string dxf = to_dxf(page.finish());
+  const auto all = entities(dxf);
+  EXPECT_EQ(on(all, "PLAN_FLOOR", "POLYLINE").size(), 1u);
+  draw::Rect floor, corner;
+  for (const Entity& e : on(all, "PLAN_FLOOR", "VERTEX")) floor.include(e.at());
+  for (const Entity& e : on(all, "PLAN_CORNER", "VERTEX")) corner.include(e.at());
+  expect_near(floor.lower, {90, 199});
+  expect_near(floor.upper, {105, 202});
+  expect_near(corner.lower, {108, 203});
+  expect_near(corner.upper, {110, 205});
+  EXPECT_NE(dxf.find("$EXTMIN\n10\n90.0000\n20\n199.0000\n"), std::string::npos);
+}
+
 TEST(Dxf, ASectionStandsBesideThePlanWithTrueHeights) {
   const auto all = entities(to_dxf(sheet()));
   const auto floor = on(all, "SECTION_FLOOR", "LINE");
