@@ -33,7 +33,8 @@ std::vector<char> corners_of(const std::vector<Place>& places, std::size_t begin
   return keep;
 }
 
-/// Removes the places without a mark in `keep`. The place with the least clearance stays.
+/// Removes the places without a mark in `keep`. The place with the least clearance stays. The last place must have a
+/// mark. After a removed teleport the next place is one.
 void leave_out(Record& record, std::vector<char> keep) {
   auto& places = record.places;
   std::size_t nearest = places.size();
@@ -45,17 +46,41 @@ void leave_out(Record& record, std::vector<char> keep) {
   std::vector<std::size_t> now(places.size());  // new index of each place, or of the next one that stays
   std::size_t count = 0;
   double least = 0.0;  // clearance of removed places since the last kept one; 0: none
+  bool teleport = false;
   for (std::size_t i = 0; i < places.size(); ++i) {
     now[i] = count;
     const double clearance = places[i].clearance;
     if (clearance > 0.0) least = least > 0.0 ? std::min(least, clearance) : clearance;
+    teleport = teleport || places[i].teleport;
     if (!keep[i]) continue;
     places[count] = places[i];
+    places[count].teleport = teleport;
     places[count++].clearance = least;
     least = 0.0;
+    teleport = false;
   }
   places.resize(count);
   for (Touch& touch : record.touches) touch.place = now[touch.place];
+}
+
+/// Removes every second run, with its touches, until there are few: the ends of all must stay. The first run stays, and
+/// the last one.
+void thin_runs(Record& record) {
+  constexpr std::ptrdiff_t most_runs = Record::most / 4;
+  auto& places = record.places;
+  const auto begins = [](const Place& p) { return p.teleport; };
+  while (std::count_if(places.begin(), places.end(), begins) > most_runs) {
+    std::size_t last = places.size() - 1;  // begin of the last run
+    while (!places[last].teleport) --last;
+    std::vector<char> keep(places.size(), 1);
+    bool removed = false;
+    for (std::size_t i = 1; i < last; ++i) {
+      removed = removed != places[i].teleport;
+      keep[i] = removed ? 0 : 1;
+    }
+    std::erase_if(record.touches, [&](const Touch& touch) { return !keep[touch.place]; });
+    leave_out(record, std::move(keep));
+  }
 }
 
 /// Removes places until a quarter of the limit is free.
@@ -67,6 +92,7 @@ void thin_places(Record& record) {
   record.tolerance = std::max(finest, record.tolerance);
   // Places thinned before are not thinned again with the same tolerance, or deviations would add up.
   thin_from(record.thinned > 0 ? record.thinned - 1 : 0);
+  thin_runs(record);
   while (record.places.size() > Record::most / 4 * 3) {
     record.tolerance *= 2.0;
     thin_from(0);

@@ -24,14 +24,16 @@ struct Touch {
   std::size_t place = 0;  ///< index of the place where it was reported
 };
 
-/// The record of a walk in progress: at most some 8,000 places for any length.
+/// The record of a walk in progress: at most some 8,000 places for any length. Of more than some 2,000 runs between
+/// teleports some are left out.
 struct Record {
   static constexpr std::size_t most = 8192;  ///< places, and touches
 
   std::vector<Place> places;
   std::vector<Touch> touches;
   std::size_t thinned = 0;  ///< the number of first places that were thinned
-  /// Metres. Removed places lie within twice this of the straight lines between the kept ones. 0: none was removed.
+  /// Metres. Places removed from runs that stay lie within twice this of the straight lines between the kept ones. 0:
+  /// none was removed.
   double tolerance = 0.0;
   double spacing = 1e-2;  ///< metres; consecutive touches nearer to each other than this count once
 };
@@ -50,7 +52,7 @@ struct WayPoint {
 struct Way {
   std::vector<WayPoint> points;
   double length = 0.0;     ///< `along` of the last point
-  double tolerance = 0.0;  ///< metres: no place of the body lies farther from the way
+  double tolerance = 0.0;  ///< metres: no place of the recorded runs lies farther from the way
   /// For each place of the record, its distance along the way.
   std::vector<double> along;
   /// Index of the place that ends the piece with the least certified clearance; places.size() if none is certified.

@@ -46,6 +46,50 @@ TEST(PictureMemory, HoldsFewPlacesOfAWayOfAnyLength) {
   EXPECT_NEAR(glm::distance(record.places[way.nearest].position, place(nearest)), 0.0, 1e-12);
   EXPECT_LE(way.tolerance, 1.0);
   EXPECT_GT(way.tolerance, 0.001);
+TEST(PictureMemory, HoldsFewPlacesOfAWayThatIsAllJumps) {
+  // A jump and a stroll in each step, touching something.
+  Record record;
+  roam::StepReport report;
+  report.height = 1.8;
+  const auto place = [](int i) { return roam::Vec3(3.0 * i, 0.0, 1.0); };
+  const int steps = 20'000, nearest = 12'345;
+  for (int i = 0; i <= steps; ++i) {
+    report.from = report.to;
+    report.to = place(i) + roam::Vec3(i > 0 ? 1.0 : 0.0, 0.0, 0.0);
+    report.axis_clearance = 0.5;
+    report.segments.clear();
+    report.contacts.clear();
+    if (i > 0) {
+      roam::Segment jump, stroll;
+      jump.position = place(i);
+      jump.teleport = true;
+      stroll.position = report.to;
+      stroll.axis_clearance = i == nearest ? 0.31 : 0.5;
+      jump.height = stroll.height = 1.8;
+      report.segments.push(jump);
+      report.segments.push(stroll);
+      roam::Contact contact;
+      contact.point = report.to;
+      report.contacts.push(contact);
+    }
+    append(record, report, i == 0);
+    ASSERT_LE(record.places.size(), Record::most);
+  }
+  for (const Touch& touch : record.touches) {
+    ASSERT_LT(touch.place, record.places.size());
+    EXPECT_EQ(touch.point, record.places[touch.place].position);
+  }
+  const Way way = simplified(record, 0.001);
+  EXPECT_GT(way.points.size(), Record::most / 8);
+  EXPECT_EQ(way.points.front().position, place(0));
+  EXPECT_EQ(way.points.back().position, report.to);
+  for (std::size_t i = 1; i < way.points.size(); ++i) {
+    const double step = glm::distance(way.points[i - 1].position, way.points[i].position);
+    EXPECT_TRUE(way.points[i].jump || step <= 1.0) << i;
+  }
+  ASSERT_LT(way.nearest, record.places.size());
+  EXPECT_EQ(record.places[way.nearest].clearance, 0.31);
+  EXPECT_EQ(record.places[way.nearest].position, place(nearest) + roam::Vec3(1.0, 0.0, 0.0));
 }
 
 TEST(PictureMemory, HoldsOnlyAsManySegmentsAsItMay) {
