@@ -97,13 +97,15 @@ void draw(cairo_t* context, const Text& text) {
   cairo_new_path(context);
 }
 
-void draw(cairo_surface_t* surface, const Sheet& sheet) {
+/// Returns the first error of the drawing, which the surface does not know.
+cairo_status_t draw(cairo_surface_t* surface, const Sheet& sheet) {
   const Context context(cairo_create(surface));
   prepare(context.get());
   cairo_set_source_rgb(context.get(), 1.0, 1.0, 1.0);
   cairo_paint(context.get());
   for (const auto& item : sheet.items) std::visit([&](const auto& shape) { draw(context.get(), shape); }, item);
   cairo_show_page(context.get());
+  return cairo_status(context.get());
 }
 
 const std::filesystem::path& checked(const std::filesystem::path& file, PictureFile::Views views) {
@@ -155,14 +157,14 @@ void PictureFile::write(const Sheet& sheet) {
   } else if (extension == ".svg") {
     const Surface surface(cairo_svg_surface_create_for_stream(append, &bytes, sheet.width, sheet.height));
     cairo_svg_surface_set_document_unit(surface.get(), CAIRO_SVG_UNIT_PX);
-    draw(surface.get(), sheet);
+    status = draw(surface.get(), sheet);
     cairo_surface_finish(surface.get());
-    status = cairo_surface_status(surface.get());
+    if (status == CAIRO_STATUS_SUCCESS) status = cairo_surface_status(surface.get());
   } else {
     const Surface surface(cairo_image_surface_create(CAIRO_FORMAT_RGB24, static_cast<int>(std::lround(sheet.width)),
                                                      static_cast<int>(std::lround(sheet.height))));
-    draw(surface.get(), sheet);
-    status = cairo_surface_write_to_png_stream(surface.get(), append, &bytes);
+    status = draw(surface.get(), sheet);
+    if (status == CAIRO_STATUS_SUCCESS) status = cairo_surface_write_to_png_stream(surface.get(), append, &bytes);
   }
   if (status != CAIRO_STATUS_SUCCESS) {
     throw Error(fmt::format("cannot draw the picture {}: {}", path_.string(), cairo_status_to_string(status)));

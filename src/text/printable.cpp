@@ -24,6 +24,9 @@ bool is_invisible(char32_t c) {
          (c >= 0x1BCA0 && c <= 0x1BCA3) || (c >= 0x1D173 && c <= 0x1D17A) || (c >= 0xE0000 && c <= 0xE0FFF);
 }
 
+/// Codes that are no characters of any text, in Unicode's words: Cairo draws none.
+bool is_no_character(char32_t c) { return (c & 0xFFFE) == 0xFFFE || (c >= 0xFDD0 && c <= 0xFDEF); }
+
 struct Piece {
   std::string_view shown;
   std::size_t bytes = 1;  ///< of the text that `shown` stands for
@@ -33,7 +36,7 @@ Piece first_piece(std::string_view text) {
   const Character c = first_character(text);
   if (c.bytes == 0) return {replacement, 1};
   if (is_blank(c.code)) return {" ", c.bytes};
-  if (is_control(c.code)) return {replacement, c.bytes};
+  if (is_control(c.code) || is_no_character(c.code)) return {replacement, c.bytes};
   return {text.substr(0, c.bytes), c.bytes};
 }
 

@@ -26,9 +26,9 @@ struct Character {
 /// and other invisible characters.
 [[nodiscard]] bool is_control(char32_t code);
 
-/// One line of valid UTF-8 that moves no cursor and changes no direction. White space becomes a blank. Other controls
-/// and invalid bytes become U+FFFD. If the text has more than `most` characters, an ellipsis replaces those in the
-/// middle.
+/// One line of valid UTF-8 that moves no cursor and changes no direction. White space becomes a blank. Other controls,
+/// noncharacters and invalid bytes become U+FFFD. If the text has more than `most` characters, an ellipsis replaces
+/// those in the middle.
 [[nodiscard]] std::string printable(std::string_view text, std::size_t most = longest_name);
 /// The same for an excerpt from a malformed file: 24 characters, because a link may lead to a secret.
 [[nodiscard]] inline std::string excerpt(std::string_view text) { return printable(text, 24); }

@@ -8,6 +8,8 @@
 #include "draw/labels.h"
 #include "draw/picture_file.h"
 #include "draw/walk_sheet.h"
+#include "program.h"
+#include "roam/error.h"
 #include "roam/generate.h"
 #include "sheet_items.h"
 #include "walker_scenes.h"
@@ -286,7 +288,37 @@ TEST(PictureLabels, ArePrintable) {
   Sheet sheet;
   draw::Labels labels(sheet);
   labels.write("name", "T\xc3\xbcr \xff\x1b[2J", {0.0, 0.0}, draw::small_font, draw::ink);
+  labels.write("name", "A\xef\xbf\xbe\xef\xb7\x90\xf0\x9f\xbf\xbeZ", {0.0, 0.0}, draw::small_font, draw::ink);
   EXPECT_EQ(std::get<Text>(sheet.items.at(0)).text, "T\xc3\xbcr \xef\xbf\xbd\xef\xbf\xbd[2J");
+  EXPECT_EQ(std::get<Text>(sheet.items.at(1)).text, "A\xef\xbf\xbd\xef\xbf\xbd\xef\xbf\xbdZ");
+}
+
+TEST(PictureFile, ShowsWhatIsDrawnAfterAnyName) {
+  const TestFolder folder;
+  const auto svg = [&](bool with_box) {
+    Sheet sheet;
+    sheet.width = sheet.height = 100.0;
+    draw::Labels(sheet).write("name", "A\xef\xbf\xbf", {10.0, 20.0}, draw::small_font, draw::ink);
+    const draw::Rect box{{20.0, 30.0}, {40.0, 50.0}};
+    if (with_box) sheet.items.emplace_back(Lines{"box", {box.outline()}, draw::wall_style, true});
+    draw::PictureFile(folder.file("a.svg")).write(sheet);
+    return folder.read("a.svg");
+  };
+  EXPECT_GT(svg(true).size(), svg(false).size());
+}
+
+TEST(PictureFile, IsNotReplacedByOneThatCannotBeDrawn) {
+  const TestFolder folder;
+  Sheet sheet;
+  sheet.width = sheet.height = 100.0;
+  for (const char* name : {"a.svg", "a.png"}) {
+    draw::PictureFile(folder.file(name)).write(sheet);
+    const std::string before = folder.read(name);
+    Sheet bad = sheet;
+    bad.items.emplace_back(Text{"name", "\xef\xbf\xbf", {10.0, 20.0}, draw::small_font, draw::ink, {}});
+    EXPECT_THROW(draw::PictureFile(folder.file(name)).write(bad), roam::Error) << name;
+    EXPECT_EQ(folder.read(name), before) << name;
+  }
 }
 
 }  // namespace

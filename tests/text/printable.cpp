@@ -51,6 +51,14 @@ TEST(Printable, ShowsNothingInvisible) {
   }
 }
 
+TEST(Printable, ReplacesNoncharacters) {
+  for (const char* c :
+       {"\xEF\xBF\xBE", "\xEF\xBF\xBF", "\xEF\xB7\x90", "\xEF\xB7\xAF", "\xF0\x9F\xBF\xBE", "\xF4\x8F\xBF\xBF"}) {
+    EXPECT_EQ(printable(std::string("a") + c + "z"), "a" + bad + "z") << c;
+  }
+  EXPECT_EQ(printable("\xEF\xBF\xBD\xEF\xB7\xB0"), "\xEF\xBF\xBD\xEF\xB7\xB0");
+}
+
 TEST(Printable, ReplacesWhatIsNoUtf8) {
   EXPECT_EQ(printable("a\xFFz"), "a" + bad + "z");
   EXPECT_EQ(printable("a\x9Bz"), "a" + bad + "z");                                // a lone continuation
