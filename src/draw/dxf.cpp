@@ -14,6 +14,8 @@ namespace {
 
 /// Pixels around a view in which its signs and its texts stand.
 constexpr double sign_room = 14.0, text_room = 120.0;
+/// Pixels per metre of a sheet without views.
+constexpr double page_scale = 80.0;
 /// Height of capital letters, as a share of the size of a font.
 constexpr double capital = 0.72;
 
@@ -91,6 +93,7 @@ struct Placed {
 class Writer {
  public:
   explicit Writer(const Sheet& sheet) : sheet_(sheet) {
+    if (sheet.views.empty()) placed_.push_back({&page_});
     place_views();
     for (const auto& item : sheet.items) std::visit([&](const auto& shape) { add(shape); }, item);
     for (const Placed& placed : placed_) {
@@ -103,7 +106,8 @@ class Writer {
 
   [[nodiscard]] std::string finish() const {
     std::string all = "999\nmade by roam\n0\nSECTION\n2\nHEADER\n9\n$ACADVER\n1\nAC1009\n9\n$INSUNITS\n70\n6\n";
-    for (const auto& [name, p] : {std::pair{"$EXTMIN", box_.lower}, {"$EXTMAX", box_.upper}}) {
+    const Rect box = box_.empty() ? Rect{Point(0.0), Point(0.0)} : box_;
+    for (const auto& [name, p] : {std::pair{"$EXTMIN", box.lower}, {"$EXTMAX", box.upper}}) {
       all += fmt::format("9\n{}\n10\n{:.4f}\n20\n{:.4f}\n30\n0.0\n", name, p.x, p.y);
     }
     all +=
@@ -142,6 +146,7 @@ class Writer {
 
   /// The view that an item belongs to; null: it is of the page.
   [[nodiscard]] const Placed* owner(const std::string& what, const Point& at, double room) const {
+    if (sheet_.views.empty()) return &placed_.front();
     for (const char* of_page : {" heading", " explanation", " scale bar", " scale length", " axis name", " axis x",
                                 " axis y", "label ground", " letter ground", "legend"}) {
       if (what.ends_with(of_page) || what == of_page) return nullptr;
@@ -240,6 +245,11 @@ class Writer {
   }
 
   const Sheet& sheet_;
+  /// Stands for the views if there are none.
+  const SheetView page_{"",
+                        {Point(0.0), {sheet_.width, sheet_.height}},
+                        {{Point(0.0), Point(sheet_.width, sheet_.height) / page_scale}, page_scale, page_scale},
+                        {}};
   std::vector<Placed> placed_;
   std::map<std::string, int> layers_;
   std::string entities_;

@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "cli/exit_status.h"
+#include "draw/opening.h"
 #include "draw/page.h"
 #include "draw/picture_file.h"
 #include "program.h"
@@ -114,6 +115,16 @@ TEST(Dxf, AreasEndAtTheFrameOfTheirView) {
   expect_near(corner.lower, {108, 203});
   expect_near(corner.upper, {110, 205});
   EXPECT_NE(dxf.find("$EXTMIN\n10\n90.0000\n20\n199.0000\n"), std::string::npos);
+}
+
+TEST(Dxf, HasTheTextsOfASheetWithoutViews) {
+  const std::string dxf = to_dxf(draw::opening_sheet("t", {}, {}, "answer"));
+  EXPECT_EQ(dxf.find("inf"), std::string::npos) << dxf;
+  const auto texts = on(entities(dxf), "TEXT", "TEXT");
+  ASSERT_EQ(texts.size(), 1u);
+  EXPECT_EQ(texts[0].values.at(1), "answer");
+  EXPECT_GT(on(entities(dxf), "TITLE", "TEXT").at(0).at().y, texts[0].at().y);
+  EXPECT_EQ(draw::to_dxf({}).find("inf"), std::string::npos);
 }
 
 TEST(Dxf, ASectionStandsBesideThePlanWithTrueHeights) {
