@@ -57,7 +57,7 @@ class OpeningPainter {
     const Point feet(d_.body.x, o_.floor), middle_of_body = feet + Point(0.0, 0.5 * o_.height);
     panel.capsule("body", feet - Point(0.0, sunk(o_)), o_.radius, o_.height, style_);
     if (o_.support_radius > 0.0) {
-      const Point left(-o_.support_radius, o_.floor), right(o_.support_radius, o_.floor);
+      const Point left = feet - Point(o_.support_radius, 0.0), right = feet + Point(o_.support_radius, 0.0);
       panel.lines("disc", {{left, right}}, disc_line_style);
       panel.label("label", right, {"support disc", length_text(o_.support_radius) + " around"}, disc_style.stroke);
     }

@@ -191,6 +191,7 @@ TEST(OpeningPicture, DrawsTheBodyOfAnEndBesideItsWall) {
   view.kind = OpeningView::Kind::beside;
   view.point = {0.0, 0.125, 1.0};
   view.body = Vec3(0.0);
+  view.support_radius = 0.2;
   view.fits = false;
   const Sheet sheet = opening_sheet("scene.obj", std::vector{view}, std::vector{mesh});
   const double scale = pixels_per_metre(sheet);
@@ -200,6 +201,10 @@ TEST(OpeningPicture, DrawsTheBodyOfAnEndBesideItsWall) {
   ASSERT_EQ(bodies.size(), 1u);
   EXPECT_LT(glm::distance(measures[0].lines[0][0], bodies[0].centre), 1.0);  // from the axis
   EXPECT_NEAR(glm::distance(measures[0].lines[0][1], bodies[0].centre), 0.25 * scale, 0.5);
+  const auto disc = all<Lines>(sheet, "section disc"), body = all<Lines>(sheet, "section body");
+  ASSERT_EQ(disc.size(), 1u);
+  ASSERT_EQ(body.size(), 1u);
+  EXPECT_NEAR(box(disc[0]).center().x, box(body[0]).center().x, 0.5);
   expect_readable(sheet);
 }
 
