@@ -19,13 +19,13 @@ constexpr double page_scale = 80.0;
 /// Height of capital letters, as a share of the size of a font.
 constexpr double capital = 0.72;
 
-/// The nearest of the colours 1 to 9 of AutoCAD. Ink is 7, which is black on white and white on black.
+/// The nearest of the colours 1 to 9 and 30 of AutoCAD. Ink is 7, which is black on white and white on black.
 int colour_number(const Colour& c) {
   struct Numbered {
     int number;
     double red, green, blue;
   };
-  constexpr std::array<Numbered, 10> known{{{1, 0.85, 0.08, 0.1},
+  constexpr std::array<Numbered, 11> known{{{1, 0.85, 0.08, 0.1},
                                             {2, 0.92, 0.75, 0.05},
                                             {3, 0.1, 0.6, 0.25},
                                             {4, 0.1, 0.65, 0.65},
@@ -34,7 +34,8 @@ int colour_number(const Colour& c) {
                                             {7, 0.1, 0.1, 0.12},
                                             {7, 1.0, 1.0, 1.0},
                                             {8, 0.42, 0.44, 0.48},
-                                            {9, 0.75, 0.76, 0.78}}};
+                                            {9, 0.75, 0.76, 0.78},
+                                            {30, 0.93, 0.42, 0.1}}};
   const auto off = [&](const Numbered& n) {
     const double r = n.red - c.red, g = n.green - c.green, b = n.blue - c.blue;
     return r * r + g * g + b * b;
@@ -160,8 +161,9 @@ class Writer {
 
   void begin(const char* type, const std::string& layer, const Colour& colour) {
     const std::string name = layer_name(layer);
-    layers_.try_emplace(name, colour_number(colour));
+    const int number = colour_number(colour), of_layer = layers_.try_emplace(name, number).first->second;
     entities_ += fmt::format("0\n{}\n8\n{}\n", type, name);
+    if (number != of_layer) entities_ += fmt::format("62\n{}\n", number);
   }
 
   void point(const Point& p, int code = 10) {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <fstream>
 #include <map>
+#include <set>
 #include <sstream>
 
 #include "cli/exit_status.h"
@@ -115,6 +116,19 @@ TEST(Dxf, AreasEndAtTheFrameOfTheirView) {
   expect_near(corner.lower, {108, 203});
   expect_near(corner.upper, {110, 205});
   EXPECT_NE(dxf.find("$EXTMIN\n10\n90.0000\n20\n199.0000\n"), std::string::npos);
+}
+
+TEST(Dxf, LinesOfOneKindKeepTheirColours) {
+  draw::Page page;
+  const draw::Turn turn{{0, 0, 0}, 1.0, 0.0};
+  draw::Panel plan = page.panel("plan", {{{-10, -5}, {10, 5}}, 80.0, 80.0}, draw::sheet_margin, &turn);
+  for (const draw::Style& style : draw::gap_styles) plan.lines("way", {{{-4, 1}, {3, 1}}}, style);
+  const auto way = on(entities(to_dxf(page.finish())), "PLAN_WAY", "LINE");
+  ASSERT_EQ(way.size(), draw::gap_styles.size());
+  std::set<std::string> colours;  // none: that of the layer
+  for (const Entity& e : way) colours.insert(e.values.contains(62) ? e.values.at(62) : "");
+  EXPECT_EQ(colours.size(), draw::gap_styles.size());
+  EXPECT_FALSE(way[0].values.contains(62));
 }
 
 TEST(Dxf, HasTheTextsOfASheetWithoutViews) {
