@@ -109,7 +109,7 @@ Polyline simplified(const Polyline& line, double tolerance) {
 }
 
 std::vector<Polyline> joined(std::span<const Segment> segments, const std::function<Point(const Point&)>& to_sheet,
-                             std::size_t most) {
+                             std::size_t most, Coarsened& coarsened) {
   std::vector<Segment> drawn;
   drawn.reserve(segments.size());
   for (const Segment& s : segments) drawn.push_back({to_sheet(s.a), to_sheet(s.b)});
@@ -117,7 +117,8 @@ std::vector<Polyline> joined(std::span<const Segment> segments, const std::funct
   snap(drawn, Point(0.0), Point(grid));
   std::vector<Polyline> lines = straightened(drawn);
   while (pieces_of(lines) > most && grid < coarsest_grid) {
-    snap(drawn, Point(0.0), Point(grid *= 2.0));
+    coarsened.grid = grid *= 2.0;
+    snap(drawn, Point(0.0), Point(grid));
     lines = straightened(drawn);
   }
   if (pieces_of(lines) <= most) return lines;
@@ -125,7 +126,9 @@ std::vector<Polyline> joined(std::span<const Segment> segments, const std::funct
   const auto length = [](const Segment& s) { return glm::distance(s.a, s.b); };
   std::stable_sort(drawn.begin(), drawn.end(),
                    [&](const Segment& a, const Segment& b) { return length(a) > length(b); });
-  drawn.resize(std::min(drawn.size(), most));
+  const std::size_t all = drawn.size();
+  drawn.resize(std::min(all, most));
+  coarsened.left_out = all - drawn.size();
   return straightened(std::move(drawn));
 }
 

@@ -58,11 +58,18 @@ void keep_corners(std::size_t first, std::size_t last, double tolerance, const D
 /// Removes the corners that lie within `tolerance` of the line between their neighbours.
 [[nodiscard]] Polyline simplified(const Polyline& line, double tolerance);
 
+/// What it cost to draw few lines.
+struct Coarsened {
+  double grid = 0.0;         ///< pixels that ends were rounded to; 0: an eighth, as usual
+  std::size_t left_out = 0;  ///< short segments
+};
+
 /// Moves the segments to the sheet by `to_sheet` and rounds their ends to an eighth of a pixel. Removes points and
 /// duplicates, joins ends that meet, and straightens lines. If these have more than `most` pieces, rounds to coarser
-/// grids, up to 4 pixels, and then keeps the longest segments.
+/// grids, up to 4 pixels, then keeps the longest segments, and says so in `coarsened`.
 [[nodiscard]] std::vector<Polyline> joined(std::span<const Segment> segments,
-                                           const std::function<Point(const Point&)>& to_sheet, std::size_t most);
+                                           const std::function<Point(const Point&)>& to_sheet, std::size_t most,
+                                           Coarsened& coarsened);
 
 /// Takes any number of segments and holds about `most`. If there are more, rounds their ends to a grid, so that lines
 /// stay joined, and removes points and duplicates. Its cells are squares on the sheet of `frame`, whatever its heights

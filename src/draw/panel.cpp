@@ -1,9 +1,13 @@
 #include "draw/panel.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <functional>
 #include <glm/geometric.hpp>
 #include <numbers>
+
+#include "cli/tell.h"
 
 namespace roam::draw {
 namespace {
@@ -42,7 +46,12 @@ void Panel::segments(const std::string& what, std::span<const Segment> segments,
   for (Segment s : segments) {
     if (clip(s, frame_.view)) seen.push_back(s);
   }
-  put(what, joined(seen, std::cref(*this), most), style, false, area());
+  Coarsened coarsened;
+  put(what, joined(seen, std::cref(*this), most, coarsened), style, false, area());
+  if (coarsened.grid == 0.0) return;
+  app::tell(fmt::format(
+      "note: too many lines in the picture ({}): rounded to {:.3g} m{}", name_ + what, coarsened.grid / scale(),
+      coarsened.left_out > 0 ? fmt::format(", and the {} shortest left out", coarsened.left_out) : ""));
 }
 
 void Panel::lines(const std::string& what, std::vector<Polyline> lines, const Style& style, bool closed) {

@@ -32,7 +32,7 @@ class Panel {
 
   // Shapes in metres.
 
-  /// Loose segments, joined into at most about `most` lines.
+  /// Loose segments, joined into at most about `most` lines. A note on standard error tells how coarse that made them.
   void segments(const std::string& what, std::span<const Segment> segments, const Style& style,
                 std::size_t most = usual_segments);
   void lines(const std::string& what, std::vector<Polyline> lines, const Style& style, bool closed = false);

@@ -9,6 +9,7 @@
 #include "draw/frames.h"
 #include "draw/levels.h"
 #include "draw/lines.h"
+#include "draw/page.h"
 #include "draw/stations.h"
 #include "draw/way.h"
 #include "math/round_length.h"
@@ -194,8 +195,9 @@ TEST(PictureSection, ShowsWallsOnceWhereItBeginsEndsAndTurns) {
       const Point across = Point(-way_there.y, way_there.x) / glm::length(way_there);
       Mesh mesh;
       scenes::add_wall(mesh, middle.x - across.x, middle.y - across.y, middle.x + across.x, middle.y + across.y, 0, 1);
+      Coarsened none;
       const auto lines = joined(
-          cut({&mesh, 1}, Turn{}, {}, parts, nobody).sections[0], [](const Point& p) { return 100.0 * p; }, 1000);
+          cut({&mesh, 1}, Turn{}, {}, parts, nobody).sections[0], [](const Point& p) { return 100.0 * p; }, 1000, none);
       double sum = 0.0;
       for (const Polyline& line : lines) {
         for (std::size_t k = 1; k < line.size(); ++k) sum += glm::distance(line[k - 1], line[k]);
@@ -277,8 +279,9 @@ TEST(PictureLines, JoinLooseSegmentsIntoFew) {
     return Point(300 + 200 * std::cos(angle), 300 + 200 * std::sin(angle));
   };
   for (int i = 0; i < parts; ++i) circle.push_back({at(7 * i % parts), at((7 * i % parts + 1) % parts)});
+  Coarsened none;
   const auto lines = joined(
-      circle, [](const Point& p) { return p; }, 100'000);
+      circle, [](const Point& p) { return p; }, 100'000, none);
   ASSERT_EQ(lines.size(), 1u);
   EXPECT_EQ(lines[0].front(), lines[0].back());
   EXPECT_LT(lines[0].size(), 200u);
@@ -296,15 +299,38 @@ TEST(PictureLines, StayFewHoweverManySegmentsThereAre) {
     dust.push_back({p, p + Point(random.between(-3, 3), random.between(-3, 3))});
   }
   std::size_t points = 0;
+  Coarsened coarsened, none;
   for (const Polyline& line : joined(
-           dust, [](const Point& p) { return p; }, 10'000))
+           dust, [](const Point& p) { return p; }, 10'000, coarsened))
     points += line.size();
   EXPECT_LE(points, 20'000u);
   EXPECT_GT(points, 1'000u);
+  EXPECT_EQ(coarsened.grid, 4.0);
+  EXPECT_GT(coarsened.left_out, 1'000u);
   const std::vector<Segment> speck{{{1.01, 1.01}, {1.02, 1.03}}};
   EXPECT_TRUE(joined(
-                  speck, [](const Point& p) { return p; }, 10)
+                  speck, [](const Point& p) { return p; }, 10, none)
                   .empty());
+  EXPECT_EQ(none.grid, 0.0);
+}
+
+TEST(PictureLines, TellHowCoarseTheirNumberMadeThem) {
+  Random random(10);
+  std::vector<Segment> dust;
+  for (int i = 0; i < 2'000; ++i) {
+    const Point p(random.between(0, 50), random.between(0, 50));
+    dust.push_back({p, p + Point(random.between(-3, 3), random.between(-3, 3))});
+  }
+  Page page;
+  Panel panel = page.panel("plan", {{{0, 0}, {50, 50}}, 10.0, 10.0}, sheet_margin);
+  testing::internal::CaptureStderr();
+  panel.segments("walls", dust, wall_style);
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+  testing::internal::CaptureStderr();
+  panel.segments("walls", dust, wall_style, 100);
+  const std::string told = testing::internal::GetCapturedStderr();
+  EXPECT_TRUE(told.starts_with("roam: note: too many lines in the picture (plan walls): rounded to 0.4 m, and the "))
+      << told;
 }
 
 TEST(PictureWay, KeepsItsCornersAndItsLength) {

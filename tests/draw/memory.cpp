@@ -46,6 +46,8 @@ TEST(PictureMemory, HoldsFewPlacesOfAWayOfAnyLength) {
   EXPECT_NEAR(glm::distance(record.places[way.nearest].position, place(nearest)), 0.0, 1e-12);
   EXPECT_LE(way.tolerance, 1.0);
   EXPECT_GT(way.tolerance, 0.001);
+}
+
 TEST(PictureMemory, HoldsFewPlacesOfAWayThatIsAllJumps) {
   // A jump and a stroll in each step, touching something.
   Record record;
@@ -168,8 +170,10 @@ TEST(PictureMemory, StraightensLinesBeforeItRoundsThem) {
   std::vector<Segment> ceiling;
   const auto at = [](int i) { return Point(0.25 * i, i < 2000 ? 10.125 : 11.125); };
   for (int i = 0; i < 4000; ++i) ceiling.push_back({at(i), at(i + 1)});
+  Coarsened coarsened;
   const auto lines = joined(
-      ceiling, [](const Point& p) { return p; }, 10);
+      ceiling, [](const Point& p) { return p; }, 10, coarsened);
+  EXPECT_EQ(coarsened.grid, 0.0);
   ASSERT_EQ(lines.size(), 1U);
   const Polyline expected{{0.0, 10.125}, {499.75, 10.125}, {500.0, 11.125}, {1000.0, 11.125}};
   EXPECT_TRUE(lines[0] == expected || lines[0] == Polyline(expected.rbegin(), expected.rend()));
