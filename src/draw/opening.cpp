@@ -144,8 +144,7 @@ void add_opening(Page& page, const OpeningView& o, std::span<const Mesh> meshes,
 Sheet opening_sheet(const std::string& title, std::span<const OpeningView> openings, std::span<const Mesh> meshes,
                     const std::string& text, const std::optional<Overview>& overview) {
   Page page;
-  page.paragraph("title", title, title_font, ink);
-  page.down(8.0);
+  page.title(title);
   page.paragraph("text", text, text_font, pale_ink);
   if (overview) add_overview(page, *overview, meshes);
   char letter = 'A';

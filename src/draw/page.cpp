@@ -7,6 +7,7 @@
 
 #include "draw/picture_file.h"
 #include "math/round_length.h"
+#include "text/printable.h"
 
 namespace roam::draw {
 namespace {
@@ -15,11 +16,18 @@ namespace {
 constexpr double longest_scale_bar = 240.0;
 constexpr double axes_beside = 80.0;  ///< their centre, from the scale bar or the right end
 
+constexpr std::size_t longest_title = 200;  ///< characters
+
 }  // namespace
 
 std::string scale_text(double metres) {
   if (metres >= 1000.0) return fmt::format("{:g} km", metres * 1e-3);
   return metres >= 0.1 || metres == 0.0 ? fmt::format("{:g} m", metres) : fmt::format("{:g} mm", metres * 1e3);
+}
+
+void Page::title(const std::string& text) {
+  paragraph("title", printable(text, longest_title), title_font, ink);
+  down(8.0);
 }
 
 void Page::paragraph(const std::string& what, const std::string& text, const Font& font, const Colour& colour) {

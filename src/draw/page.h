@@ -42,6 +42,8 @@ class Page {
   /// Moves the lower end of the page's contents down.
   void down(double pixels) { y_ += pixels; }
 
+  /// The first text. Its middle is left out if it is long: the scene may be thousands of files.
+  void title(const std::string& text);
   /// A text over the whole width, in as many lines as it needs.
   void paragraph(const std::string& what, const std::string& text, const Font& font, const Colour& colour);
   /// Leaves room for a line of headings: with arrows if `axes`.

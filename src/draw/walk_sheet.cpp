@@ -95,8 +95,7 @@ class WalkSheet {
 
  private:
   void title() {
-    page_.paragraph("title", title_, title_font, ink);
-    page_.down(8.0);
+    page_.title(title_);
     const bool is_reached = !report_.interrupted && report_.result.outcome == Outcome::reached;
     page_.paragraph("outcome", words::headline(report_), text_font, is_reached ? green : red);
     if (!is_reached) page_.paragraph("why", words::explain(report_), text_font, red);

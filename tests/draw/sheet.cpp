@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 
 #include "draw/labels.h"
+#include "draw/opening.h"
 #include "draw/picture_file.h"
 #include "draw/walk_sheet.h"
 #include "program.h"
@@ -264,6 +265,16 @@ TEST(PictureSheet, TurnsALongWayAndShowsItsPlacesMagnified) {
   EXPECT_FALSE(drawn.all<Lines>("detail A section walls").empty());
   EXPECT_NEAR(drawn.only<Disc>("detail A plan body").radius, 0.3 * drawn.scale("detail scale"), 1e-6);
   EXPECT_TRUE(drawn.says("heights exaggerated"));
+}
+
+TEST(PictureSheet, HasAShortTitleForAnyNumberOfFiles) {
+  const std::string title = "first.ply" + std::string(100'000, 'W') + " along p.path";
+  const Drawn drawn(corridor(1.2), along_corridor, Mode::walk, {}, 1.4, title);
+  EXPECT_LT(drawn.sheet.height, 4000.0);
+  EXPECT_TRUE(drawn.says("first.ply"));
+  EXPECT_TRUE(drawn.says("p.path"));
+  const std::vector<Text> texts = sheets::all<Text>(draw::opening_sheet(title, {}, {}), "title");
+  EXPECT_LT(texts.size(), 20u);
 }
 
 TEST(PictureSheet, SaysWhereItFell) {
