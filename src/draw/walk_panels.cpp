@@ -66,11 +66,10 @@ class WalkPainter {
       top.clear();
       bottom.clear();
     };
-    const auto is_seen = [&](const Station& s) { return s.along >= seen_.lower.x && s.along <= seen_.upper.x; };
     const auto& stations = walk_.survey.stations;
     for (std::size_t i = 0; i + 1 < stations.size(); ++i) {
       const Station &from = stations[i], &to = stations[i + 1];
-      if (to.jump || !is_seen(from) || !is_seen(to)) {
+      if (to.jump || to.along < seen_.lower.x || from.along > seen_.upper.x) {
         close();
         continue;
       }

@@ -7,7 +7,9 @@
 
 #include "draw/labels.h"
 #include "draw/opening.h"
+#include "draw/page.h"
 #include "draw/picture_file.h"
+#include "draw/walk_panels.h"
 #include "draw/walk_sheet.h"
 #include "program.h"
 #include "roam/error.h"
@@ -265,6 +267,27 @@ TEST(PictureSheet, TurnsALongWayAndShowsItsPlacesMagnified) {
   EXPECT_FALSE(drawn.all<Lines>("detail A section walls").empty());
   EXPECT_NEAR(drawn.only<Disc>("detail A plan body").radius, 0.3 * drawn.scale("detail scale"), 1e-6);
   EXPECT_TRUE(drawn.says("heights exaggerated"));
+}
+
+TEST(PictureSheet, ShowsTheSpaceOfTheBodyInADetailOfALongPiece) {
+  // Measured only at both ends, as a way of hours is.
+  const draw::Record record;
+  const draw::Way way;
+  draw::RoomSurvey survey;
+  for (const double along : {0.0, 100.0}) {
+    draw::Station& station = survey.stations.emplace_back();
+    station.centre = {along, 0.0, 0.9};
+    station.along = along;
+    station.height = 1.8;
+  }
+  const draw::WalkDrawing walk{Mode::walk, 0.3, record, way, survey, 1000, {}, {}, {}, {}};
+  for (const double middle : {50.0, -50.0}) {
+    draw::Page page;
+    draw::Panel panel =
+        page.panel("detail A section", {draw::Rect::around({middle, 0.9}, 10.0, 3.0), 80.0, 80.0}, draw::sheet_margin);
+    paint_section(panel, walk, {});
+    EXPECT_EQ(sheets::all<Lines>(page.finish(), "detail A section band").size(), middle > 0.0 ? 1u : 0u);
+  }
 }
 
 TEST(PictureSheet, HasAShortTitleForAnyNumberOfFiles) {
