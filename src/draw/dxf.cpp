@@ -54,13 +54,17 @@ std::string layer_name(const std::string& what) {
   return name.substr(0, 31);
 }
 
-/// Letters beyond ASCII as \U+XXXX; control characters as blanks.
+/// Letters beyond ASCII as \U+XXXX; control characters as blanks. Percent signs beside each other begin a control code,
+/// as %%c that of a diameter: each is written as the code of a percent sign, %%%.
 std::string text_value(const std::string& utf8) {
   std::string text;
   for (std::size_t i = 0; i < utf8.size();) {
     const auto first = static_cast<unsigned char>(utf8[i]);
     const std::size_t length = first < 0x80 ? 1 : first < 0xE0 ? 2 : first < 0xF0 ? 3 : 4;
-    if (length == 1) {
+    const bool beside = (i > 0 && utf8[i - 1] == '%') || (i + 1 < utf8.size() && utf8[i + 1] == '%');
+    if (first == '%' && beside) {
+      text += "%%%";
+    } else if (length == 1) {
       text += first < 0x20 ? ' ' : utf8[i];
     } else {
       unsigned code = first & (0xFFu >> (length + 1));

@@ -162,6 +162,18 @@ TEST(Dxf, TextsAreAsHighAsOnTheSheetAndKeepTheirLetters) {
   EXPECT_NEAR(notes[0].number(40), 0.72 * 20.0 / 80.0, 1e-4);
 }
 
+TEST(Dxf, TextsAreNoControlCodesAndKeepTheirPercentSigns) {
+  draw::Page page;
+  draw::Panel plan = page.panel("plan", {{{-10, -5}, {10, 5}}, 80.0, 80.0}, draw::sheet_margin);
+  for (const char* text : {"50%%c", "50 %"}) {
+    plan.text("note", {0, 0}, {0, 0}, text, draw::small_font, draw::ink, draw::Labels::Align::left);
+  }
+  const auto notes = on(entities(to_dxf(page.finish())), "PLAN_NOTE", "TEXT");
+  ASSERT_EQ(notes.size(), 2u);
+  EXPECT_EQ(notes[0].values.at(1), "50%%%%%%c");  // %%% is the code of a percent sign
+  EXPECT_EQ(notes[1].values.at(1), "50 %");
+}
+
 TEST(Dxf, LeavesOutWhatBelongsToThePage) {
   const std::string dxf = to_dxf(sheet());
   for (const char* layer : {"SCALE", "AXIS", "EXPLANATION", "TITLE"}) EXPECT_EQ(dxf.find(layer), std::string::npos);
