@@ -31,9 +31,11 @@ std::optional<std::uint64_t> with_unit(std::string_view text, double step, bool 
     if (of_bytes && unit == "ib") unit.clear();
   }
   if (of_bytes && unit == "b") unit.clear();
-  constexpr double most = 1e18;
-  if (!unit.empty() || !(number >= 0.0) || number > most || number != std::floor(number)) return std::nullopt;
-  return static_cast<std::uint64_t>(number);
+  constexpr double most = 1e18, rounding = 1e-15;  // 4.1 has no exact double, and 4.1M none that is whole
+  const double whole = std::round(number);
+  if (!unit.empty() || !(number >= 0.0) || number > most || std::abs(number - whole) > rounding * number)
+    return std::nullopt;
+  return static_cast<std::uint64_t>(whole);
 }
 
 constexpr std::string_view choices_prefix = "one of ";

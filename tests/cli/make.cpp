@@ -56,6 +56,17 @@ TEST(MakeVerb, GivesTheSameBitsForTheSameSeed) {
   EXPECT_NE(first, make("c.ply", "6"));
 }
 
+TEST(MakeVerb, TakesNumbersOfThousandsWithDecimals) {
+  const TestFolder folder;
+  const auto make = [&](const char* triangles) {
+    return roam({"make", "terrain", "-o", folder.file("t.ply"), "--triangles", triangles, "--json"});
+  };
+  for (const char* triangles : {"16.1k", "2.01k"}) {
+    EXPECT_EQ(make(triangles).status, 0) << triangles << make(triangles).err;
+  }
+  EXPECT_EQ(make("2.0105k").status, 2);
+}
+
 TEST(MakeVerb, CountsOneObjectAsOne) {
   const TestFolder folder;
   const std::string told = run_roam({"make", "terrain", "-o", folder.file("t.ply"), "--triangles", "10k"}).out;
