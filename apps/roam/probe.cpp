@@ -309,14 +309,15 @@ ExitStatus probe(ProbeOptions o) {
   if (o.path && first.wide_enough) unwritten.attempt([&] { write_path(o, scene.survey, first); });
   if (o.path && !first.wide_enough)
     tell(fmt::format("{}: there is no way, so it was not written{}", o.path->string(), earlier_stays(*o.path)));
-  if (drawing) {
-    unwritten.attempt([&] { drawing->write(sheet_of(o.scene.file_names(), scene.survey, o.question, first)); });
-  }
   const words::ProbeDetails details = o.matrix ? words::ProbeDetails{} : details_of(o, scene, first);
   print_report(o.json, report_of(o, scene, answers, details),
                (o.matrix ? table(o.question, answers) : words::report(o.question, first, details).text()) +
                    kept_frame_line(o.scene),
                o.path.value_or(""));
+  // Behind the report, which Ctrl-C then does not cost.
+  if (drawing) {
+    unwritten.attempt([&] { drawing->write(sheet_of(o.scene.file_names(), scene.survey, o.question, first)); });
+  }
   unwritten.raise();
   const bool all = std::all_of(answers.begin(), answers.end(), [](const ProbeAnswer& a) { return a.passable; });
   return all ? done : answer_no;

@@ -201,6 +201,20 @@ verification::Verification verified(const WalkOptions& options, const OpenScene&
   return scene.store() ? verify(*scene.store(), pieces, goes_on) : verify(scene.loaded().meshes, pieces, goes_on);
 }
 
+/// Does work after the walk, which Ctrl-C may end. Returns whether it did not; else there is time to write the results.
+template <class Work>
+bool finishes(const Work& work) {
+  try {
+    work();
+    return true;
+  } catch (const std::runtime_error&) {
+    // Ctrl-C also ends the process that reads a scene, which is another error.
+    if (!interrupted()) throw;
+    give_time_to_write(longest_writing);
+    return false;
+  }
+}
+
 /// Maximum bytes per segment while a picture is made.
 constexpr std::uint64_t bytes_a_segment = 2048;
 
@@ -211,20 +225,20 @@ draw::Measured measured(OpenScene& scene, const WalkReport& report, const draw::
     stop_if_interrupted();
     scene.wait_around(Body{}, place, Vec3(0.0), reach);
   };
-  return draw::measure(scene.space(), report, record,
-                       scene.store() && !interrupted() ? draw::Arrive(arrive) : draw::Arrive());
+  return draw::measure(scene.space(), report, record, interrupted() ? draw::Arrive() : draw::Arrive(arrive));
 }
 
 /// The drawing of a measured walk. Call it after OpenScene::leave if the scene is a store.
 draw::Sheet sheet(const WalkOptions& options, const OpenScene& scene, const WalkReport& report,
                   const draw::Record& record, const draw::Measured& measured) {
+  const bool ends_early = !interrupted();
   const auto triangles = [&](const Box& box, const std::function<void(std::span<const Mesh>)>& take) {
     if (!scene.store()) return take(scene.loaded().meshes);
     const auto missing = [](const std::string& what) { tell(fmt::format("note: left out of the picture: {}", what)); };
     store::each_mesh(
         *scene.store(), box,
         [&](const Mesh& mesh) {
-          if (!report.interrupted) stop_if_interrupted();
+          if (ends_early) stop_if_interrupted();
           take({&mesh, 1});
         },
         missing);
@@ -235,14 +249,11 @@ draw::Sheet sheet(const WalkOptions& options, const OpenScene& scene, const Walk
                            report.triangles});
 }
 
-/// Verifies all moves; after Ctrl-C, if there is time.
+/// Verifies all moves, unless Ctrl-C comes before.
 void check_moves(const WalkOptions& options, const OpenScene& scene, const verification::PieceLog& pieces,
                  WalkReport& report, checking::SceneSum& sum) {
   const auto begin = std::chrono::steady_clock::now();
-  try {
-    report.verified = verified(options, scene, pieces, sum);
-  } catch (const Cancelled&) {
-    if (!report.interrupted) throw;
+  if (!finishes([&] { report.verified = verified(options, scene, pieces, sum); })) {
     tell(fmt::format("note: the {} moves were not all verified: Ctrl-C came before", pieces.size()));
   }
   report.verify_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
@@ -341,7 +352,9 @@ ExitStatus walk(WalkOptions options) {
   report.paging = scene.paging();
   report.times = recorder.times();
   std::optional<draw::Measured> seen;
-  if (drawing) seen = measured(scene, report, recorder.record());
+  if (drawing && !finishes([&] { seen = measured(scene, report, recorder.record()); })) {
+    tell(fmt::format("note: {} was not drawn: Ctrl-C came before", options.picture.string()));
+  }
   scene.leave();
   checking::SceneSum sum;
   if (options.checks()) check_moves(options, scene, recorder.pieces(), report, sum);
@@ -352,18 +365,20 @@ ExitStatus walk(WalkOptions options) {
     tell(fmt::format("note: the certificate begins at {}, where the body was put: it did not fit where it should start",
                      words::exactly_at(*freed)));
   });
-  const auto draw_way = [&] { drawing->write(sheet(options, scene, report, recorder.record(), *seen)); };
+  const auto draw_way = [&] {
+    unwritten.attempt([&] { drawing->write(sheet(options, scene, report, recorder.record(), *seen)); });
+  };
   // After Ctrl-C the picture may take more time than there is.
-  if (drawing && !report.interrupted) unwritten.attempt(draw_way);
+  const bool draws_last = seen && (interrupted() || !finishes(draw_way));
   const std::string text =
       text_report(report) + kept_frame_line(options.scene) + (options.stats ? stats_report(report) : "");
   print_report(options.json, json_report(report), text, options.trace);
-  if (drawing && report.interrupted) {
+  if (draws_last) {
     give_time_to_write(longest_drawing);
-    unwritten.attempt(draw_way);
+    draw_way();
   }
   unwritten.raise();
-  if (report.interrupted) return failed;
+  if (interrupted()) return failed;
   if (report.verified) {
     verification::demand_all_read(*report.verified, options.scene.names(), "check it by --against SCENE");
   }

@@ -75,7 +75,8 @@ class Interrupt : public testing::Test {
     int status = 0;
     const auto start = Clock::now();
     bool ended = false;
-    while (since(start) < after && !ended) {
+    const auto waits = [&] { return since(start) < after || (!awaited_.empty() && !fs::exists(awaited_)); };
+    while (waits() && !ended) {
       ended = ::waitpid(program, &status, WNOHANG) == program;
       std::this_thread::sleep_for(std::chrono::milliseconds(10));
     }
@@ -106,7 +107,8 @@ class Interrupt : public testing::Test {
     EXPECT_LT(since(sent), longest);
     // Orderly, or as the signal does it.
     const bool in_order = WIFEXITED(status) && WEXITSTATUS(status) == 128 + signal;
-    EXPECT_TRUE((done && WIFEXITED(status) && WEXITSTATUS(status) == 0) || in_order ||
+    const bool may_be_done = done || !awaited_.empty();
+    EXPECT_TRUE((may_be_done && WIFEXITED(status) && WEXITSTATUS(status) == 0) || in_order ||
                 (WIFSIGNALED(status) && WTERMSIG(status) == signal))
         << status << ": " << folder_.read("log");
     expect_no_child();
@@ -121,6 +123,7 @@ class Interrupt : public testing::Test {
   static const std::string& scene() { return scene_; }
 
   TestFolder folder_;
+  fs::path awaited_;    ///< the signal is sent when this file is there; empty: at its time
   double again_ = 0.0;  ///< s after the signals they are sent again; 0: they are not
 
  private:
@@ -162,6 +165,17 @@ TEST_F(Interrupt, WalkByThreeSignalsAtOnceWritesWhatItHas) {
   EXPECT_NE(folder_.read("log").find("INTERRUPTED after"), std::string::npos) << folder_.read("log");
 }
 
+TEST_F(Interrupt, WalkAfterItsEndTellsHowItWent) {
+  awaited_ = folder_.file("t.csv");
+  Arguments walk{"walk", scene(), "--wander", "1", "--trace", awaited_, "--picture", folder_.file("way.svg"), "--json"};
+  for (const char* more : {"--stats", "--verify"}) {
+    fs::remove(awaited_);
+    walk.push_back(more);
+    interrupt(walk, 0.0, SIGINT);
+    EXPECT_NE(folder_.read("log").find("\"outcome\""), std::string::npos) << folder_.read("log");
+  }
+}
+
 TEST_F(Interrupt, SweepThatWaitsForQuestions) { interrupt({"sweep", scene()}); }
 
 TEST_F(Interrupt, Train) { interrupt({"train", scene(), "--spacing", "0.05", "-o", folder_.file("p.json")}); }
@@ -169,6 +183,14 @@ TEST_F(Interrupt, Train) { interrupt({"train", scene(), "--spacing", "0.05", "-o
 TEST_F(Interrupt, Probe) {
   interrupt({"probe", scene(), "--from=10,10,100", "--to=690,690,100", "--radius", "0.3", "--height", "1.7",
              "--spacing", "0.05", "--picture", folder_.file("way.svg")});
+}
+
+TEST_F(Interrupt, ProbeThatDrawsHasTold) {
+  awaited_ = folder_.file("way.path");
+  interrupt({"probe", scene(), "--from=10,10,100", "--to=12,10,100", "--radius", "0.3", "--height", "1.7", "--path",
+             awaited_, "--picture", folder_.file("way.svg")},
+            0.0, SIGINT);
+  EXPECT_NE(folder_.read("log").find("YES"), std::string::npos) << folder_.read("log");
 }
 
 TEST_F(Interrupt, Build) {
