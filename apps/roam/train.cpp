@@ -166,8 +166,9 @@ ExitStatus train(TrainVerbOptions o) {
   } else if (drawing) {
     const std::vector<draw::OpeningView> views = views_of(report);
     // Without a deciding opening, draw the answer alone.
-    drawing->write(draw::opening_sheet(o.scene.file_names(), views, scene.survey.meshes(),
-                                       views.empty() ? words::answer(report.training, o.train) : std::string()));
+    const std::string text = views.empty() ? words::answer(report.training, o.train) : std::string();
+    unwritten.attempt(
+        [&] { drawing->write(draw::opening_sheet(o.scene.file_names(), views, scene.survey.meshes(), text)); });
   }
   unwritten.raise();
   if (!report.training.complete) return failed;

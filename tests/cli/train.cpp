@@ -139,6 +139,15 @@ TEST(TrainVerb, TellsItsAnswerThoughTheProfileCannotBeWritten) {
   EXPECT_TRUE(report["profile"].is_null());
 }
 
+TEST(TrainVerb, NamesEachFileThatCannotBeWritten) {
+  const TestFolder folder;
+  const std::string scene = folder.write("scene.obj", obj(corridor_mesh({})));
+  const ProgramResult train =
+      run_without_files(ROAM_PROGRAM, {"train", scene, "-o", folder.file("p.json"), "--picture", folder.file("d.svg")});
+  EXPECT_EQ(train.status, 1);
+  for (const char* name : {"p.json", "d.svg"}) EXPECT_TRUE(contains(train.err, name)) << train.err;
+}
+
 TEST(TrainVerb, WritesNoProfileWhereItHasLearnedNothing) {
   // Read in no time, and 9 million places to look at.
   roam::Mesh hall;
