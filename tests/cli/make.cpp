@@ -59,7 +59,7 @@ TEST(MakeVerb, GivesTheSameBitsForTheSameSeed) {
 TEST(MakeVerb, TakesNumbersOfThousandsWithDecimals) {
   const TestFolder folder;
   const auto make = [&](const char* triangles) {
-    return roam({"make", "terrain", "-o", folder.file("t.ply"), "--triangles", triangles, "--json"});
+    return run_roam({"make", "terrain", "-o", folder.file("t.ply"), "--triangles", triangles, "--json"});
   };
   for (const char* triangles : {"16.1k", "32.3k"}) {
     EXPECT_EQ(make(triangles).status, 0) << triangles << make(triangles).err;

@@ -33,7 +33,7 @@ namespace {
 using graphics::Headless;
 
 /// What the call complains of; empty when it does not.
-std::string complaint(const std::function<void()>& call) {
+std::string complaint_of(const std::function<void()>& call) {
   try {
     call();
   } catch (const Error& e) {
@@ -111,7 +111,7 @@ TEST(GraphicsContext, TheEnvironmentChoosesTheWay) {
   setenv("ROAM_HEADLESS", "egl", 1);
   EXPECT_EQ(graphics::open_headless(64, 64).place.substr(0, 3), "EGL");
   setenv("ROAM_HEADLESS", "magic", 1);
-  expect_holds(complaint([] { (void)graphics::open_headless(64, 64); }), {"ROAM_HEADLESS", "magic", "egl", "xvfb"});
+  expect_holds(complaint_of([] { (void)graphics::open_headless(64, 64); }), {"ROAM_HEADLESS", "magic", "egl", "xvfb"});
   unsetenv("ROAM_HEADLESS");
 }
 
@@ -217,9 +217,9 @@ TEST(GraphicsContext, AWindowIsGreyUntilItsFirstFrame) {
 
 TEST(GraphicsContext, WithoutADisplayItSaysWhatToDo) {
   unsetenv("DISPLAY");
-  expect_holds(complaint([] { (void)graphics::open_window("", 64, 64); }), {"DISPLAY", "not set", "--headless"});
+  expect_holds(complaint_of([] { (void)graphics::open_window("", 64, 64); }), {"DISPLAY", "not set", "--headless"});
   setenv("DISPLAY", ":9987", 1);
-  expect_holds(complaint([] { (void)graphics::open_window("", 64, 64); }), {":9987", "--headless"});
+  expect_holds(complaint_of([] { (void)graphics::open_window("", 64, 64); }), {":9987", "--headless"});
   unsetenv("DISPLAY");
 }
 
@@ -234,7 +234,7 @@ TEST(GraphicsContext, ADisplayWithoutOpenGlIsToldSo) {
   char line[16] = {};
   ASSERT_GT(read(ends[0], line, sizeof line - 1), 0);
   setenv("DISPLAY", (std::string(":") + std::to_string(std::atoi(line))).c_str(), 1);
-  expect_holds(complaint([] { (void)graphics::open_window("", 64, 64); }), {"GLX", "--headless"});
+  expect_holds(complaint_of([] { (void)graphics::open_window("", 64, 64); }), {"GLX", "--headless"});
   unsetenv("DISPLAY");
   close(ends[0]);
   close(ends[1]);
@@ -242,8 +242,8 @@ TEST(GraphicsContext, ADisplayWithoutOpenGlIsToldSo) {
 
 TEST(GraphicsContext, RefusesSizesThatCannotBe) {
   for (const auto& [width, height] : {std::pair{0, 10}, std::pair{10, -1}, std::pair{20'000, 10}}) {
-    expect_holds(complaint([&, w = width, h = height] { (void)graphics::open_headless(w, h); }), {"16384"});
-    expect_holds(complaint([&, w = width, h = height] { (void)graphics::open_window("", w, h); }), {"16384"});
+    expect_holds(complaint_of([&, w = width, h = height] { (void)graphics::open_headless(w, h); }), {"16384"});
+    expect_holds(complaint_of([&, w = width, h = height] { (void)graphics::open_window("", w, h); }), {"16384"});
   }
 }
 
@@ -257,7 +257,7 @@ class GraphicsContextDeathTest : public testing::Test {
     std::_Exit(0);
   }
   static void say_complaint(Headless how) {
-    say(complaint([&] { (void)graphics::open_headless(64, 64, how); }));
+    say(complaint_of([&] { (void)graphics::open_headless(64, 64, how); }));
   }
   static void lose_egl() { setenv("__EGL_VENDOR_LIBRARY_FILENAMES", "/nowhere/egl.json", 1); }
   static void lose_programs() { setenv("PATH", "/nowhere", 1); }
