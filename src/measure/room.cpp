@@ -70,7 +70,8 @@ bool Room::is_ground(const Impact& hit, const Vec3& side) const {
   if (hit.normal.z <= slope_cosine_) return false;
   if (hit.feature == Feature::face) return true;
   constexpr double before = 0.005;  // m
-  return space_.first_impact({0.0, 0.0}, hit.point - before * side, {0.0, 0.0, -settings_.step - before}).hit;
+  const Impact below = space_.sweep({0.0, 0.0}, hit.point - before * side, {0.0, 0.0, -settings_.step - before});
+  return below.hit && below.normal.z > slope_cosine_;
 }
 
 Free Room::headroom(const Body& body, const Vec3& centre) const {

@@ -173,6 +173,21 @@ TEST(MeasureAlong, FindsTheWidthBetweenBenchesThatAreTooHighToStepOnto) {
   }
 }
 
+// The upper edges are 0.7 m apart.
+TEST(MeasureAlong, FindsTheWidthBetweenBenchesWhoseFrontsLean) {
+  Mesh mesh;
+  add_corridor(mesh);
+  for (const double side : {-1.0, 1.0}) {
+    const auto corner = [&](double x, double beside, double z) { return Vec3(x, 2.0 + side * beside, z); };
+    scenes::add_quad(mesh, corner(9, 0.288, 0), corner(11, 0.288, 0), corner(11, 0.35, 0.35), corner(9, 0.35, 0.35));
+    scenes::add_quad(mesh, corner(9, 0.35, 0.35), corner(11, 0.35, 0.35), corner(11, 2, 0.35), corner(9, 2, 0.35));
+  }
+  const World world = scenes::build(mesh);
+  const auto narrowest = walked(world, {}, {{2, 2, 0.902}, {18, 2, 0.902}}).narrowest();
+  ASSERT_TRUE(narrowest);
+  EXPECT_LT(narrowest->width, 0.704);
+}
+
 // The sphere is lifted as a whole, and cannot be lifted as high as it steps.
 TEST(MeasureAlong, FindsTheDoorOfALowTunnel) {
   for (const Vec3& fall : {Vec3(0.0), Vec3(0.01, 0.0, 0.0), Vec3(0.0, 0.01, 0.0)}) {
@@ -277,6 +292,7 @@ TEST(MeasureSlope, OfAWayIsThatOfItsReverse) {
   for (const bool reversed : {false, true}) {
     EXPECT_NEAR(degrees({{0, 0, 0}, {1, 0, 0}, {1, 0, 3}}, reversed), by_three, 1e-9);
     EXPECT_NEAR(degrees({{0, 0, 0}, {0, 0, 3}, {1, 0, 0}}, reversed), by_three, 1e-9);
+    EXPECT_NEAR(degrees({{0, 0, 0}, {1, 0, 0}, {1, 0, 3}, {1, 0, 0}, {2, 0, 0}}, reversed), by_three, 1e-9);
     EXPECT_NEAR(degrees({{0, 0, 0}, {0.7, 0, 0}, {1.7, 0, 0}, {1.7, 0, 3}, {2.5, 0, 3}}, reversed), by_three, 1e-9);
   }
   for (std::uint64_t seed = 0; seed < 50; ++seed) {
