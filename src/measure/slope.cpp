@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <glm/trigonometric.hpp>
+#include <utility>
 #include <vector>
 
 #include "math/floating_point.h"
@@ -14,8 +15,8 @@ namespace {
 /// Of the length of a way: the rounding of distances along it is less.
 constexpr double rounding = 1e-12;
 
-/// The first and the last position at a distance along the way, seen from above; others lie between them where the way
-/// is vertical. `at` is ascending, and so is `i` from call to call.
+/// The lowest and the highest position at a distance along the way, seen from above: two where the way is vertical.
+/// `at` is ascending, and so is `i` from call to call.
 std::array<Vec3, 2> positions(std::span<const Vec3> way, const std::vector<double>& at, double distance,
                               std::size_t& i) {
   const double slack = rounding * at.back();
@@ -25,9 +26,14 @@ std::array<Vec3, 2> positions(std::span<const Vec3> way, const std::vector<doubl
     return way[k] + t * (way[k + 1] - way[k]);
   };
   while (i + 2 < way.size() && at[i + 1] < distance - slack) ++i;
-  std::size_t last = i;
-  while (last + 2 < way.size() && at[last + 1] <= distance + slack) ++last;
-  return {position(i, 0.0), position(last, 1.0)};
+  std::array<Vec3, 2> ends{position(i, 0.0), position(i, 1.0)};
+  if (ends[1].z < ends[0].z) std::swap(ends[0], ends[1]);
+  for (std::size_t k = i + 1; k + 1 < way.size() && at[k] <= distance + slack; ++k) {
+    const Vec3 next = position(k, 1.0);
+    if (next.z < ends[0].z) ends[0] = next;
+    if (next.z > ends[1].z) ends[1] = next;
+  }
+  return ends;
 }
 
 }  // namespace
