@@ -29,6 +29,9 @@ walked() {
     complain "$what: status $status: $(tail -1 "$work/said")"
     return
   fi
+  if ((unchecked != 0 && unchecked != 3)) || { [[ $must ]] && ! grep -qE '"length_m": [0-9.]*[1-9]' "$work/unchecked"; }; then
+    complain "$what: unchecked, status $unchecked, it walks no way: $(tail -1 "$work/unchecked")"
+  fi
   if ((status == 0)); then reached=$((reached + 1)); else stopped=$((stopped + 1)); fi
   grep -q '"violations": 0,' "$report" || complain "$what: goes through something: $(grep '"violations"' "$report")"
   grep -q '"overstated_clearances": 0,' "$report" || complain "$what: overstates a clearance"
@@ -48,7 +51,8 @@ walked() {
 # walk STORE OPTIONS...: twice, for what checks the moves has the whole scene in memory.
 walk() {
   local command=(timeout 300 "${before[@]}" "$roam" walk "$1" --path "$work/way.path" --speed 20 "${@:2}" --memory 8M)
-  measured "${command[@]}" > "$work/said" 2>&1
+  measured "${command[@]}" --json > "$work/unchecked" 2> "$work/said"
+  unchecked=$?
   "${command[@]}" --against "${scene[@]}" --json > "$work/report" 2> "$work/said"
 }
 

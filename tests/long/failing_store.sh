@@ -23,7 +23,11 @@ number() { sed -n "s/^ *\"$1\": \"\{0,1\}\([^,\"]*\)\"\{0,1\},\{0,1\}$/\1/p" "$w
 walked() {
   local command=(timeout 3600 "${@:4}" "$roam" walk "$1" --path "$way" --mode fly --speed 50 --memory 64M)
   # What checks the moves has the whole scene in memory.
-  measured "${command[@]}" > "$work/said" 2>&1
+  measured "${command[@]}" --json > "$work/report" 2> "$work/said"
+  local unchecked=$?
+  if ((unchecked != 0 && unchecked != 3)) || [[ $3 != any && $(number length_m) == 0 ]]; then
+    complain "$2: unchecked, status $unchecked, it flies no way: $(tail -1 "$work/said")"
+  fi
   "${command[@]}" --against "$scene" --json > "$work/report" 2> "$work/said"
   local status=$?
   if ((status != 0 && status != 3)); then

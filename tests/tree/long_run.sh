@@ -111,7 +111,7 @@ case $1 in
   walk)
     [[ $2 != http:* ]] || { echo 'cannot be reached' >&2; exit 1; }
     [[ $output == "$2" ]] || echo '1,2,3,4,5,6,7,8,9' > "$output"
-    printf '  "%s": %s,\n' outcome '"reached"' violations 0 overstated_clearances 0 failures 0 failed 0 memory 9 pieces 0
+    printf '  "%s": %s,\n' outcome '"reached"' violations 0 overstated_clearances 0 failures 0 failed 0 memory 9 pieces 0 length_m 0
     [[ $* == *--trace* ]] || exit 3
     ;;
 esac
@@ -139,9 +139,11 @@ exec "$@"
 END
     fails 'WRONG: fly, undisturbed: does not reach its end' tests/long/failing_reads.sh 0
     says 'WRONG: fly, undisturbed: no move was checked' "$folder/log"
+    says 'WRONG: fly, undisturbed: unchecked, status 3, it walks no way' "$folder/log"
     says 'WRONG: walk, pread64 error=EIO:when=20+2: no read has failed' "$folder/log"
     fails 'WRONG: one read in three fails: no read has failed' \
       tests/long/failing_store.sh "$folder/way" "$folder/store" "$folder/way" 0
+    says 'WRONG: one read in three fails: unchecked, status 3, it flies no way' "$folder/log"
 
     cat > tests/support/slurm.sh <<< 'start_slurm() { :; }; stop_slurm() { :; }; slurm_waits() { :; }; squeue() { :; }'
     fails 'WRONG: the jobs ended after 0 of 3 troubles' tests/long/cluster.sh 2 16 3
