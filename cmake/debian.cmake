@@ -2,7 +2,7 @@
 #
 #   roam          the program, its manual, completion, entry of the desktop
 #   roam-reader   the child process that parses scenes, for the program and all libraries; a package of its own, because
-#                 both need it, in their version
+#                 both need it in exactly their version
 #   libroam0      libroam.so.0
 #   libroam-dev   headers, the libraries of C++, CMake's package, pkg-config
 #   python3-roam  import roam

@@ -99,9 +99,9 @@ struct Instances::State {
 
   const Space& space;                       ///< the space that does not move
   LiveSpace* live = nullptr;                ///< the same, if it needs updates
-  std::vector<Instance> instances;          ///< by the numbers of the tree
-  std::vector<std::uint32_t> unused;        ///< of them; has room for all
-  std::map<ObjectId, std::uint32_t> known;  ///< the others, by their own numbers
+  std::vector<Instance> instances;          ///< slots; the tree's numbers are their indices
+  std::vector<std::uint32_t> unused;        ///< free slots; has room for all slots
+  std::map<ObjectId, std::uint32_t> known;  ///< the slot of each instance
   ObjectId next = first_instance;           ///< the number of the instance that is added next
   BoxTree tree;
   std::uint64_t state = next_revision();  ///< a new number after each change, unique in the program
