@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <sys/stat.h>
 
-#include <algorithm>
 #include <cerrno>
 #include <string_view>
 
@@ -129,7 +128,7 @@ Manifest read_manifest(StoreBytes& bytes, const std::string& store, std::string*
     if (text_bytes != nullptr) *text_bytes = content.size() + current.size();
     try {
       const std::string_view text(reinterpret_cast<const char*>(content.data()), content.size());
-      return parse_manifest(text, store + "/" + file, memory - std::min<std::uint64_t>(memory, content.size()), kept);
+      return parse_manifest(text, store + "/" + file, memory, kept);
     } catch (const NewerFormat&) {
       throw;
     } catch (const TooLarge&) {

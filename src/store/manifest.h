@@ -88,7 +88,8 @@ class NotComplete : public Error {
 [[nodiscard]] std::string to_text(const Manifest& manifest);
 [[nodiscard]] std::string to_text(const ShardInfo& shard);
 /// Both check everything; roam::Error says what is wrong, with `name` for the file. They take at most `memory` bytes
-/// for any text. `kept`: about how many of them an open store keeps, or a little less.
+/// for any text; those of a manifest include the text. `kept`: about how many of them an open store keeps, without the
+/// text, or a little less.
 [[nodiscard]] Manifest parse_manifest(std::string_view text, const std::string& name,
                                       std::uint64_t memory = Store::usual_memory, std::uint64_t* kept = nullptr);
 [[nodiscard]] ShardInfo parse_shard(std::string_view text, const std::string& name,

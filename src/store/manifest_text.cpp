@@ -316,8 +316,9 @@ ShardInfo parse_shard(std::string_view text, const std::string& name, std::uint6
 
 Manifest parse_manifest(std::string_view text, const std::string& name, std::uint64_t memory, std::uint64_t* kept) {
   ManifestText reader(name, memory);
+  reader.keep(text.size());
   reader.read(text);
-  if (kept != nullptr) *kept = reader.kept();
+  if (kept != nullptr) *kept = reader.kept() - text.size();
   return std::move(reader.manifest);
 }
 

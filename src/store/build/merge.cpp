@@ -5,7 +5,6 @@
 #include <sys/file.h>
 #include <tbb/parallel_for.h>
 
-#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstring>
@@ -110,9 +109,7 @@ bool is_scratch(std::string_view file) {
 /// Throws TooLarge for a manifest that a build of this memory could not read again.
 void demand_fits(const Manifest& manifest, const Work& work) {
   const std::string text = to_text(manifest);
-  const std::uint64_t memory = work.options.memory;
-  static_cast<void>(parse_manifest(text, "the new manifest of " + work.store.string(),
-                                   memory - std::min<std::uint64_t>(memory, text.size())));
+  static_cast<void>(parse_manifest(text, "the new manifest of " + work.store.string(), work.options.memory));
 }
 
 void keep(const Manifest& manifest, std::set<std::string>& files) {
@@ -134,7 +131,7 @@ std::string tidy(const Folder& store, std::uint64_t memory, bool keeps_versions)
     needed.insert(codes_file(fs::path(file).stem().string()));
     const std::vector<std::byte> bytes = read_file(store, file, memory);
     const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-    keep(parse_manifest(text, file, memory - std::min<std::uint64_t>(memory, text.size())), needed);
+    keep(parse_manifest(text, file, memory), needed);
   }
   needed.insert(spare_file(keep_spare(store, manifest)));
   needed.insert(codes_file(hash));

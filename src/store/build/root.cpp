@@ -85,8 +85,8 @@ RootMending mend_root(Work& work, const std::optional<StoreKey>& key) {
     const std::vector<std::byte> bytes = read_file(store, copy, memory);
     std::optional<Manifest> manifest;
     try {
-      manifest = parse_manifest({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, (store / copy).string(),
-                                memory - std::min<std::uint64_t>(memory, bytes.size()));
+      manifest =
+          parse_manifest({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, (store / copy).string(), memory);
     } catch (const NewerFormat&) {
       throw;
     } catch (const Error&) {
