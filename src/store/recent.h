@@ -65,7 +65,7 @@ struct Store::State::Recent {
     const auto known = numbers.find(first);
     return known == numbers.end() ? nullptr : &known->second;
   }
-  // Both return what is kept: not what they are given, if another thread has kept it meanwhile.
+  // Both return what is kept: what they are given, or what another thread has kept meanwhile.
   const store::LoadedPage& keep(std::uint64_t number, store::LoadedPage&& read) {
     if (const store::LoadedPage* const known = page(number)) return *known;
     make_room(entry_cost + store.pages[number].ref.bytes);

@@ -32,7 +32,7 @@ struct PartRecord {
   std::optional<std::string> confinement{};  ///< see note_of_confinement; of this machine, so no note of the store
 };
 
-/// All but has_runs and what is of the moment, for the files of the scratch folder.
+/// For the files of the scratch folder. Leaves out has_runs, content and confinement.
 [[nodiscard]] Json json_of(const PartRecord& record);
 /// The reverse. Throws an exception if the JSON does not hold a record.
 [[nodiscard]] PartRecord record_of(const Json& json);

@@ -45,8 +45,8 @@ class Planner {
   }
 
  private:
-  /// Removes the runs of parts that are gone or have changed since a build that never ended. Shares that are being read
-  /// may be those of another state.
+  /// Removes the runs of parts that are gone or have changed since a build that never ended. A share that is being
+  /// read may be of another state of the scene: then all runs stay.
   void remove_former_runs() const {
     if (is_being_read(work_.store)) return;
     std::set<std::string_view> ids;
