@@ -4,6 +4,7 @@
 #include "memory_cost.h"
 #include "store/build/merge.h"
 #include "store/build/plan.h"
+#include "store/build/root.h"
 #include "store/files.h"
 #include "store/part.h"
 #include "store_builds.h"
@@ -111,8 +112,25 @@ TEST(StoreBuildHostile, AManifestMayTakeAllMemoryOfTheBuildAndNoMore) {
   EXPECT_FALSE(fs::exists(folder.file("s/scratch")));
   EXPECT_EQ(refusal([&] { EXPECT_TRUE(roam::build_store(o).unchanged); }), "");
   EXPECT_EQ(refusal([&] { roam::repair_store(o); }), "");
-  o.memory = roam::StoreBuildOptions::least_memory;
-  EXPECT_NE(refusal([&] { roam::build_store(o); }).find("--memory"), std::string::npos);
+}
+
+TEST(StoreBuildHostile, ACopyOfTheManifestThatTakesMoreThanTheMemoryIsNoDamage) {
+  const TestFolder folder;
+  auto o = options({write_ply(folder.file("a.ply"), field(60, 1.0, Vec3(0.0)))}, folder.file("s"));
+  roam::build_store(o);
+  const auto before = content(folder.file("s"));
+  fs::remove(folder.file("s/CURRENT"));
+  roam::store::Work work(o);
+  const auto more = o.memory;
+  const std::uint64_t text = fs::file_size(fs::directory_iterator(folder.file("s/spare"))->path());
+  for (const std::uint64_t less : {text - 1, text + 100}) {
+    o.memory = less;
+    const std::string said = refusal([&] { static_cast<void>(roam::store::mend_root(work, std::nullopt)); });
+    EXPECT_NE(said.find("--memory"), std::string::npos) << said;
+  }
+  o.memory = more;
+  EXPECT_TRUE(roam::store::mend_root(work, std::nullopt).mended);
+  EXPECT_TRUE(content(folder.file("s")) == before);
 }
 
 TEST(StoreBuildHostile, APlanThatTakesMoreThanTheMemoryAsksForMore) {

@@ -9,19 +9,20 @@
 #include "store/authentic.h"
 #include "store/build/plan.h"
 #include "store/files.h"
+#include "store/json_reader.h"
 
 namespace roam::store {
 namespace {
 
 namespace fs = std::filesystem;
 
-/// Files of at most `most` bytes that may hold a manifest, the newest first.
-std::vector<std::string> copies_of_manifests(const Folder& store, std::uint64_t most) {
+/// Files that may hold a manifest, the newest first.
+std::vector<std::string> copies_of_manifests(const Folder& store) {
   std::vector<std::pair<fs::file_time_type, std::string>> found;
   std::error_code error;
   for (const char* folder : {"manifests", "spare"}) {
     for (std::string& file : files_in(store, folder)) {
-      if (!is_named_by_hash(file, ".json") || size_of(store, file) > most) continue;
+      if (!is_named_by_hash(file, ".json")) continue;
       found.emplace_back(fs::last_write_time(store / file, error), std::move(file));
     }
   }
@@ -78,9 +79,10 @@ RootMending mend_root(Work& work, const std::optional<StoreKey>& key) {
         fmt::format("{} is no store: its file CURRENT is none of a store; choose another output", store.string()));
   }
   FileHashes hashes(store);
-  for (const std::string& copy : copies_of_manifests(store, memory)) {
+  for (const std::string& copy : copies_of_manifests(store)) {
     const std::string hash = fs::path(copy).stem().string();
     if (key && !has_code(*files_of(store), hash, *key)) continue;
+    if (size_of(store, copy) > memory) throw TooLarge((store / copy).string(), memory);
     if (hashes.sha256(copy, [&](std::uint64_t) { work.tick(); }) != hash) continue;
     const std::vector<std::byte> bytes = read_file(store, copy, memory);
     std::optional<Manifest> manifest;
@@ -88,6 +90,8 @@ RootMending mend_root(Work& work, const std::optional<StoreKey>& key) {
       manifest =
           parse_manifest({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, (store / copy).string(), memory);
     } catch (const NewerFormat&) {
+      throw;
+    } catch (const TooLarge&) {
       throw;
     } catch (const Error&) {
       continue;  // undamaged, but unusable

@@ -23,8 +23,8 @@ struct RootMending {
 
 /// If CURRENT or the manifest cannot be used, puts the newest undamaged copy of a manifest in force again. With a key,
 /// uses only copies that have a code of it. Reads within the memory of the build. The store must be locked. Throws
-/// roam::Error for a store of a newer format, for a CURRENT of another program, and if a file cannot be read or
-/// written.
+/// TooLarge for a copy that takes more, and roam::Error for a store of a newer format, for a CURRENT of another
+/// program, and if a file cannot be read or written.
 [[nodiscard]] RootMending mend_root(Work& work, const std::optional<StoreKey>& key);
 
 }  // namespace roam::store
