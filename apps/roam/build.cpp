@@ -3,7 +3,6 @@
 
 #include <CLI/CLI.hpp>
 #include <chrono>
-#include <cmath>
 #include <nlohmann/json.hpp>
 #include <optional>
 
@@ -238,13 +237,10 @@ void check_usage(const BuildVerb& verb) {
   if (verb.plan && verb.shard && verb.tasks == 0) {
     throw UsageError("--plan with --shard", "the number of shares is missing: --plan N");
   }
-  if (const auto memory = verb.scene.memory; memory && *memory < StoreBuildOptions::least_memory) {
-    throw UsageError(fmt::format("--memory {:.5g} MiB", std::ldexp(static_cast<double>(*memory), -20)),
-                     fmt::format("a build needs at least {} MiB", StoreBuildOptions::least_memory >> 20));
-  }
+  demand_memory_of_build(verb.scene.memory);
   if (!verb.near.empty() && (verb.plan || verb.merge)) {
     throw UsageError(fmt::format("--near with {}", verb.plan ? "--plan" : "--merge"),
-                     "only --shard builds shards; name the position there");
+                     verb.shard ? "a share only reads" : "only --shard builds shards; name the position there");
   }
   if (!verb.plan && (verb.shard || verb.merge)) {
     if (verb.reading.empty()) return;  // --shard and --merge read the plan, not the scene

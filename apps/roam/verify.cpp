@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <functional>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -108,11 +109,17 @@ std::string text_report(const VerifyOptions& options, const StoreVerification& f
          fmt::format("tiles that are damaged are solid; `roam verify {} --repair SCENE` mends the store\n", store);
 }
 
+/// For the manifest, bytes.
+std::uint64_t memory_of(const VerifyOptions& options) {
+  return std::max(Store::usual_memory, options.memory.value_or(0));
+}
+
 /// `folder`: the store's; none: it is on a web server.
 StoreVerification look(const VerifyOptions& options, const std::optional<store::Folder>& folder) {
   Progress progress("verifying " + options.store.string(), "B");
   const auto goes_on = [&](std::uint64_t done, std::uint64_t total) { return progress.goes_on(done, total); };
-  return folder ? store::verify_store(*folder, goes_on) : verify_store(options.store, goes_on, options.web);
+  return folder ? store::verify_store(*folder, goes_on, memory_of(options))
+                : verify_store(options.store, goes_on, options.web);
 }
 
 std::uint64_t repair(const VerifyOptions& options) {
@@ -136,6 +143,7 @@ std::uint64_t repair(const VerifyOptions& options) {
 }
 
 ExitStatus verify_or_repair(const VerifyOptions& options) {
+  demand_memory_of_build(options.memory);
   std::optional<store::Folder> folder;
   if (!Store::is_address(options.store.native())) {
     folder = store::hold_store(options.store);
@@ -150,7 +158,8 @@ ExitStatus verify_or_repair(const VerifyOptions& options) {
     found = look(options, folder);
   }
   const Origin origin = origin_of([&] {
-    return folder ? store::open_store(*folder) : Store::open(options.store, Store::usual_memory, options.web);
+    return folder ? store::open_store(*folder, memory_of(options))
+                  : Store::open(options.store, Store::usual_memory, options.web);
   });
   if (options.json) {
     print(json_report(options, found, origin, repaired));

@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
+#include "cli/exit_status.h"
 #include "roam/error.h"
 #include "store/held.h"
 
@@ -28,6 +31,12 @@ void demand_no_link(const std::filesystem::path& store) {
 std::shared_ptr<const Store> open_store_beside(const std::filesystem::path& store, std::uint64_t memory) {
   demand_no_link(store);
   return store::open_store(store::Folder::held(store, false), memory);
+}
+
+void demand_memory_of_build(const std::optional<std::uint64_t>& memory) {
+  if (!memory || *memory >= StoreBuildOptions::least_memory) return;
+  throw UsageError(fmt::format("--memory {:.5g} MiB", std::ldexp(static_cast<double>(*memory), -20)),
+                   fmt::format("a build needs at least {} MiB", StoreBuildOptions::least_memory >> 20));
 }
 
 std::vector<std::string> notes_as_sentences(const StoreBuildReport& report, const std::filesystem::path& store) {

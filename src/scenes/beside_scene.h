@@ -1,10 +1,11 @@
 #pragma once
 /// \file
-/// The store that lies beside its scene, and the notes of its build.
+/// The store that lies beside its scene, and its build.
 
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,6 +25,9 @@ void demand_no_link(const std::filesystem::path& store);
 /// takes the store's place meanwhile.
 [[nodiscard]] std::shared_ptr<const Store> open_store_beside(const std::filesystem::path& store,
                                                              std::uint64_t memory = Store::usual_memory);
+
+/// Throws UsageError for a --memory that is too small for a build.
+void demand_memory_of_build(const std::optional<std::uint64_t>& memory);
 
 /// The notes of a build, as sentences of the program. Notes of parts read now are the program's own. Notes of parts
 /// read before are stored in the store, which may come from a stranger: they are quoted.

@@ -18,6 +18,7 @@ namespace roam::store {
 [[nodiscard]] std::shared_ptr<const Store> open_store(const Folder& folder, std::uint64_t memory = Store::usual_memory);
 /// roam::verify_store of a folder.
 [[nodiscard]] StoreVerification verify_store(const Folder& folder,
-                                             const std::function<bool(std::uint64_t, std::uint64_t)>& progress);
+                                             const std::function<bool(std::uint64_t, std::uint64_t)>& progress,
+                                             std::uint64_t memory = Store::usual_memory);
 
 }  // namespace roam::store

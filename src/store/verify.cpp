@@ -308,9 +308,9 @@ StoreVerification verified(const auto& open, const Folder* folder,
 
 }  // namespace
 
-StoreVerification verify_store(const Folder& folder,
-                               const std::function<bool(std::uint64_t, std::uint64_t)>& progress) {
-  return verified([&] { return open_store(folder); }, &folder, progress);
+StoreVerification verify_store(const Folder& folder, const std::function<bool(std::uint64_t, std::uint64_t)>& progress,
+                               std::uint64_t memory) {
+  return verified([&] { return open_store(folder, memory); }, &folder, progress);
 }
 
 }  // namespace store

@@ -181,8 +181,8 @@ TEST_F(StoreVerbs, ARepairTakesTheFoldersAndTheMemoryOfTheBuild) {
   EXPECT_EQ(refused.status, 1) << refused.out;
   EXPECT_TRUE(contains(refused.err, "--allow")) << refused.err;
   const ProgramResult little = run({"verify", made, "--repair", scene(), "--allow", allowed, "--memory", "255M"});
-  EXPECT_EQ(little.status, 1) << little.out;
-  EXPECT_TRUE(contains(little.err, "256 MiB")) << little.err;
+  EXPECT_EQ(little.status, 2) << little.out;
+  EXPECT_TRUE(contains(little.err, "--memory 255 MiB") && contains(little.err, "256 MiB")) << little.err;
   const ProgramResult repaired = run({"verify", made, "--repair", scene(), "--allow", allowed, "--memory", "2G"});
   EXPECT_EQ(repaired.status, 0) << repaired.err;
   EXPECT_EQ(run({"verify", made}).status, 0);

@@ -38,6 +38,9 @@ TEST_F(StoreFailures, ReadingOptionsOfAShardOrAMergeAreWrongUsage) {
     EXPECT_EQ(told.status, 2) << step.back();
     EXPECT_TRUE(contains(told.err, "--near with " + step.back())) << told.err;
   }
+  const ProgramResult share = run({"build", scene(), "-o", planned, "--plan", "4", "--shard", "0", "--near=1,2,3"});
+  EXPECT_EQ(share.status, 2);
+  EXPECT_TRUE(contains(share.err, "a share only reads")) << share.err;
   EXPECT_EQ(run({"build", "-o", planned, "--shard", "0", "--near=1,2,3", "--memory", "256M"}).status, 0);
   EXPECT_EQ(run({"build", "-o", planned, "--merge"}).status, 0);
 }

@@ -6,6 +6,7 @@
 #include "store/build/plan.h"
 #include "store/build/root.h"
 #include "store/files.h"
+#include "store/held.h"
 #include "store/part.h"
 #include "store_builds.h"
 
@@ -100,17 +101,29 @@ TEST(StoreBuildHostile, AManifestMayTakeAllMemoryOfTheBuildAndNoMore) {
   roam::build_task(o, 0, report);
   roam::store::Work work(o);
   roam::store::Plan plan = roam::store::read_plan(work);
-  plan.parts[0].notes.assign(3'000'000, "a.ply: x");
-  const auto merge = [&] { static_cast<void>(roam::store::merge(work, plan)); };
-  const auto more = o.memory;
-  o.memory = roam::StoreBuildOptions::least_memory;
+  plan.parts[0].notes.assign(3000, "a.ply: x");
+  const auto most = o.memory;
+  constexpr std::uint64_t less = 256 << 10, enough = 2 * less;  // bytes
+  std::vector<std::string> notes;
+  const auto merge = [&] { notes = roam::store::merge(work, plan, less); };
+  const auto read = [&] { static_cast<void>(roam::store::manifest_in_force(work)); };
+  const auto tidy = [&] { static_cast<void>(roam::store::tidy(work.store, o.memory)); };
+  const auto verify = [&] { EXPECT_TRUE(roam::store::verify_store(work.store, {}, o.memory).whole()); };
+  o.memory = less;
   const std::string said = refusal(merge);
   EXPECT_NE(said.find("--memory"), std::string::npos) << said;
   EXPECT_FALSE(roam::Store::is_store(o.output)) << "no build of that memory could go on from it";
-  o.memory = more;
+  o.memory = enough;
   EXPECT_EQ(refusal(merge), "");
+  EXPECT_NE(notes.at(0).find("other verbs do not"), std::string::npos) << notes.at(0);
   EXPECT_FALSE(fs::exists(folder.file("s/scratch")));
-  EXPECT_EQ(refusal([&] { EXPECT_TRUE(roam::build_store(o).unchanged); }), "");
+  EXPECT_EQ(refusal(read) + refusal(tidy) + refusal(verify), "");
+  o.memory = less;
+  for (const std::string& refused : {refusal(read), refusal(tidy), refusal(verify)}) {
+    EXPECT_NE(refused.find("--memory"), std::string::npos) << refused;
+  }
+  o.memory = most;
+  EXPECT_TRUE(roam::build_store(o).unchanged);
   EXPECT_EQ(refusal([&] { roam::repair_store(o); }), "");
 }
 

@@ -218,7 +218,7 @@ void build_shards(Work& work, const Plan& plan, std::vector<std::size_t> numbers
 
 void merge_locked(Work& work, const Plan& plan, StoreBuildReport& report) {
   const Timer timer(report.merge_seconds);
-  note(report, merge(work, plan));
+  for (std::string& sentence : merge(work, plan)) note(report, std::move(sentence));
   report.store = opened(work)->info();
 }
 

@@ -106,10 +106,18 @@ bool is_scratch(std::string_view file) {
   return is("scratch/parts/", ".json", record_digits) || is("scratch/shards/", ".json", 64) || !id_of_run(file).empty();
 }
 
-/// Throws TooLarge for a manifest that a build of this memory could not read again.
-void demand_fits(const Manifest& manifest, const Work& work) {
+/// Throws TooLarge for a manifest that a build of this memory could not read again. Returns a sentence for the user if
+/// many verbs cannot read it, else an empty text.
+std::string demand_fits(const Manifest& manifest, const Work& work, std::uint64_t usual) {
   const std::string text = to_text(manifest);
-  static_cast<void>(parse_manifest(text, "the new manifest of " + work.store.string(), work.options.memory));
+  std::uint64_t kept = 0;
+  static_cast<void>(parse_manifest(text, "the new manifest of " + work.store.string(), work.options.memory, &kept));
+  const std::uint64_t needed = text.size() + kept;
+  if (needed <= usual) return "";
+  return fmt::format(
+      "the manifest of {} takes {} MiB: `roam walk`, `sweep`, `build` and `verify --repair` open it with "
+      "more --memory than that; other verbs do not",
+      work.store.string(), (needed >> 20) + 1);
 }
 
 void keep(const Manifest& manifest, std::set<std::string>& files) {
@@ -167,7 +175,7 @@ std::string remove_scratch(const Folder& store) {
                      (store / scratch_folder).string(), std::strerror(errno));
 }
 
-std::string merge(Work& work, const Plan& plan) {
+std::vector<std::string> merge(Work& work, const Plan& plan, std::uint64_t usual) {
   std::uint64_t triangles = 0;
   for (const PlannedShard& shard : plan.shards) triangles += shard.in_force ? 0 : shard.stretch.triangles;
   work.begin(Work::Step::merge, 0, triangles);
@@ -183,11 +191,11 @@ std::string merge(Work& work, const Plan& plan) {
     manifest.bounds.include(shard.bounds);
     manifest.geometry_hash += shard.geometry_hash;
   }
-  demand_fits(manifest, work);
+  std::string large = demand_fits(manifest, work, usual);
   const std::string hash = keep_spare(work.store, manifest);
   if (work.options.key) add_code(work.store, hash, *work.options.key);
   publish(work.store, manifest);
-  return tidy(work.store, work.options.memory);
+  return {std::move(large), tidy(work.store, work.options.memory)};
 }
 
 }  // namespace roam::store

@@ -14,9 +14,10 @@ class Incomplete : public Error {
 };
 
 /// Makes one store of the shards of the plan and puts it in force. Then removes files that no manifest in force names,
-/// and the scratch folder. The store must be locked. Returns the result of tidy. Throws Incomplete; TooLarge, before
-/// anything is put in force, for a manifest that takes more than the memory of the build.
-[[nodiscard]] std::string merge(Work& work, const Plan& plan);
+/// and the scratch folder. The store must be locked. Returns sentences for the user, which may be empty; the first is
+/// about a manifest that takes more than `usual` bytes. Throws Incomplete; TooLarge, before anything is put in force,
+/// for a manifest that takes more than the memory of the build.
+[[nodiscard]] std::vector<std::string> merge(Work& work, const Plan& plan, std::uint64_t usual = Store::usual_memory);
 
 /// Removes files that no manifest in force names, and the scratch folder. Reads manifests that take at most `memory`
 /// bytes. With `keeps_versions` all manifests count as in force. The store must be locked. Returns the result of
