@@ -117,12 +117,7 @@ TEST(StoreBuildAgain, RepairsJustWhatIsDamaged) {
   o.import = {};
   const auto before = content(folder.file("s"));
   EXPECT_EQ(roam::repair_store(o).shards_built, 0U);
-  const auto pack = fs::directory_iterator(folder.file("s") + "/packs")->path();
-  {
-    std::fstream file(pack, std::ios::in | std::ios::out | std::ios::binary);
-    file.seekp(1000);
-    file.put('?');
-  }
+  spoil_pack(folder.file("s"));
   fs::remove(fs::directory_iterator(folder.file("s") + "/parts")->path());
   EXPECT_FALSE(roam::verify_store(folder.file("s")).damage.empty());
   const auto damaged = content(folder.file("s"));
@@ -137,6 +132,34 @@ TEST(StoreBuildAgain, RepairsJustWhatIsDamaged) {
   EXPECT_EQ(roam::repair_store(o).shards_built, 1U);
   EXPECT_TRUE(content(folder.file("s")) == before);
   expect_whole(folder.file("s"));
+}
+
+TEST(StoreBuildAgain, ARepairPutsNoOtherSceneInForce) {
+  const TestFolder folder;
+  write_ply(folder.file("a.ply"), field(50, 0.5, {0.0, 0.0, 0.0}));
+  auto o = options({folder.file("a.ply")}, folder.file("s"));
+  roam::build_store(o);
+  const auto before = content(folder.file("s"));
+  // A build has made the missing pack again, and was stopped; then that pack was damaged, too.
+  fs::remove_all(folder.file("s/packs"));
+  roam::StoreBuildReport report;
+  ASSERT_EQ(roam::plan_store(o, report), 1U);
+  roam::build_task(o, 0, report);
+  spoil_pack(folder.file("s"));
+  const std::string scene = folder.read("a.ply");
+  auto changing = o;
+  changing.progress = [&](const roam::StoreBuildProgress& p) {
+    if (p.step == roam::StoreBuildProgress::Step::merge) {
+      write_ply(folder.file("a.ply"), field(51, 0.5, {0.0, 0.0, 0.0}));
+    }
+    return true;
+  };
+  const std::string said = refusal([&] { roam::repair_store(changing); });
+  EXPECT_NE(said.find("repair it again"), std::string::npos) << said;
+  EXPECT_NE(refusal([&] { roam::repair_store(o); }).find("not made of this scene"), std::string::npos);
+  folder.write("a.ply", scene);
+  EXPECT_EQ(roam::repair_store(o).shards_built, 1U);
+  EXPECT_TRUE(content(folder.file("s")) == before);
 }
 
 TEST(StoreBuildAgain, RefusesOutputsThatCannotBe) {

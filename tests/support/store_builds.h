@@ -90,6 +90,13 @@ inline void expect_same(const std::string& a, const std::string& b) {
   EXPECT_TRUE(first == second) << a << " and " << b << " differ";
 }
 
+/// Changes a byte of a pack.
+inline void spoil_pack(const std::string& store) {
+  std::fstream file(fs::directory_iterator(store + "/packs")->path(), std::ios::in | std::ios::out | std::ios::binary);
+  file.seekp(500);
+  file.put('?');
+}
+
 inline roam::StoreBuildOptions options(const std::vector<std::string>& scene, const std::string& output) {
   roam::StoreBuildOptions o;
   o.scene.assign(scene.begin(), scene.end());

@@ -43,7 +43,8 @@ void begin_step(StoreBuildReport& report) {
   report = std::move(now);
 }
 
-void describe(const Plan& plan, StoreBuildReport& report) {
+void count(const Plan& plan, StoreBuildReport& report) {
+  report.triangles = report.triangles_to_build = 0;
   for (const PlannedShard& shard : plan.shards) report.triangles += shard.stretch.triangles;
   report.shards = plan.shards.size();
   report.shards_to_build = plan.to_build().size();
@@ -51,6 +52,10 @@ void describe(const Plan& plan, StoreBuildReport& report) {
   report.longest_task = longest_task(plan);
   for (const std::size_t i : plan.to_build()) report.triangles_to_build += plan.shards[i].stretch.triangles;
   report.parts = plan.parts.size();
+}
+
+void describe(const Plan& plan, StoreBuildReport& report) {
+  count(plan, report);
   Notes notes;
   for (const PartRecord& part : plan.parts) notes.add(part.info.name, part.notes);
   notes.prepend_to(report.notes);
@@ -223,18 +228,22 @@ void merge_locked(Work& work, const Plan& plan, StoreBuildReport& report) {
 }
 
 /// Builds what is missing, and merges. A shard that has been damaged since it was built is built once more.
-void build_and_merge(Work& work, const Plan& plan, const std::set<std::string>& damaged, StoreBuildReport& report) {
+void build_and_merge(Work& work, const Plan& plan, StoreBuildReport& report) {
   build_shards(work, plan, plan.to_build(), report);
   try {
     merge_locked(work, plan, report);
     return;
   } catch (const Incomplete&) {
   }
-  StoreBuildReport replanned;  // the first plan is reported
-  const std::optional<Plan> again = plan_locked(work, damaged, replanned);
+  StoreBuildReport replanned;
+  const std::optional<Plan> again = plan_locked(work, {}, replanned);
   if (!again) throw Error(work.store.string(), "another program has changed it meanwhile; build it again");
-  report.parts_read += replanned.parts_read;
+  count(*again, report);
+  report.parts_read = std::min(report.parts_read + replanned.parts_read, report.parts);
+  report.read_seconds += replanned.read_seconds;
+  report.plan_seconds += replanned.plan_seconds;
   build_shards(work, *again, again->to_build(), report);
+  report.shards_built = std::min(report.shards_built, report.shards);
   merge_locked(work, *again, report);
 }
 
@@ -316,7 +325,7 @@ StoreBuildReport build_store(const StoreBuildOptions& options) {
   OutputFolder output(work.store, options.through_link, options.progress);
   const auto plan = plan_output(work, output, report);
   if (!plan) return report;
-  build_and_merge(work, *plan, {}, report);
+  build_and_merge(work, *plan, report);
   return report;
 }
 
@@ -373,7 +382,13 @@ StoreBuildReport repair_store(const StoreBuildOptions& options) {
         work.store.string(),
         fmt::format("{} was not made of this scene as it is now: build it again instead", work.store.string()));
   }
-  build_and_merge(work, *plan, damaged, report);
+  build_shards(work, *plan, plan->to_build(), report);
+  try {
+    merge_locked(work, *plan, report);
+  } catch (const Incomplete&) {
+    throw Error::at(work.store.string(), fmt::format("a pack of {} has changed while it was repaired; repair it again",
+                                                     work.store.string()));
+  }
   return report;
 }
 

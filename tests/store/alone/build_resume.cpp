@@ -14,6 +14,7 @@
 #include <cstdlib>
 #include <functional>
 #include <thread>
+#include <utility>
 
 #include "clutter.h"
 #include "killed_builds.h"
@@ -292,13 +293,6 @@ TEST(StoreBuildResume, AnotherNumberOfTasksKeepsShardsThatAreThere) {
   expect_same(folder.file("whole"), folder.file("steps"));
 }
 
-/// Changes a byte of the only pack.
-void spoil_pack(const std::string& store) {
-  std::fstream file(fs::directory_iterator(store + "/packs")->path(), std::ios::in | std::ios::out | std::ios::binary);
-  file.seekp(500);
-  file.put('?');
-}
-
 TEST(StoreBuildResume, MergingRefusesAPackThatWasChanged) {
   const TestFolder folder;
   write_ply(folder.file("a.ply"), field(50, 0.5, {0.0, 0.0, 0.0}));
@@ -326,6 +320,17 @@ TEST(StoreBuildResume, BuildsAPackAgainThatWasChanged) {
   spoil_pack(folder.file("s"));
   EXPECT_EQ(refusal([&] { EXPECT_EQ(roam::build_store(o).shards_built, 1U); }), "");
   expect_same(folder.file("whole"), folder.file("s"));
+  // So does the build that made the pack itself.
+  auto disturbed = options({folder.file("a.ply")}, folder.file("t"));
+  bool spoilt = false;
+  disturbed.progress = [&](const roam::StoreBuildProgress& p) {
+    if (p.step == roam::StoreBuildProgress::Step::merge && !std::exchange(spoilt, true)) spoil_pack(folder.file("t"));
+    return true;
+  };
+  report = roam::build_store(disturbed);
+  EXPECT_TRUE(spoilt);
+  EXPECT_EQ(report.shards_built, 1U) << "of one";
+  expect_same(folder.file("whole"), folder.file("t"));
 }
 
 TEST(StoreBuildResume, KeepsNoRunsOfAnEarlierStateOfTheScene) {
