@@ -175,8 +175,8 @@ decodes every tile, and compares counts, boxes and the hash of all triangles. Da
 store is solid there; everywhere else you can walk in it.
 
 --repair builds only the damaged shards again, from the scene that the store was made of. The store knows its --up,
---unit, --ignore and --lossless; only --allow must be given again. The report also says whether you built the store or
-somebody else.
+--unit, --ignore and --lossless; --allow must be given again, and --memory if the build took more than 1 GiB. The report
+also says whether you built the store or somebody else.
 
 Exit status 0 if the store is whole, 3 if it is not, or if its build is not finished; 1 if that cannot be found out,
 such as when the network fails.
