@@ -65,7 +65,7 @@ struct StoreBuildOptions {
   static constexpr std::uint64_t least_memory = 256ull << 20;
 };
 
-/// The work of a build.
+/// The work of a build. Each step clears the report that it is given; only its seconds are added to those there.
 struct StoreBuildReport {
   bool unchanged = false;          ///< the store was up to date: nothing was done
   std::uint64_t triangles = 0;     ///< of the scene
@@ -96,7 +96,8 @@ class NothingPlanned : public Error {
   using Error::Error;
 };
 
-/// Runs plan_store, build_task for each task, and merge_store. Throws as they do.
+/// Runs plan_store, build_task for each task, and merge_store. If a shard was damaged before the merge, plans a second
+/// time, and builds it again; the report has the numbers of the second plan. Throws as they do.
 StoreBuildReport build_store(const StoreBuildOptions& options);
 
 /// Reads the changed parts of share `i` of the scene, 0 <= i < `options.tasks`. To read all of each share takes about
@@ -125,8 +126,8 @@ void merge_store(const StoreBuildOptions& options, StoreBuildReport& report);
 
 /// Builds the damaged shards again (verify_store) from the same scene, and publishes. The store knows how its scene was
 /// read: `lossless`, and `up`, `unit` and `ignore` of `import`, are not used. A damaged manifest is replaced by its
-/// spare. Throws roam::Error if the scene is another one, the first build has not ended, or no copy of the manifest is
-/// whole. A store that is not authentic stays so.
+/// spare. Throws roam::Error if the scene is another one, the first build has not ended, no copy of the manifest is
+/// whole, or a pack changes meanwhile. A store that is not authentic stays so.
 StoreBuildReport repair_store(const StoreBuildOptions& options);
 
 /// The work of publish_store.
