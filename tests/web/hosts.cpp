@@ -62,6 +62,12 @@ TEST(WebStore, ProxiesAndNetrcHoldAsForCurl) {
       EXPECT_NE(message.find(reason), std::string::npos) << message;
       EXPECT_EQ(server.requests().size(), 1U) << "it is tried again";
     }
+    for (const int status : {408, 429, 503}) {
+      static_cast<void>(server.requests());
+      const std::string message = refusal(fmt::format("https://{}.invalid/x.roam", status), patient(2.0));
+      EXPECT_EQ(message.find("the proxy refuses"), std::string::npos) << message;
+      EXPECT_GT(server.requests().size(), 1U) << status << " may pass";
+    }
   }
   std::ofstream(served.folder.path() / ".netrc") << "machine 127.0.0.1 login me password word\n";
   const EnvironmentVariable home("HOME", served.folder.path().c_str());

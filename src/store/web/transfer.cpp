@@ -22,8 +22,8 @@ constexpr long longest_connecting = 10;
 /// Bytes a second: a slower answer is none.
 constexpr long least_speed = 1000;
 
-/// Bytes of an error's page that are read, so that the connection can be used again; and of a redirect's, because
-/// libcurl tells where it leads only at the end of it.
+/// Bytes of a page that are read at most. After the whole page of an error the connection can be used again. After that
+/// of a redirect libcurl names its target.
 constexpr std::uint64_t most_of_error = 64 << 10, most_of_redirect = 4 << 20;
 
 constexpr const char* wrong_range = "the web server sends another range than requested";
@@ -36,6 +36,8 @@ constexpr const char* no_tunnel =
 
 /// Statuses of failures that may pass.
 constexpr long passing[] = {408, 429, 500, 502, 503, 504};
+
+bool passes(long status) { return std::find(std::begin(passing), std::end(passing), status) != std::end(passing); }
 
 bool is_redirect(long status) {
   return status == 301 || status == 302 || status == 303 || status == 307 || status == 308;
@@ -311,7 +313,7 @@ std::string Transfer::redirected() const {
 const char* Transfer::refusal_of_proxy() const {
   long status = 0;
   if (status_ == 0) Curl::library().easy_getinfo(handle.get(), CURLINFO_HTTP_CONNECTCODE, &status);
-  if (status < 400 || status >= 500) return nullptr;
+  if (status < 400 || status >= 500 || passes(status)) return nullptr;
   return status == 407 ? meaning(status, false) : no_tunnel;
 }
 
@@ -332,8 +334,7 @@ Answer Transfer::answer(CURLcode result) const {
 
 bool Transfer::may_pass(CURLcode result) const {
   if (problem_ || refusal_of_proxy()) return false;
-  return is_cut() || std::find(std::begin(passing), std::end(passing), status_) != std::end(passing) ||
-         failure_of(result).may_pass;
+  return is_cut() || passes(status_) || failure_of(result).may_pass;
 }
 
 double Transfer::wished_pause() const {
