@@ -18,12 +18,15 @@
 #include <string>
 #include <thread>
 
+#include "environment_variable.h"
 #include "graphics/xvfb.h"
 #include "graphics_stage.h"
 #include "process/child.h"
 #include "process/find_program.h"
 
 // Last: their macros take names that others use.
+#include <EGL/egl.h>
+#include <EGL/eglext.h>
 #include <X11/Xlib.h>
 #include <X11/Xutil.h>
 
@@ -298,12 +301,21 @@ TEST_F(GraphicsContextDeathTest, AnOpenGlThatIsTooOldIsToldSo) {
   EXPECT_EXIT(open(Headless::xvfb), testing::ExitedWithCode(0), "too old.*1\\.4.*2\\.1");
 }
 
+bool has_egl_devices() {
+  const auto list = reinterpret_cast<PFNEGLQUERYDEVICESEXTPROC>(eglGetProcAddress("eglQueryDevicesEXT"));
+  EGLint count = 0;
+  return list != nullptr && list(0, nullptr, &count) == EGL_TRUE && count > 0;
+}
+
 TEST_F(GraphicsContextDeathTest, ADeviceOfNoUseDoesNotEndTheSearch) {
+  // The version is that of Mesa's drivers.
+  const EnvironmentVariable mesa("__EGL_VENDOR_LIBRARY_FILENAMES", "/usr/share/glvnd/egl_vendor.d/50_mesa.json");
+  if (!has_egl_devices()) GTEST_SKIP() << "Mesa's EGL has no devices";
   const auto open = [] {
     setenv("MESA_GL_VERSION_OVERRIDE", "1.4", 1);
     say_complaint(Headless::egl);
   };
-  EXPECT_EXIT(open(), testing::ExitedWithCode(0), "surfaceless .*too old.*; device [0-9]+ .*too old.*libegl1");
+  EXPECT_EXIT(open(), testing::ExitedWithCode(0), "is of no use: .*too old.*; .* is of no use: .*too old.*libegl1");
 }
 
 TEST_F(GraphicsContextDeathTest, WithoutClipControlItDrawsWithAnOrdinaryDepth) {
