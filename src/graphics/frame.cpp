@@ -187,9 +187,9 @@ void Frame::set_near(double near) {
 std::string Frame::lack() const {
   const bool samples = pipeline_->lacks_samples(), effects = pipeline_->lacks_effects();
   if (!samples && !effects) return {};
-  return "the graphics driver has no room for " +
+  return "the graphics driver cannot give " +
          (samples ? std::to_string(pipeline_->wished_samples()) + " samples a pixel" : std::string()) +
-         (samples && effects ? " and for " : "") + (effects ? "the effects" : "");
+         (samples && effects ? " and " : "") + (effects ? "the effects" : "");
 }
 
 std::string Frame::describe() const {

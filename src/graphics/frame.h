@@ -32,8 +32,8 @@
 
 namespace roam::graphics {
 
-/// How a requested picture is drawn: fully (Quality::full); or with the frame's quality, which waits for the next frame
-/// that is not drawn more fully for another request.
+/// How a requested picture is drawn. `full`: with Quality::full, whatever the quality of the frame. `as_shown`: with
+/// the quality of the frame; it waits while frames are drawn with more for other requests.
 enum class Finish : std::uint8_t { as_shown, full };
 
 struct FrameSettings {
@@ -41,7 +41,7 @@ struct FrameSettings {
   /// Metres, in (0, 1000]. Nothing nearer is drawn. For a body of radius r to see every wall that it can touch, use
   /// near_limit(r, ...).
   double near = 0.05;
-  /// Samples a pixel of Quality::full. Limited by the driver; 1 if it has no memory for more.
+  /// Samples a pixel of Quality::full. Limited by the driver; 1 if it cannot give them.
   int samples = 4;
   Quality quality = Quality::full;
   bool reversed_depth = true;  ///< false: an ordinary depth buffer even if the driver supports a reversed one
@@ -114,7 +114,7 @@ class Frame {
   /// display, and one a pass of the effects. They are known only if the thread that calls viewer.frame() also draws.
   [[nodiscard]] int draw_calls() const;
 
-  /// What the last frame has not because the driver lacks memory, as a sentence; empty: nothing.
+  /// What the last frame lacks because the driver cannot give it, as a sentence; empty: nothing.
   [[nodiscard]] std::string lack() const;
   /// One line: renderer, depth, samples, and missing abilities.
   [[nodiscard]] std::string describe() const;

@@ -20,8 +20,8 @@ namespace roam::graphics {
 
 /// Runs in the drawing thread, as callbacks of the viewer's camera: begin before the scene is drawn, resolve after it,
 /// and finish after everything that lies over it. The buffers follow the camera's viewport and the quality. If the
-/// driver has no memory for the samples, there is one a pixel; if it has none for the effects either, there are none;
-/// if it has none for that either, nothing is drawn and all requests fail.
+/// driver cannot give the samples, there is one a pixel; if it cannot give the effects either, there are none; if it
+/// cannot give even that, nothing is drawn and all requests fail.
 class Frame::Pipeline : public osg::Referenced {
  public:
   /// `headless` only affects the advice in messages.
@@ -39,7 +39,7 @@ class Frame::Pipeline : public osg::Referenced {
   [[nodiscard]] int wished_samples() const { return wished_samples_; }
   /// Samples of the last frame. Any thread.
   [[nodiscard]] int samples() const { return samples_; }
-  /// Whether the driver has no memory for what the last frame should have had. Any thread.
+  /// Whether the driver cannot give what the last frame should have had. Any thread.
   [[nodiscard]] bool lacks_samples() const { return lacks_samples_; }
   [[nodiscard]] bool lacks_effects() const { return lacks_effects_; }
   /// Any thread. Takes effect with the next frame.

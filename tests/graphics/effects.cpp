@@ -225,7 +225,7 @@ TEST(GraphicsEffects, WhereThereIsNoRoomForSamplesAreDrawnWithOne) {
   EXPECT_EQ(many.frame.lack(), "");
   EXPECT_EQ(differing(*many.picture(), *one.picture()), 0) << "with all effects";
   const std::string lack = many.frame.lack();
-  EXPECT_EQ(lack, "the graphics driver has no room for 4096 samples a pixel");
+  EXPECT_EQ(lack, "the graphics driver cannot give 4096 samples a pixel");
   EXPECT_NE(many.frame.describe().find("1 sample a pixel (" + lack + ")"), std::string::npos) << many.frame.describe();
   many.frame.set_quality(Quality::light);
   static_cast<void>(many.picture());

@@ -91,7 +91,8 @@ void Display::tell_news() {
                            words::counted(pages_told_, "page"), scene_.page_problem()));
   }
   tell_of_pages();
-  if (const std::string lack = stage_.frame().lack(); lack != std::exchange(driver_lack_told_, lack) && !lack.empty()) {
+  // A still lacks more than the frames before and after it.
+  if (const std::string lack = stage_.frame().lack(); !lack.empty() && std::exchange(driver_lack_told_, lack) != lack) {
     news_.note(lack);
   }
   for (const Picture& picture : stage_.poll_pictures()) {
