@@ -147,13 +147,16 @@ void Frame::Pipeline::resize(osg::GLExtensions& gl, const Plan& plan) {
   problem_.clear();
   const auto [widest, highest] = largest_sides();
   const bool within = plan.width <= widest && plan.height <= highest;
-  for (const Effects& effects : {plan.effects, Effects{}}) {
-    for (const int samples : {plan.samples, 1}) {
-      samples_ = samples;
-      lacks_samples_ = samples < plan.samples;
-      lacks_effects_ = effects != plan.effects;
-      if (within && allocate(gl, {plan.width, plan.height, samples, effects})) return;
-    }
+  const std::array<Plan, 4> plans{plan,
+                                  {plan.width, plan.height, 1, plan.effects},
+                                  {plan.width, plan.height, plan.samples, {}},
+                                  {plan.width, plan.height, 1, {}}};
+  for (auto next = plans.begin(); next != plans.end(); ++next) {
+    samples_ = next->samples;
+    lacks_samples_ = next->samples < plan.samples;
+    lacks_effects_ = next->effects != plan.effects;
+    const bool tried = std::find(plans.begin(), next, *next) != next;
+    if (within && !tried && allocate(gl, *next)) return;
   }
   problem_ = refuse(gl);
   // OpenSceneGraph draws in any case, so give it one invisible pixel.
