@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <osg/Image>
 #include <osg/ref_ptr>
@@ -81,11 +82,11 @@ class Video {
   [[nodiscard]] std::int64_t frames() const;
 
   static constexpr std::chrono::milliseconds patience{100'000};
-  /// Ends the film: waits until it is encoded, and gives the file its name. Throws roam::Error with the last line of
-  /// ffmpeg's output if ffmpeg has failed, if it neither computes nor writes for `idle` or does not end within
-  /// `longest`, or if the film has no picture.
-  void finish(std::chrono::milliseconds idle = patience,
-              std::chrono::milliseconds longest = std::chrono::milliseconds::max());
+  /// Ends the film: waits until it is encoded, and gives the file its name. Calls `is_urgent` about ten times a second;
+  /// from its first `true` on, ffmpeg has `longest` to end. Throws roam::Error with the last line of ffmpeg's output if
+  /// ffmpeg has failed, if it neither computes nor writes for `longest`, if it has no time left, or if the film has no
+  /// picture.
+  void finish(std::chrono::milliseconds longest = patience, const std::function<bool()>& is_urgent = {});
 
   /// Whether this extension is that of a film.
   [[nodiscard]] static bool is_film(const std::filesystem::path& path);

@@ -11,6 +11,7 @@
 #include <condition_variable>
 #include <ctime>
 #include <deque>
+#include <functional>
 #include <mutex>
 #include <osg/Image>
 #include <string>
@@ -187,16 +188,15 @@ class Video::Encoder {
   }
   [[nodiscard]] int rate() const { return rate_; }
 
-  void finish(std::chrono::milliseconds idle, std::chrono::milliseconds longest) {
+  void finish(std::chrono::milliseconds longest, const std::function<bool()>& is_urgent) {
     if (!feeder_.joinable()) return;
     {
       const std::lock_guard lock(mutex_);
       ended_ = true;
       changed_.notify_all();
     }
+    if (!wait(longest, is_urgent)) fail("it did not end");
     feeder_.join();
-    line_.close_ours();
-    if (!wait(idle, longest)) fail("it did not end");
     if (!process_.ending().is_success() || broken_) fail();
     if (frames_ == 0) throw Error::at(path_.string(), "the film " + path_.string() + " has no picture");
     files::add_mark(file_);
@@ -215,24 +215,39 @@ class Video::Encoder {
     return {nanoseconds(computed), nanoseconds(film.st_mtim)};
   }
 
+  /// Waits so long at most. Returns whether all pictures are with ffmpeg, and it has ended.
+  bool has_ended_within(std::chrono::milliseconds limit) {
+    if (std::unique_lock lock(mutex_); !changed_.wait_for(lock, limit, [&] { return fed_; })) return false;
+    line_.close_ours();
+    return process_.wait(limit);
+  }
+
   /// Returns whether ffmpeg has ended. The index of a long film, at its beginning, moves all of it: that takes minutes.
-  bool wait(std::chrono::milliseconds idle, std::chrono::milliseconds longest) {
-    using Clock = std::chrono::steady_clock;
+  bool wait(std::chrono::milliseconds longest, const std::function<bool()>& is_urgent) {
     constexpr std::chrono::milliseconds look{100};
-    const auto begin = Clock::now();
-    auto worked_at = begin;
-    for (auto before = work(); !process_.wait(look);) {
-      const auto now = Clock::now();
-      if (const auto after = work(); std::exchange(before, after) != after) worked_at = now;
-      const auto is_over = [now](Clock::time_point from, std::chrono::milliseconds limit) {
-        return std::chrono::floor<std::chrono::milliseconds>(now - from) > limit;
-      };
-      if (is_over(worked_at, idle) || is_over(begin, longest)) return false;
+    // The time of its last work; once it is urgent, that at which it became so.
+    auto from = std::chrono::steady_clock::now();
+    bool urgent = false;
+    for (auto before = work(); !has_ended_within(look);) {
+      const auto now = std::chrono::steady_clock::now();
+      const auto after = work();
+      const bool works = std::exchange(before, after) != after;
+      const bool becomes_urgent = !urgent && is_urgent && is_urgent();
+      if (becomes_urgent || (works && !urgent)) from = now;
+      urgent = urgent || becomes_urgent;
+      if (now - from > longest) return false;
     }
     return true;
   }
 
   void feed() {
+    feed_all();
+    const std::lock_guard lock(mutex_);
+    fed_ = true;
+    changed_.notify_all();
+  }
+
+  void feed_all() {
     for (;;) {
       std::pair<osg::ref_ptr<osg::Image>, std::int64_t> next;
       {
@@ -291,7 +306,7 @@ class Video::Encoder {
   std::condition_variable changed_;
   std::deque<std::pair<osg::ref_ptr<osg::Image>, std::int64_t>> waiting_;
   std::int64_t frames_ = 0;
-  bool ended_ = false, broken_ = false;
+  bool ended_ = false, fed_ = false, broken_ = false;
   std::thread feeder_;
 };
 
@@ -329,8 +344,8 @@ void Video::add(osg::ref_ptr<osg::Image> image, double seconds) {
 
 std::int64_t Video::frames() const { return encoder_->frames(); }
 
-void Video::finish(std::chrono::milliseconds idle, std::chrono::milliseconds longest) {
-  encoder_->finish(idle, longest);
+void Video::finish(std::chrono::milliseconds longest, const std::function<bool()>& is_urgent) {
+  encoder_->finish(longest, is_urgent);
 }
 
 bool Video::is_film(const fs::path& path) { return kind_of(path) != nullptr; }

@@ -249,6 +249,21 @@ TEST_F(Interrupt, ViewThatWritesItsFilmAndSaysThatItsPictureIsNotWritten) {
       << folder_.read("log");
 }
 
+TEST_F(Interrupt, ViewThatWaitsForItsEncoder) {
+  const std::string floor = folder_.write("floor.obj", "v -9 -9 0\nv 9 -9 0\nv 9 9 0\nv -9 9 0\nf 1 2 3 4\n");
+  const std::string film = folder_.file("film.mp4");
+  fs::create_directory(folder_.file("bin"));
+  const std::string path = std::getenv("PATH");
+  awaited_ = folder_.file("ending");
+  const std::string encoder = folder_.write(
+      "bin/ffmpeg", "#!/bin/sh\nPATH='" + path + "'\nffmpeg \"$@\" && touch '" + awaited_.string() + "' && sleep 4\n");
+  ::chmod(encoder.c_str(), 0755);
+  const EnvironmentVariable slow("PATH", folder_.file("bin") + ":" + path);
+  interrupt({"view", floor, "--headless", "--time", "1", "--record", film}, 0.0, SIGINT, 1, 4.0 + 2.0 * soon);
+  EXPECT_TRUE(fs::exists(film)) << folder_.read("log");
+  EXPECT_NE(folder_.read("log").find("film.mp4"), std::string::npos) << "the report: " << folder_.read("log");
+}
+
 /// A signal that is sent twice, as by `timeout`, after the time in which the program ends without results.
 TEST_F(Interrupt, ViewWhoseEncoderNeverEndsByASecondSignal) {
   const std::string floor = folder_.write("floor.obj", "v -9 -9 0\nv 9 -9 0\nv 9 9 0\nv -9 9 0\nf 1 2 3 4\n");

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <mutex>
 #include <optional>
+#include <utility>
 
 #include "cli/interrupt.h"
 #include "roam/error.h"
@@ -85,12 +86,12 @@ void Film::finish() {
     const std::string file = path().string();
     throw Error::at(file, state_->problem.empty() ? "the film " + file + " has no picture" : state_->problem);
   }
-  if (interrupted()) {
-    // longest_writing is for the report, too.
-    state_->video->finish(graphics::Video::patience, graphics::Video::patience);
-  } else {
-    state_->video->finish();
-  }
+  state_->video->finish(graphics::Video::patience, [given = false]() mutable {
+    if (!interrupted()) return false;
+    // The report is written in this time, too.
+    if (!std::exchange(given, true)) give_time_to_write(longest_writing);
+    return true;
+  });
 }
 
 }  // namespace roam::app
