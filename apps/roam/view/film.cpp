@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <exception>
 #include <mutex>
 #include <optional>
 #include <utility>
@@ -38,7 +39,7 @@ struct Film::State {
         return end(seconds, "the size of the window has changed, and a film has one");
       }
       video->add(std::move(image), seconds);
-    } catch (const Error& error) {
+    } catch (const std::exception& error) {  // there may be neither memory nor a thread for it
       problem = error.what();
     }
   }
