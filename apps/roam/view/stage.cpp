@@ -335,15 +335,17 @@ void Stage::draw_less_if_slow(Clock::time_point begin, double ms) {
 
 osg::ref_ptr<osg::Image> Stage::large_picture(int width, int height) {
   osg::Camera& camera = *viewer_->getCamera();
-  const float detail = camera.getLODScale();
+  struct Detail {
+    osg::Camera& camera;
+    const float scale = camera.getLODScale();
+    ~Detail() { camera.setLODScale(scale); }
+  } const of_window{camera};
   camera.setLODScale(1.0f);
   // Without updates, which would add pages from one tile to the next.
-  osg::ref_ptr<osg::Image> picture = graphics::draw_large_picture(*frame_, width, height, [this] {
+  return graphics::draw_large_picture(*frame_, width, height, [this] {
     stop_if_interrupted();
     viewer_->renderingTraversals();
   });
-  camera.setLODScale(detail);
-  return picture;
 }
 
 std::array<int, 2> Stage::enlarged_size() const {
