@@ -5,8 +5,10 @@
 
 #include <algorithm>
 #include <charconv>
+#include <chrono>
 #include <memory>
 #include <osgViewer/api/X11/GraphicsWindowX11>
+#include <thread>
 
 #include "roam/error.h"
 
@@ -45,6 +47,17 @@ class XWindow : public osgViewer::GraphicsWindowX11 {
     XSetWindowBackground(_display, _window, grey);
     XClearWindow(_display, _window);
     XFlush(_display);
+  }
+
+  /// Waits until the window manager shows the window, at most 2 s. By then it has given the window its size, which the
+  /// next events tell. One on a hidden workspace is not shown.
+  void wait_until_shown() {
+    constexpr int most = 2000;  // ms
+    XWindowAttributes found{};
+    for (int i = 0; i < most; ++i) {
+      if (XGetWindowAttributes(_eventDisplay, _window, &found) == 0 || found.map_state != IsUnmapped) return;
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
   }
 
  protected:
@@ -116,6 +129,7 @@ osg::ref_ptr<osgViewer::GraphicsWindow> open_x_window(const XWindowWish& wish, o
   }
   window->set_class();
   window->paint_grey();
+  window->wait_until_shown();
   return window;
 }
 
