@@ -31,7 +31,8 @@ std::optional<std::uint64_t> with_unit(std::string_view text, double step, bool 
     if (of_bytes && unit == "ib") unit.clear();
   }
   if (of_bytes && unit == "b") unit.clear();
-  constexpr double most = 1e18, rounding = 1e-15;  // 4.1 has no exact double, and 4.1M none that is whole
+  // 4.1 is no exact double, so 4.1 × 10⁶ is not computed as a whole number.
+  constexpr double most = 1e18, rounding = 1e-15;
   const double whole = std::round(number);
   if (!unit.empty() || !(number >= 0.0) || number > most || std::abs(number - whole) > rounding * number)
     return std::nullopt;
