@@ -22,7 +22,7 @@ class UsageError : public Error {
   explicit UsageError(const Error& error) : Error(error) {}
 };
 
-/// Work that a signal ended, and what is kept of it.
+/// Work that a signal ended, and what is kept of it, or could not be kept.
 class Stopped : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

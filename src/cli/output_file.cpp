@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "cli/exit_status.h"
+#include "cli/interrupt.h"
 #include "cli/standard_streams.h"
 #include "cli/tell.h"
 #include "files/mark.h"
@@ -117,6 +118,8 @@ void check_output(const std::string& option, const std::filesystem::path& file) 
 void Unwritten::raise() const {
   if (errors_.empty()) return;
   for (std::size_t i = 1; i < errors_.size(); ++i) tell(errors_[i].what());
+  // An Error after a signal counts as one that the signal caused.
+  if (interrupted()) throw Stopped(errors_.front().what());
   throw Error(errors_.front());
 }
 

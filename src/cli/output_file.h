@@ -70,7 +70,8 @@ class Unwritten {
     }
   }
   [[nodiscard]] bool any() const { return !errors_.empty(); }
-  /// Call it after the result has been printed. Throws the first error, and tells the others before.
+  /// Call it after the result has been printed. Throws the first error, after a signal as Stopped, and tells the others
+  /// before.
   void raise() const;
 
  private:

@@ -83,6 +83,16 @@ TEST_F(FullDisk, LeavesATraceOfBefore) {
   EXPECT_EQ(std::distance(fs::directory_iterator(folder_.file("disk")), fs::directory_iterator()), 1);
 }
 
+TEST_F(FullDisk, IsSaidOfAWalkThatIsInterrupted) {
+  const ProgramResult result = run_program("/bin/sh",
+                                           {"-c", "ulimit -f 2; exec " ROAM_PROGRAM " walk " + scene_ +
+                                                      " --wander 1e9 --picture " + folder_.file("disk/way.svg")},
+                                           {.interrupt_after = 1});
+  EXPECT_EQ(result.status, 130) << result.err;
+  EXPECT_TRUE(result.out.starts_with("INTERRUPTED after ")) << result.out;
+  EXPECT_TRUE(contains(result.err, "way.svg: File too large")) << result.err;
+}
+
 TEST_F(FullDisk, IsLikeALimitOfTheSystem) {
   const ProgramResult result = run_program(
       "/bin/sh", {"-c", "ulimit -f 2; exec " ROAM_PROGRAM " view " + scene_ +
