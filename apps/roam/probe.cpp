@@ -303,6 +303,7 @@ ExitStatus probe(ProbeOptions o) {
     }
     o.question.progress = {};
   }
+  give_time_to_write(longest_writing);
   for (ProbeAnswer& answer : answers) tell_gaps(o, scene, answer);
   const ProbeAnswer& first = answers.front();
   Unwritten unwritten;
@@ -314,11 +315,13 @@ ExitStatus probe(ProbeOptions o) {
                (o.matrix ? table(o.question, answers) : words::report(o.question, first, details).text()) +
                    kept_frame_line(o.scene),
                o.path.value_or(""));
-  // Behind the report, which Ctrl-C then does not cost.
+  // After the report, so that Ctrl-C during the drawing does not lose it.
   if (drawing) {
-    unwritten.attempt([&] { drawing->write(sheet_of(o.scene.file_names(), scene.survey, o.question, first)); });
+    unwritten.attempt(
+        [&] { drawing->draw([&] { return sheet_of(o.scene.file_names(), scene.survey, o.question, first); }); });
   }
   unwritten.raise();
+  if (interrupted()) return failed;
   const bool all = std::all_of(answers.begin(), answers.end(), [](const ProbeAnswer& a) { return a.passable; });
   return all ? done : answer_no;
 }

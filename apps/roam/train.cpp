@@ -155,23 +155,25 @@ ExitStatus train(TrainVerbOptions o) {
     report.training = train(scene.survey, o.train);
     o.train.progress = {};
   }
+  give_time_to_write(longest_writing);
   for (const words::Decisive& d : words::decisive(report.training))
     report.names.push_back(scene.names_at(d.point, d.direction, d.width));
   Unwritten unwritten;
   unwritten.attempt([&] { write_profile(o, profile, scene.identity, report); });
   print_report(o.json, json_report(report),
                text_report(report) + kept_frame_line(o.scene) + (o.stats ? stats_report(report) : ""));
-  if (drawing && interrupted()) {
+  if (drawing && !report.training.complete) {
     tell(fmt::format("{} was not drawn: this training ended early{}", o.picture->string(), earlier_stays(*o.picture)));
   } else if (drawing) {
     const std::vector<draw::OpeningView> views = views_of(report);
     // Without a deciding opening, draw the answer alone.
     const std::string text = views.empty() ? words::answer(report.training, o.train) : std::string();
-    unwritten.attempt(
-        [&] { drawing->write(draw::opening_sheet(o.scene.file_names(), views, scene.survey.meshes(), text)); });
+    unwritten.attempt([&] {
+      drawing->draw([&] { return draw::opening_sheet(o.scene.file_names(), views, scene.survey.meshes(), text); });
+    });
   }
   unwritten.raise();
-  if (!report.training.complete) return failed;
+  if (interrupted() || !report.training.complete) return failed;
   return report.training.feasible ? done : answer_no;
 }
 

@@ -201,44 +201,29 @@ verification::Verification verified(const WalkOptions& options, const OpenScene&
   return scene.store() ? verify(*scene.store(), pieces, goes_on) : verify(scene.loaded().meshes, pieces, goes_on);
 }
 
-/// Does work after the walk, which Ctrl-C may end. Returns whether it did not; else there is time to write the results.
-template <class Work>
-bool finishes(const Work& work) {
-  try {
-    work();
-    return true;
-  } catch (const std::runtime_error&) {
-    // Ctrl-C also ends the process that reads a scene, which is another error.
-    if (!interrupted()) throw;
-    give_time_to_write(longest_writing);
-    return false;
-  }
-}
-
 /// Maximum bytes per segment while a picture is made.
 constexpr std::uint64_t bytes_a_segment = 2048;
 
 draw::Measured measured(OpenScene& scene, const WalkReport& report, const draw::Record& record) {
-  // The pager has dropped the tiles along the path; a picture would show them as unknown. After Ctrl-C there is no time
-  // to load them again.
+  // The pager has dropped the tiles along the path; a picture would show them as unknown. If Ctrl-C ended the walk,
+  // there is no time to load them again.
   const auto arrive = [&](const Vec3& place, double reach) {
     stop_if_interrupted();
     scene.wait_around(Body{}, place, Vec3(0.0), reach);
   };
-  return draw::measure(scene.space(), report, record, interrupted() ? draw::Arrive() : draw::Arrive(arrive));
+  return draw::measure(scene.space(), report, record, report.interrupted ? draw::Arrive() : draw::Arrive(arrive));
 }
 
 /// The drawing of a measured walk. Call it after OpenScene::leave if the scene is a store.
 draw::Sheet sheet(const WalkOptions& options, const OpenScene& scene, const WalkReport& report,
                   const draw::Record& record, const draw::Measured& measured) {
-  const bool ends_early = !interrupted();
   const auto triangles = [&](const Box& box, const std::function<void(std::span<const Mesh>)>& take) {
     if (!scene.store()) return take(scene.loaded().meshes);
     const auto missing = [](const std::string& what) { tell(fmt::format("note: left out of the picture: {}", what)); };
     store::each_mesh(
         *scene.store(), box,
         [&](const Mesh& mesh) {
-          if (ends_early) stop_if_interrupted();
+          if (!report.interrupted) stop_if_interrupted();
           take({&mesh, 1});
         },
         missing);
@@ -253,9 +238,8 @@ draw::Sheet sheet(const WalkOptions& options, const OpenScene& scene, const Walk
 void check_moves(const WalkOptions& options, const OpenScene& scene, const verification::PieceLog& pieces,
                  WalkReport& report, checking::SceneSum& sum) {
   const auto begin = std::chrono::steady_clock::now();
-  if (!finishes([&] { report.verified = verified(options, scene, pieces, sum); })) {
-    tell(fmt::format("note: the {} moves were not all verified: Ctrl-C came before", pieces.size()));
-  }
+  finishes(fmt::format("the {} moves were not all verified", pieces.size()),
+           [&] { report.verified = verified(options, scene, pieces, sum); });
   report.verify_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 }
 
@@ -317,11 +301,9 @@ ExitStatus walk(WalkOptions options) {
   if (options.profile) walker.set_regions(options.profile->profile.regions);
   WalkReport report;
   report.result = go(options, walker, path, recorder);
+  give_time_to_write(longest_writing);
   report.interrupted = !recorder.goes_on();
-  if (report.interrupted) {
-    give_time_to_write(longest_writing);
-    report.result.end = walker.position();
-  }
+  if (report.interrupted) report.result.end = walker.position();
   Unwritten unwritten;
   unwritten.attempt([&] { recorder.finish(); });
 
@@ -352,8 +334,8 @@ ExitStatus walk(WalkOptions options) {
   report.paging = scene.paging();
   report.times = recorder.times();
   std::optional<draw::Measured> seen;
-  if (drawing && !finishes([&] { seen = measured(scene, report, recorder.record()); })) {
-    tell(fmt::format("note: {} was not drawn: Ctrl-C came before", options.picture.string()));
+  if (drawing) {
+    finishes(options.picture.string() + " was not drawn", [&] { seen = measured(scene, report, recorder.record()); });
   }
   scene.leave();
   checking::SceneSum sum;
@@ -365,17 +347,13 @@ ExitStatus walk(WalkOptions options) {
     tell(fmt::format("note: the certificate begins at {}, where the body was put: it did not fit where it should start",
                      words::exactly_at(*freed)));
   });
-  const auto draw_way = [&] {
-    unwritten.attempt([&] { drawing->write(sheet(options, scene, report, recorder.record(), *seen)); });
-  };
-  // After Ctrl-C the picture may take more time than there is.
-  const bool draws_last = seen && (interrupted() || !finishes(draw_way));
   const std::string text =
       text_report(report) + kept_frame_line(options.scene) + (options.stats ? stats_report(report) : "");
   print_report(options.json, json_report(report), text, options.trace);
-  if (draws_last) {
-    give_time_to_write(longest_drawing);
-    draw_way();
+  if (seen) {
+    // A walk that Ctrl-C ended is drawn, too, if that takes little time: the watchdog may end the program there.
+    if (report.interrupted) unwritten.raise();
+    unwritten.attempt([&] { drawing->draw([&] { return sheet(options, scene, report, recorder.record(), *seen); }); });
   }
   unwritten.raise();
   if (interrupted()) return failed;

@@ -11,10 +11,12 @@
 #include <cstdint>
 #include <ctime>
 #include <exception>
+#include <stdexcept>
 #include <string_view>
 #include <system_error>
 #include <thread>
 
+#include "cli/tell.h"
 #include "files/unfinished.h"
 #include "process/child.h"
 #include "process/thread_without_signals.h"
@@ -31,10 +33,15 @@ constexpr std::chrono::nanoseconds patience_with_watchdog = std::chrono::millise
 /// After this time a line says what the program still does.
 constexpr std::chrono::milliseconds silent_writing{2000};
 
-std::atomic<int> signal_came = 0;      ///< its number
-std::atomic<std::int64_t> came_at{0};  ///< of the steady clock, nanoseconds
-std::atomic<std::int64_t> due{0};      ///< of the same clock: the watchdog ends the program
-sem_t signals;                         ///< one for each signal that arrived
+std::atomic<int> signal_came = 0;  ///< its number
+// Nanoseconds of the steady clock.
+std::atomic<std::int64_t> came_at{0};
+std::atomic<std::int64_t> given_at{0};
+std::atomic<std::int64_t> given = std::chrono::nanoseconds(longest_good_order).count();
+sem_t signals;  ///< one for each signal that arrived
+
+/// After a signal: when the watchdog ends the program.
+std::int64_t due() { return std::max<std::int64_t>(came_at, given_at) + given; }
 
 extern "C" void take_signal(int number) {
   const int error = errno;
@@ -43,8 +50,7 @@ extern "C" void take_signal(int number) {
   const std::int64_t moment = std::int64_t{now.tv_sec} * 1'000'000'000 + now.tv_nsec;
   if (signal_came == 0) {
     came_at = moment;
-    due = moment + std::chrono::nanoseconds(longest_good_order).count();
-  } else if (moment - due > patience_with_watchdog.count()) {
+  } else if (moment - due() > patience_with_watchdog.count()) {
     // The next signal gets its default action, in case the watchdog itself hangs.
     std::signal(number, SIG_DFL);
   }
@@ -110,7 +116,7 @@ void watch() {
   wait_for_signal();
   for (bool another = false, said = false; !another;) {
     const std::chrono::nanoseconds now = std::chrono::steady_clock::now().time_since_epoch();
-    const auto left = std::chrono::ceil<std::chrono::milliseconds>(std::chrono::nanoseconds(due) - now);
+    const auto left = std::chrono::ceil<std::chrono::milliseconds>(std::chrono::nanoseconds(due()) - now);
     if (left <= left.zero()) break;
     if (!said && now - std::chrono::nanoseconds(came_at) > longest_good_order + silent_writing) {
       say("roam: still writing the results; Ctrl-C again drops them\n");
@@ -120,7 +126,7 @@ void watch() {
     constexpr std::chrono::milliseconds look{100};
     another = wait_for_another_signal(std::min(left, look));
   }
-  due = std::chrono::nanoseconds(std::chrono::steady_clock::now().time_since_epoch()).count();
+  give_time_to_write(std::chrono::milliseconds(0));
   end_at_once(signal_came);
 }
 
@@ -150,7 +156,9 @@ bool interrupted() { return signal_came != 0; }
 int interrupted_status() { return 128 + signal_came; }
 
 void give_time_to_write(std::chrono::milliseconds longest) {
-  due = std::chrono::nanoseconds(std::chrono::steady_clock::now().time_since_epoch() + longest).count();
+  // In this order, the time that was left is not cut before the new time begins.
+  given_at = std::chrono::nanoseconds(std::chrono::steady_clock::now().time_since_epoch()).count();
+  given = std::chrono::nanoseconds(longest).count();
 }
 
 void stop_if_interrupted() {
@@ -161,6 +169,18 @@ bool has_time() {
   if (!interrupted()) return true;
   const auto now = std::chrono::steady_clock::now().time_since_epoch();
   return now - std::chrono::nanoseconds(came_at) < longest_good_order / 2;
+}
+
+bool finishes(const std::string& otherwise, const std::function<void()>& work) {
+  try {
+    work();
+    return true;
+  } catch (const std::runtime_error&) {
+    // Ctrl-C also ends the process that reads a scene, which is another error.
+    if (!interrupted()) throw;
+    tell("note: " + otherwise + ": Ctrl-C came before");
+    return false;
+  }
 }
 
 }  // namespace roam::app

@@ -4,6 +4,8 @@
 /// does the same if good order takes too long: other people's code, such as a graphics driver, reports no progress.
 
 #include <chrono>
+#include <functional>
+#include <string>
 
 namespace roam::app {
 
@@ -25,12 +27,12 @@ void catch_signals();
 /// 128 + the number of the signal, as shells expect it of a program that a signal ended. Only after interrupted().
 [[nodiscard]] int interrupted_status();
 
-/// After a signal: the program may take so long, from now, to write its results. A further signal still ends it at
-/// once; after 2 s a line says so. Replaces the time given before.
+/// From now on, the program may take so long to write its results: from the first signal, or from now if that has
+/// arrived. A further signal still ends it at once; after 2 s a line says so. Replaces the time given before.
 void give_time_to_write(std::chrono::milliseconds longest);
 /// For trace, film and report: an encoder ends, and a slow disk takes what was written.
 inline constexpr std::chrono::milliseconds longest_writing{120'000};
-/// For a picture, which no film or trace waits for.
+/// For a picture, which nothing else waits for.
 inline constexpr std::chrono::milliseconds longest_drawing{2000};
 
 /// Throws roam::Cancelled if a signal has arrived.
@@ -39,5 +41,9 @@ void stop_if_interrupted();
 /// Whether there is time to continue work that may end early: no signal arrived, or the first one less than half of
 /// longest_good_order ago.
 [[nodiscard]] bool has_time();
+
+/// Does work after the main work of a verb, and returns true. If Ctrl-C ends it, says in a note that `otherwise` ("the
+/// plan was not drawn"), and returns false.
+bool finishes(const std::string& otherwise, const std::function<void()>& work);
 
 }  // namespace roam::app

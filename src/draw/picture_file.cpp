@@ -12,6 +12,7 @@
 #include <span>
 
 #include "cli/exit_status.h"
+#include "cli/interrupt.h"
 #include "cli/output_file.h"
 #include "draw/dxf.h"
 #include "files/extension.h"
@@ -157,13 +158,13 @@ void PictureFile::write(const Sheet& sheet) {
   } else if (extension == ".svg") {
     const Surface surface(cairo_svg_surface_create_for_stream(append, &bytes, sheet.width, sheet.height));
     cairo_svg_surface_set_document_unit(surface.get(), CAIRO_SVG_UNIT_PX);
-    status = draw(surface.get(), sheet);
+    status = draw::draw(surface.get(), sheet);
     cairo_surface_finish(surface.get());
     if (status == CAIRO_STATUS_SUCCESS) status = cairo_surface_status(surface.get());
   } else {
     const Surface surface(cairo_image_surface_create(CAIRO_FORMAT_RGB24, static_cast<int>(std::lround(sheet.width)),
                                                      static_cast<int>(std::lround(sheet.height))));
-    status = draw(surface.get(), sheet);
+    status = draw::draw(surface.get(), sheet);
     if (status == CAIRO_STATUS_SUCCESS) status = cairo_surface_write_to_png_stream(surface.get(), append, &bytes);
   }
   if (status != CAIRO_STATUS_SUCCESS) {
@@ -172,6 +173,13 @@ void PictureFile::write(const Sheet& sheet) {
   files::add_mark(bytes);
   file_.write(std::as_bytes(std::span(bytes)));
   file_.commit();
+}
+
+void PictureFile::draw(const std::function<Sheet()>& make) {
+  app::give_time_to_write(app::longest_drawing);
+  Sheet sheet;
+  if (!app::finishes(path_.string() + " was not drawn", [&] { sheet = make(); })) return;
+  write(sheet);
 }
 
 }  // namespace roam::draw

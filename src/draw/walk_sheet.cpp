@@ -8,7 +8,6 @@
 #include <glm/trigonometric.hpp>
 #include <limits>
 
-#include "cli/interrupt.h"
 #include "cli/progress.h"
 #include "draw/frames.h"
 #include "draw/page.h"
@@ -68,12 +67,11 @@ WalkDrawing drawing_of(const Walked& walked) {
   const double beyond = std::max({0.0, -range.lower.x, range.upper.x - way.length});
   const auto views = plan_views(walk, report.settings);
   const auto section = stretches(way, walk.frames.turn, beyond, range.lower.y, range.upper.y);
-  const bool ends_early = !app::interrupted();
   app::Progress progress("cutting", "triangles");
   Cutter cutter(walk.frames.turn, views, section, frames, held_for_each_shown * walked.most_segments);
   walked.triangles(cutter.box(), [&](std::span<const Mesh> meshes) {
     cutter.add(meshes, [&](std::uint64_t done) {
-      if (ends_early) progress.at(done, walked.triangle_count);
+      if (!report.interrupted) progress.at(done, walked.triangle_count);
     });
   });
   walk.cuts = cutter.take();

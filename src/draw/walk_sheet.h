@@ -53,7 +53,7 @@ struct Walked {
   std::uint64_t triangle_count = 0;  ///< of the scene; 0: not known
 };
 
-/// The whole sheet. Throws roam::Cancelled after Ctrl-C, unless that came before.
+/// The whole sheet. Throws roam::Cancelled after Ctrl-C, unless that ended the walk.
 [[nodiscard]] Sheet make_sheet(const Walked& walked);
 
 }  // namespace roam::draw

@@ -1,5 +1,7 @@
 // Ctrl-C and SIGTERM end every verb soon, whatever it does, and leave no process and no unfinished file.
 
+#include "cli/interrupt.h"
+
 #include <gtest/gtest.h>
 #include <sys/prctl.h>
 #include <sys/stat.h>
@@ -80,7 +82,7 @@ class Interrupt : public testing::Test {
       ended = ::waitpid(program, &status, WNOHANG) == program;
       std::this_thread::sleep_for(std::chrono::milliseconds(10));
     }
-    interrupted_ += ended ? 0 : 1;
+    ended = ended || ::waitpid(program, &status, WNOHANG) == program;
     const bool done = ended;
     const auto sent = Clock::now();
     for (int i = 0; i < times && !done; ++i) {
@@ -104,6 +106,7 @@ class Interrupt : public testing::Test {
     }
     ::close(input[0]);
     ::close(input[1]);
+    interrupted_ += done || status == 0 ? 0 : 1;
     EXPECT_LT(since(sent), longest);
     // Orderly, or as the signal does it.
     const bool in_order = WIFEXITED(status) && WEXITSTATUS(status) == 128 + signal;
@@ -121,6 +124,13 @@ class Interrupt : public testing::Test {
   }
 
   static const std::string& scene() { return scene_; }
+
+  /// A drawing that takes too long is cancelled.
+  void expect_drawn_or_told() const {
+    const std::string log = folder_.read("log");
+    const bool told = log.find("way.svg was not drawn: Ctrl-C came before") != std::string::npos;
+    EXPECT_TRUE(told || fs::exists(folder_.file("way.svg")) || log.find("roam: cancelled") != std::string::npos) << log;
+  }
 
   TestFolder folder_;
   fs::path awaited_;    ///< the signal is sent when this file is there; empty: at its time
@@ -170,9 +180,11 @@ TEST_F(Interrupt, WalkAfterItsEndTellsHowItWent) {
   Arguments walk{"walk", scene(), "--wander", "1", "--trace", awaited_, "--picture", folder_.file("way.svg"), "--json"};
   for (const char* more : {"--stats", "--verify"}) {
     fs::remove(awaited_);
+    fs::remove(folder_.file("way.svg"));
     walk.push_back(more);
     interrupt(walk, 0.0, SIGINT);
     EXPECT_NE(folder_.read("log").find("\"outcome\""), std::string::npos) << folder_.read("log");
+    expect_drawn_or_told();
   }
 }
 
@@ -191,6 +203,7 @@ TEST_F(Interrupt, ProbeThatDrawsHasTold) {
              awaited_, "--picture", folder_.file("way.svg")},
             0.0, SIGINT);
   EXPECT_NE(folder_.read("log").find("YES"), std::string::npos) << folder_.read("log");
+  expect_drawn_or_told();
 }
 
 TEST_F(Interrupt, Build) {
@@ -311,6 +324,17 @@ TEST_F(Interrupt, ViewWhileTheDriverWorks) {
                folder_.file("film.mp4"), "--at", "0,0,0.9,0,-1"},
               4.0, signal);
   }
+}
+
+TEST(TimeToWriteDeathTest, MayBeGivenBeforeTheSignal) {
+  const auto write = [] {
+    roam::app::catch_signals();
+    roam::app::give_time_to_write(std::chrono::minutes(10));
+    std::raise(SIGINT);
+    std::this_thread::sleep_for(2 * roam::app::longest_good_order);
+    std::_Exit(0);
+  };
+  EXPECT_EXIT(write(), testing::ExitedWithCode(0), "");
 }
 
 TEST(IgnoredInterrupt, StaysIgnored) {

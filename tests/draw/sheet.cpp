@@ -2,9 +2,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <csignal>
 #include <cstdlib>
 #include <glm/geometric.hpp>
 
+#include "cli/interrupt.h"
 #include "draw/labels.h"
 #include "draw/opening.h"
 #include "draw/page.h"
@@ -339,6 +341,19 @@ TEST(PictureFile, ShowsWhatIsDrawnAfterAnyName) {
     return folder.read("a.svg");
   };
   EXPECT_GT(svg(true).size(), svg(false).size());
+}
+
+TEST(PictureFileDeathTest, IsLeftOutAfterCtrlC) {
+  const TestFolder folder;
+  draw::PictureFile file(folder.file("a.svg"));
+  const auto interrupted = [&] {
+    roam::app::catch_signals();
+    std::raise(SIGINT);
+    file.draw([]() -> draw::Sheet { throw roam::Cancelled(); });
+    std::_Exit(0);
+  };
+  EXPECT_EXIT(interrupted(), testing::ExitedWithCode(0), "note: .*a.svg was not drawn: Ctrl-C came before");
+  EXPECT_FALSE(std::filesystem::exists(folder.file("a.svg")));
 }
 
 TEST(PictureFile, IsNotReplacedByOneThatCannotBeDrawn) {
