@@ -276,9 +276,13 @@ void Cutter::add(std::span<const Mesh> meshes, const std::function<void(std::uin
 Cuts Cutter::take() {
   Cuts all;
   for (std::size_t k = 0; k < state_->views.size(); ++k) {
-    all.plans.push_back({state_->walls[k].take(), state_->below[k].take()});
+    ThinSegments &walls = state_->walls[k], &below = state_->below[k];
+    all.plans.push_back({walls.take(), below.take(), std::max(walls.coarsened(), below.coarsened())});
   }
-  for (ThinSegments& section : state_->sections) all.sections.push_back(section.take());
+  for (ThinSegments& section : state_->sections) {
+    all.sections.push_back(section.take());
+    all.grids.push_back(section.coarsened());
+  }
   return all;
 }
 

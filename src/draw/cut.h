@@ -41,6 +41,7 @@ inline constexpr double usual_ground = 0.7071;
 struct PlanCut {
   std::vector<Segment> walls;  ///< at body height, in metres of the plan
   std::vector<Segment> below;  ///< lower surfaces: at the depths `below`, the lower of two storeys, and rising ground
+  double grid = 0.0;           ///< metres that ends were rounded to, because there are many; 0: they were not
 };
 
 /// A stretch of the way, straight when seen from above, for the section.
@@ -58,6 +59,7 @@ struct Stretch {
 struct Cuts {
   std::vector<PlanCut> plans;                  ///< one for each view
   std::vector<std::vector<Segment>> sections;  ///< what each frame shows: (along, height), metres
+  std::vector<double> grids;                   ///< of each section, as PlanCut::grid, along the way
 };
 
 /// Cuts a scene that arrives in parts, on all cores. The result does not depend on their number.

@@ -144,7 +144,10 @@ void ThinSegments::add(std::vector<Segment>&& segments) {
   if (segments_.size() <= most_) return;
   snap(segments_, origin_, grid_);
   // Half as many, so that the next few segments do not thin again at once.
-  while (segments_.size() > most_ / 2) snap(segments_, origin_, grid_ *= 2.0);
+  while (segments_.size() > most_ / 2) {
+    snap(segments_, origin_, grid_ *= 2.0);
+    coarsened_ = grid_.x;
+  }
 }
 
 }  // namespace roam::draw

@@ -18,6 +18,8 @@ namespace roam::draw {
 inline constexpr std::size_t usual_segments = 60'000;
 /// Pixels: a drawn line may be straightened by this.
 inline constexpr double straight = 0.2;
+/// Pixels: drawn lines lie this near to their places, unless they are many.
+inline constexpr double usual_exactness = 2.0 * straight;
 
 /// The position of the place of the segment from `a` (0) to `b` (1) nearest to `p`; 0 if the segment is no longer than
 /// a point.
@@ -66,7 +68,7 @@ struct Coarsened {
 
 /// Moves the segments to the sheet by `to_sheet` and rounds their ends to an eighth of a pixel. Removes points and
 /// duplicates, joins ends that meet, and straightens lines. If these have more than `most` pieces, rounds to coarser
-/// grids, up to 4 pixels, then keeps the longest segments, and says so in `coarsened`.
+/// grids, up to 4 pixels, then keeps only the longest segments; `coarsened` gets the grid and the number left out.
 [[nodiscard]] std::vector<Polyline> joined(std::span<const Segment> segments,
                                            const std::function<Point(const Point&)>& to_sheet, std::size_t most,
                                            Coarsened& coarsened);
@@ -82,11 +84,14 @@ class ThinSegments {
   void add(std::vector<Segment>&& segments);
   /// Call it once.
   [[nodiscard]] std::vector<Segment> take() { return std::move(segments_); }
+  /// Metres to the right that ends were rounded to; 0: no cell is larger than the first ones.
+  [[nodiscard]] double coarsened() const { return coarsened_; }
 
  private:
   Point origin_{0.0};
   Point grid_;  ///< a cell, metres
   std::size_t most_;
+  double coarsened_ = 0.0;
   std::vector<Segment> segments_;
 };
 

@@ -1,13 +1,10 @@
 #include "draw/panel.h"
 
-#include <fmt/format.h>
-
 #include <cmath>
 #include <functional>
 #include <glm/geometric.hpp>
 #include <numbers>
-
-#include "cli/tell.h"
+#include <tuple>
 
 namespace roam::draw {
 namespace {
@@ -41,17 +38,19 @@ void Panel::put(const std::string& what, std::vector<Polyline> pixels, const Sty
   sheet_.items.emplace_back(Lines{name_ + what, std::move(pixels), style, closed, clip});
 }
 
-void Panel::segments(const std::string& what, std::span<const Segment> segments, const Style& style, std::size_t most) {
+void Panel::segments(const std::string& what, std::span<const Segment> segments, const Style& style, std::size_t most,
+                     double grid) {
   std::vector<Segment> seen;
   for (Segment s : segments) {
     if (clip(s, frame_.view)) seen.push_back(s);
   }
   Coarsened coarsened;
   put(what, joined(seen, std::cref(*this), most, coarsened), style, false, area());
-  if (coarsened.grid == 0.0) return;
-  app::tell(fmt::format(
-      "note: too many lines in the picture ({}): rounded to {:.3g} m{}", name_ + what, coarsened.grid / scale(),
-      coarsened.left_out > 0 ? fmt::format(", and the {} shortest left out", coarsened.left_out) : ""));
+  const double pixels = std::max(coarsened.grid, grid * scale());
+  CoarseLines& coarsest = sheet_.coarsest;
+  if (pixels <= usual_exactness || std::tie(pixels, coarsened.left_out) <= std::tie(coarsest.pixels, coarsest.left_out))
+    return;
+  coarsest = {name_ + what, pixels, pixels / scale(), coarsened.left_out};
 }
 
 void Panel::lines(const std::string& what, std::vector<Polyline> lines, const Style& style, bool closed) {

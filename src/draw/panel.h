@@ -32,9 +32,10 @@ class Panel {
 
   // Shapes in metres.
 
-  /// Loose segments, joined into at most about `most` lines. A note on standard error tells how coarse that made them.
+  /// Loose segments, joined into at most about `most` lines. `grid`: metres that their ends were rounded to before; 0:
+  /// they were not. Sheet::coarsest says if they are less exact than `usual_exactness`.
   void segments(const std::string& what, std::span<const Segment> segments, const Style& style,
-                std::size_t most = usual_segments);
+                std::size_t most = usual_segments, double grid = 0.0);
   void lines(const std::string& what, std::vector<Polyline> lines, const Style& style, bool closed = false);
   void areas(const std::string& what, std::vector<Polyline> areas, const Style& style) {
     lines(what, std::move(areas), style, true);

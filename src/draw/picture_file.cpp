@@ -14,6 +14,7 @@
 #include "cli/exit_status.h"
 #include "cli/interrupt.h"
 #include "cli/output_file.h"
+#include "cli/tell.h"
 #include "draw/dxf.h"
 #include "files/extension.h"
 #include "files/mark.h"
@@ -180,6 +181,15 @@ void PictureFile::draw(const std::function<Sheet()>& make) {
   Sheet sheet;
   if (!app::finishes(path_.string() + " was not drawn", [&] { sheet = make(); })) return;
   write(sheet);
+  const CoarseLines& c = sheet.coarsest;
+  if (c.pixels > 0.0) {
+    app::tell(fmt::format("note: too many lines in the picture: the coarsest ({}) are rounded to {:.3g} m{}", c.what,
+                          c.metres, c.left_out > 0 ? fmt::format(", and the {} shortest left out", c.left_out) : ""));
+  }
+  if (sheet.runs_left_out > 0) {
+    app::tell(fmt::format("note: too many jumps for the picture: {} parts of the way between them are left out",
+                          sheet.runs_left_out));
+  }
 }
 
 }  // namespace roam::draw

@@ -26,8 +26,8 @@ class PictureFile {
   /// Draws the sheet and puts the file in its place. Call it once. SVG; DXF, see dxf.h; or PNG with one pixel per pixel
   /// of the sheet. Throws roam::Error; an earlier file then stays.
   void write(const Sheet& sheet);
-  /// Makes a sheet and writes it. A note on standard error says if Ctrl-C ended the making. Call it last: it
-  /// gives the program app::longest_drawing after Ctrl-C.
+  /// Makes a sheet and writes it. Notes on standard error say what it leaves out, or that Ctrl-C ended the making. Call
+  /// it last: it gives the program app::longest_drawing after Ctrl-C.
   void draw(const std::function<Sheet()>& make);
 
  private:

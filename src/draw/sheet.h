@@ -46,11 +46,21 @@ struct SheetView {
   std::optional<Turn> turn;  ///< of a plan
 };
 
+/// Lines that are coarser than usual, because they are many or memory is small.
+struct CoarseLines {
+  std::string what;
+  double pixels = 0.0;       ///< that their ends were rounded to; 0: none are coarser
+  double metres = 0.0;       ///< the same in the scene
+  std::size_t left_out = 0;  ///< short segments
+};
+
 struct Sheet {
   double width = 0.0;
   double height = 0.0;
   std::vector<SheetView> views;
   std::vector<std::variant<Lines, Disc, Text>> items;
+  CoarseLines coarsest;
+  std::size_t runs_left_out = 0;  ///< parts of the way between teleports
 };
 
 }  // namespace roam::draw

@@ -200,14 +200,14 @@ Colour colour_of(MarkKind kind) {
 }
 
 void paint_plan(Panel& panel, const WalkDrawing& walk, const PlanCut& cut) {
-  panel.segments("below", cut.below, below_style, walk.most_segments);
-  panel.segments("walls", cut.walls, wall_style, walk.most_segments);
+  panel.segments("below", cut.below, below_style, walk.most_segments, cut.grid);
+  panel.segments("walls", cut.walls, wall_style, walk.most_segments, cut.grid);
   panel.border();
   WalkPainter(panel, walk, true).paint();
 }
 
-void paint_section(Panel& panel, const WalkDrawing& walk, std::span<const Segment> cut) {
-  panel.segments("walls", cut, wall_style, walk.most_segments);
+void paint_section(Panel& panel, const WalkDrawing& walk, std::span<const Segment> cut, double grid) {
+  panel.segments("walls", cut, wall_style, walk.most_segments, grid);
   panel.border();
   WalkPainter(panel, walk, false).paint();
 }

@@ -44,7 +44,8 @@ struct GapScale {
 
 void paint_plan(Panel& panel, const WalkDrawing& walk, const PlanCut& cut);
 /// Unrolled along the way. Points are (metres along the way, height).
-void paint_section(Panel& panel, const WalkDrawing& walk, std::span<const Segment> cut);
+/// `grid`: that of the cut's ends; see PlanCut.
+void paint_section(Panel& panel, const WalkDrawing& walk, std::span<const Segment> cut, double grid);
 
 /// Writes labels at the marks of a painted panel. `label` returns the lines for the mark of an index; none: no label.
 void label_marks(Panel& panel, const WalkDrawing& walk, bool is_plan,

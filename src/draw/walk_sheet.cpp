@@ -171,7 +171,7 @@ class WalkSheet {
     page_.down(-8.0);  // no headings between them
     for (std::size_t k = 0; k < details.size(); ++k) {
       Panel panel = page_.panel("detail " + letter(k) + " section", details[k].section, plans[k].area().lower.x);
-      paint_section(panel, walk_, walk_.cuts.sections[k + 1]);
+      paint_section(panel, walk_, walk_.cuts.sections[k + 1], walk_.cuts.grids[k + 1]);
       if (k + 1 == details.size()) page_.below(panel);
     }
   }
@@ -189,7 +189,7 @@ class WalkSheet {
     Panel panel = page_.panel("section", f, sheet_width - sheet_margin - f.width());
     height_axis(panel);
     distance_axis(panel);
-    paint_section(panel, walk_, walk_.cuts.sections[0]);
+    paint_section(panel, walk_, walk_.cuts.sections[0], walk_.cuts.grids[0]);
     label_marks(panel, walk_, false, [&](std::size_t i) {
       auto label = lettered(i);
       if (!label.empty()) label.resize(1);
@@ -260,6 +260,10 @@ Measured measure(const Space& space, const words::EndedWalk& report, const Recor
   return measured;
 }
 
-Sheet make_sheet(const Walked& walked) { return WalkSheet(walked).compose(); }
+Sheet make_sheet(const Walked& walked) {
+  Sheet sheet = WalkSheet(walked).compose();
+  sheet.runs_left_out = walked.record.runs_left_out;
+  return sheet;
+}
 
 }  // namespace roam::draw

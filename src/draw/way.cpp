@@ -68,8 +68,11 @@ void leave_out(Record& record, std::vector<char> keep) {
 void thin_runs(Record& record) {
   constexpr std::ptrdiff_t most_runs = Record::most / 4;
   auto& places = record.places;
-  const auto begins = [](const Place& p) { return p.teleport; };
-  while (std::count_if(places.begin(), places.end(), begins) > most_runs) {
+  const auto runs = [&] {
+    return std::count_if(places.begin(), places.end(), [](const Place& p) { return p.teleport; });
+  };
+  const std::ptrdiff_t all = runs();
+  while (runs() > most_runs) {
     std::size_t last = places.size() - 1;  // begin of the last run
     while (!places[last].teleport) --last;
     std::vector<char> keep(places.size(), 1);
@@ -81,6 +84,7 @@ void thin_runs(Record& record) {
     std::erase_if(record.touches, [&](const Touch& touch) { return !keep[touch.place]; });
     leave_out(record, std::move(keep));
   }
+  record.runs_left_out += static_cast<std::size_t>(all - runs());
 }
 
 /// Removes places until a quarter of the limit is free.

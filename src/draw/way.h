@@ -35,6 +35,7 @@ struct Record {
   /// Metres. Places removed from runs that stay lie within twice this of the straight lines between the kept ones. 0:
   /// none was removed.
   double tolerance = 0.0;
+  std::size_t runs_left_out = 0;
   double spacing = 1e-2;  ///< metres; consecutive touches nearer to each other than this count once
 };
 

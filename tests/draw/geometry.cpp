@@ -321,16 +321,20 @@ TEST(PictureLines, TellHowCoarseTheirNumberMadeThem) {
     const Point p(random.between(0, 50), random.between(0, 50));
     dust.push_back({p, p + Point(random.between(-3, 3), random.between(-3, 3))});
   }
-  Page page;
-  Panel panel = page.panel("plan", {{{0, 0}, {50, 50}}, 10.0, 10.0}, sheet_margin);
-  testing::internal::CaptureStderr();
-  panel.segments("walls", dust, wall_style);
-  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
-  testing::internal::CaptureStderr();
-  panel.segments("walls", dust, wall_style, 100);
-  const std::string told = testing::internal::GetCapturedStderr();
-  EXPECT_TRUE(told.starts_with("roam: note: too many lines in the picture (plan walls): rounded to 0.4 m, and the "))
-      << told;
+  const auto coarsest = [&](std::size_t most, double grid) {
+    Page page;
+    Panel panel = page.panel("plan", {{{0, 0}, {50, 50}}, 10.0, 10.0}, sheet_margin);
+    panel.segments("walls", dust, wall_style, most, grid);
+    panel.segments("below", dust, wall_style);
+    return page.finish().coarsest;
+  };
+  for (const double unseen : {0.0, 0.03}) EXPECT_EQ(coarsest(usual_segments, unseen).pixels, 0.0) << unseen;
+  EXPECT_DOUBLE_EQ(coarsest(usual_segments, 0.06).metres, 0.06);
+  const CoarseLines few = coarsest(100, 0.06);
+  EXPECT_EQ(few.what, "plan walls");
+  EXPECT_EQ(few.pixels, 4.0);
+  EXPECT_DOUBLE_EQ(few.metres, 0.4);
+  EXPECT_GT(few.left_out, 0u);
 }
 
 TEST(PictureWay, KeepsItsCornersAndItsLength) {

@@ -1,6 +1,7 @@
 // Pictures of ways and scenes of any size, drawn in little memory.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -81,6 +82,9 @@ TEST(PictureMemory, HoldsFewPlacesOfAWayThatIsAllJumps) {
     ASSERT_LT(touch.place, record.places.size());
     EXPECT_EQ(touch.point, record.places[touch.place].position);
   }
+  const auto runs =
+      std::count_if(record.places.begin(), record.places.end(), [](const Place& p) { return p.teleport; });
+  EXPECT_EQ(static_cast<std::size_t>(runs) + record.runs_left_out, steps + 1U);
   const Way way = simplified(record, 0.001);
   EXPECT_GT(way.points.size(), Record::most / 8);
   EXPECT_EQ(way.points.front().position, place(0));
@@ -124,6 +128,8 @@ TEST(PictureMemory, HoldsOnlyAsManySegmentsAsItMay) {
   const Cuts few = cutter.take();
   EXPECT_LE(few.plans[0].walls.size(), most);
   EXPECT_GT(few.plans[0].walls.size(), most / 8);
+  EXPECT_EQ(all.plans[0].grid, 0.0);
+  EXPECT_GT(few.plans[0].grid, 0.0);
   // Every line that was cut is still drawn where it was.
   for (const Segment& s : all.plans[0].walls) {
     double nearest = 1e9;
@@ -161,6 +167,8 @@ TEST(PictureMemory, HoldsASectionAsItsFramesShowIt) {
     }
     EXPECT_LT(worst, 1.0) << k;
   }
+  EXPECT_GT(cuts.grids[0], 0.0);
+  EXPECT_EQ(cuts.grids[1], 0.0);
   // The detail is whole, and of its frame alone.
   EXPECT_NEAR(static_cast<double>(cuts.sections[1].size()), 2.0 * n * 6.0 / length, 4.0);
 }

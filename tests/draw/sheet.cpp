@@ -287,7 +287,7 @@ TEST(PictureSheet, ShowsTheSpaceOfTheBodyInADetailOfALongPiece) {
     draw::Page page;
     draw::Panel panel =
         page.panel("detail A section", {draw::Rect::around({middle, 0.9}, 10.0, 3.0), 80.0, 80.0}, draw::sheet_margin);
-    paint_section(panel, walk, {});
+    paint_section(panel, walk, {}, 0.0);
     EXPECT_EQ(sheets::all<Lines>(page.finish(), "detail A section band").size(), middle > 0.0 ? 1u : 0u);
   }
 }
@@ -341,6 +341,23 @@ TEST(PictureFile, ShowsWhatIsDrawnAfterAnyName) {
     return folder.read("a.svg");
   };
   EXPECT_GT(svg(true).size(), svg(false).size());
+}
+
+TEST(PictureFile, TellsOnceWhatItLeavesOut) {
+  const TestFolder folder;
+  for (const bool all : {true, false}) {
+    draw::Sheet sheet;
+    sheet.width = sheet.height = 100.0;
+    if (!all) sheet.coarsest = {"plan walls", 4.0, 0.4, 12};
+    if (!all) sheet.runs_left_out = 3;
+    testing::internal::CaptureStderr();
+    draw::PictureFile(folder.file("a.svg")).draw([&] { return sheet; });
+    EXPECT_EQ(testing::internal::GetCapturedStderr(),
+              all ? ""
+                  : "roam: note: too many lines in the picture: the coarsest (plan walls) are rounded to 0.4 m, and "
+                    "the 12 shortest left out\n"
+                    "roam: note: too many jumps for the picture: 3 parts of the way between them are left out\n");
+  }
 }
 
 TEST(PictureFileDeathTest, IsLeftOutAfterCtrlC) {
