@@ -45,8 +45,8 @@ TEST(Printable, ShowsNoControlOfUnicode) {
 }
 
 TEST(Printable, ShowsNothingInvisible) {
-  for (const char* c : {"\xC2\xAD", "\xE2\x80\x8B", "\xE2\x81\xA0", "\xEF\xBB\xBF", "\xEF\xBF\xB9",
-                        "\xF3\xA0\x81\x81"}) {
+  for (const char* c :
+       {"\xC2\xAD", "\xE2\x80\x8B", "\xE2\x81\xA0", "\xEF\xBB\xBF", "\xEF\xBF\xB9", "\xF3\xA0\x81\x81"}) {
     EXPECT_EQ(printable(std::string("a") + c + "z"), "a" + bad + "z") << c;
   }
 }
