@@ -154,7 +154,7 @@ ExitStatus view(ViewOptions options) {
   }
   print_report(options.json, json_report(report), text_report(report) + kept_frame_line(options.scene), options.trace);
   unwritten.raise();
-  if (cancelled) throw Cancelled();
+  if (cancelled || interrupted()) throw Cancelled();
   if (report.verified) verification::demand_all_read(*report.verified, report.store);
   const bool reached = report.path_ended && report.result->outcome == Outcome::reached;
   return report.result && !reached ? answer_no : done;
