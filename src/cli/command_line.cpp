@@ -19,6 +19,7 @@
 #include "cli/standard_streams.h"
 #include "cli/tell.h"
 #include "cli/usage.h"
+#include "files/unfinished.h"
 #include "roam/error.h"
 
 namespace roam::app {
@@ -90,13 +91,18 @@ constexpr std::string_view out_of_memory = "out of memory; take a smaller scene 
 
 const std::terminate_handler abort_with_message = std::get_terminate();
 
-/// For std::set_terminate. Allocates nothing, so there is no JSON, and outputs that were begun stay.
+/// For std::set_terminate. Allocates nothing, so there is no JSON. Removes unfinished files.
 void end_after_exception() {
   try {
     if (std::current_exception()) throw;
   } catch (const std::bad_alloc&) {
     for (const std::string_view part : {std::string_view("roam: "), out_of_memory, std::string_view("\n")}) {
       if (::write(STDERR_FILENO, part.data(), part.size()) < 0) break;
+    }
+    try {
+      files::Unfinished::remove_all();
+    } catch (const std::exception&) {
+      // There is none.
     }
     std::_Exit(failed);
   } catch (...) {
