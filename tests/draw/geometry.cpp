@@ -291,13 +291,19 @@ TEST(PictureLines, JoinLooseSegmentsIntoFew) {
   EXPECT_NEAR(covered, 2.0 * std::numbers::pi * 200.0, 5.0);
 }
 
-TEST(PictureLines, StayFewHoweverManySegmentsThereAre) {
-  Random random(9);
+/// Short segments that lie about in a square.
+std::vector<Segment> dust_in(double side, int count, std::uint64_t seed) {
+  Random random(seed);
   std::vector<Segment> dust;
-  for (int i = 0; i < 200'000; ++i) {
-    const Point p(random.between(0, 500), random.between(0, 500));
+  for (int i = 0; i < count; ++i) {
+    const Point p(random.between(0, side), random.between(0, side));
     dust.push_back({p, p + Point(random.between(-3, 3), random.between(-3, 3))});
   }
+  return dust;
+}
+
+TEST(PictureLines, StayFewHoweverManySegmentsThereAre) {
+  const std::vector<Segment> dust = dust_in(500, 200'000, 9);
   std::size_t points = 0;
   Coarsened coarsened, none;
   for (const Polyline& line : joined(
@@ -315,12 +321,7 @@ TEST(PictureLines, StayFewHoweverManySegmentsThereAre) {
 }
 
 TEST(PictureLines, TellHowCoarseTheirNumberMadeThem) {
-  Random random(10);
-  std::vector<Segment> dust;
-  for (int i = 0; i < 2'000; ++i) {
-    const Point p(random.between(0, 50), random.between(0, 50));
-    dust.push_back({p, p + Point(random.between(-3, 3), random.between(-3, 3))});
-  }
+  const std::vector<Segment> dust = dust_in(50, 2'000, 10);
   const auto coarsest = [&](std::size_t most, double grid) {
     Page page;
     Panel panel = page.panel("plan", {{{0, 0}, {50, 50}}, 10.0, 10.0}, sheet_margin);
