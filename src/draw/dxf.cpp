@@ -226,7 +226,7 @@ class Writer {
     const Colour& colour = shape.style.width > 0.0 || !shape.style.fill ? shape.style.stroke : *shape.style.fill;
     for (const Polyline& drawn : shape.lines) {
       if (drawn.empty()) continue;
-      // What has a clip may lead out of its view and into it again.
+      // A shape with a clip may lead out of its view and into it again.
       const Point at = shape.clip.empty() ? drawn.front() : shape.clip.center();
       const Placed* const placed = owner(shape.what, at, sign_room);
       if (placed == nullptr) continue;

@@ -60,7 +60,7 @@ void keep_corners(std::size_t first, std::size_t last, double tolerance, const D
 /// Removes the corners that lie within `tolerance` of the line between their neighbours.
 [[nodiscard]] Polyline simplified(const Polyline& line, double tolerance);
 
-/// What it cost to draw few lines.
+/// How much less exact lines are, because they would be too many.
 struct Coarsened {
   double grid = 0.0;         ///< pixels that ends were rounded to; 0: an eighth, as usual
   std::size_t left_out = 0;  ///< short segments

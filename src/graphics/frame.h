@@ -114,7 +114,7 @@ class Frame {
   /// display, and one a pass of the effects. They are known only if the thread that calls viewer.frame() also draws.
   [[nodiscard]] int draw_calls() const;
 
-  /// What the last frame lacks because the driver cannot give it, as a sentence; empty: nothing.
+  /// A sentence about effects and samples that the last frame lacks because the driver cannot give them; or empty.
   [[nodiscard]] std::string lack() const;
   /// One line: renderer, depth, samples, and missing abilities.
   [[nodiscard]] std::string describe() const;

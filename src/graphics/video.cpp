@@ -204,7 +204,7 @@ class Video::Encoder {
   }
 
  private:
-  /// What changes while ffmpeg works: its processor time, and when it last wrote to the film. Nanoseconds.
+  /// ffmpeg's processor time, and when it last wrote to the film, in nanoseconds: one of them changes while it works.
   [[nodiscard]] std::array<std::int64_t, 2> work() const {
     const auto nanoseconds = [](const timespec& t) { return std::int64_t{t.tv_sec} * 1'000'000'000 + t.tv_nsec; };
     clockid_t clock{};

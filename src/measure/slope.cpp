@@ -12,7 +12,7 @@
 namespace roam::measure {
 namespace {
 
-/// Of the length of a way: the rounding of distances along it is less.
+/// A part of the length of a way. Distances along it are rounded by less.
 constexpr double rounding = 1e-12;
 
 /// The lowest and the highest position at a distance along the way, seen from above: two where the way is vertical.

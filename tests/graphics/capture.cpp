@@ -365,7 +365,7 @@ TEST_F(GraphicsCapture, AFilmIsWaitedForWhileFfmpegWritesIt) {
 }
 
 TEST_F(GraphicsCapture, AFilmIsGivenUpIfFfmpegDoesNothingOrMayNotGoOn) {
-  // Neither a pipe nor a socket takes a large picture from who does not read.
+  // A large picture does not fit into a pipe or a socket that nobody reads.
   for (const auto& [script, size, urgent] : {std::tuple{"cat > /dev/null\nexec sleep 300\n", 64, false},
                                              {"exec sleep 300\n", 4096, false},
                                              {"cat > /dev/null\nwhile :; do :; done\n", 64, true},

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What the import said of the parts of a scene.
+/// Notes of the import about the parts of a scene.
 
 #include <fmt/format.h>
 
