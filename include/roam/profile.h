@@ -97,8 +97,8 @@ inline constexpr std::string_view profile_start = "{\n  \"roam_profile\":";
 /// The frame in the file profile_path(scenes), to be found before the scene is read. None if there is no file, or no
 /// frame in it. Throws as load_profile does.
 [[nodiscard]] std::optional<SceneFrame> find_frame(std::span<const std::filesystem::path> scenes);
-/// Keeps a frame in a profile. A body of another frame no longer fits the scene and is left out: returns whether one
-/// was. Throws as load_profile and save_profile do.
+/// Keeps a frame in a profile, unless that has a body of another frame: then the file stays as it is. Returns whether
+/// the file has the frame. Throws as load_profile and save_profile do.
 bool save_frame(const SceneFrame& frame, const std::filesystem::path& file);
 
 /// `settings` with the profile's radius, height, step, slope and support radius. The eye stays, but at most at the top

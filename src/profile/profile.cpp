@@ -209,7 +209,7 @@ Contents parsed(const Json& json) {
   const std::string mode = all.text("mode");
   const auto is_mode = [&](Mode m) { return mode == to_string(m); };
   const auto found = std::find_if(modes.begin(), modes.end(), is_mode);
-  if (found == modes.end()) refuse("mode", fmt::format("must be \"walk\" or \"fly\", not \"{}\"", printable(mode)));
+  if (found == modes.end()) refuse("mode", fmt::format("must be \"walk\" or \"fly\", not \"{}\"", excerpt(mode)));
   p.mode = *found;
   p.radius = all.number("radius");
   p.height = all.number("height");
@@ -373,10 +373,10 @@ bool save_frame(const SceneFrame& frame, const std::filesystem::path& file) {
   const auto status = std::filesystem::symlink_status(file, none);
   const bool is_new = status.type() == std::filesystem::file_type::not_found;
   const Contents before = is_new ? Contents{} : load(file);
-  if (before.frame == frame) return false;
+  if (before.profile) return before.frame == frame;
   const Json json = {{"roam_profile", Profile::version}, {"frame", json_of(frame)}};
   files::write_whole(file, json.dump(2) + "\n", files::Naming::beside);
-  return before.profile.has_value();
+  return true;
 }
 
 std::optional<Profile> find_profile(const std::filesystem::path& scene, const std::optional<SceneIdentity>& identity) {

@@ -123,6 +123,22 @@ TEST(Turn, IsToldWhenTheSceneIsOpenedAgain) {
   EXPECT_TRUE(contains(d.hud(), "y is up, as you chose; U turns")) << d.hud();
 }
 
+TEST(Turn, DoesNotTakeABodyFromTheProfile) {
+  DrivenSession d;
+  d.write_scene();
+  d.begin();
+  d.folder.write("scene.obj.roam.json",
+                 R"({"roam_profile": 1, "scene": {"hash": null, "geometry_hash": "0123456789abcdef", "triangles": 2,
+                 "bounds": {"min": [0, 0, 0], "max": [1, 1, 1]}}, "mode": "walk", "radius": 0.3, "height": 1.8,
+                 "support_radius": 0, "step": 0.3, "slope": 45, "interval": {"min": 0, "max": null}, "regions": [],
+                 "method": "interval", "complete": true})");
+  const std::string before = d.folder.read("scene.obj.roam.json");
+  d.session->run("turn");
+  EXPECT_FALSE(d.session->next());
+  EXPECT_TRUE(contains(d.hud(), "has a body for the scene as it is")) << d.hud();
+  EXPECT_EQ(d.folder.read("scene.obj.roam.json"), before);
+}
+
 TEST(Turn, SaysThatSeveralScenesDiffer) {
   DrivenSession d;
   d.write_scene();

@@ -87,8 +87,10 @@ void Rereading::read_with(const std::function<SceneFrame(const SceneFrame&)>& ch
     if (what_.scene.no_profile) return;
     try {
       const std::filesystem::path file = profile_path(what_.scene.scenes);
-      if (save_frame(*next_->frame, file)) {
-        next_->note = file.string() + " had a body for the scene as it was: train again";
+      if (!save_frame(*next_->frame, file)) {
+        next_.reset();
+        news_.tell(
+            fmt::format("{} has a body for the scene as it is: delete it, or view with --no-profile", file.string()));
       }
     } catch (const Error& error) {
       next_->note = fmt::format("the frame is not kept: {}", error.what());
