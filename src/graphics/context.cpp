@@ -35,6 +35,7 @@ Context on_xvfb(int width, int height) {
   Context context;
   context.headless = true;
   osg::ref_ptr<Xvfb> server = new Xvfb(std::max(width, xvfb_width), std::max(height, xvfb_height));
+  server->authorize();
   const std::string display = std::string(":").append(std::to_string(server->display()));
   context.window = open_x_window({display, "roam", width, height, false}, server);
   context.place = "Xvfb " + display;

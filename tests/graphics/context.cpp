@@ -176,8 +176,22 @@ TEST(GraphicsContext, XvfbEndsAlsoWhenTheProgramIsKilled) {
   EXPECT_TRUE(ends_soon(server));
 }
 
+TEST(GraphicsContext, XvfbRefusesThoseWithoutItsCookie) {
+  const osg::ref_ptr<graphics::Xvfb> xvfb = new graphics::Xvfb(640, 480);
+  const auto connects = [&](const std::string& authority) {
+    const std::string command = "XAUTHORITY=" + authority + " xdotool getdisplaygeometry > /dev/null 2>&1";
+    setenv("DISPLAY", std::string(":").append(std::to_string(xvfb->display())).c_str(), 1);
+    const bool connected = std::system(command.c_str()) == 0;
+    unsetenv("DISPLAY");
+    return connected;
+  };
+  EXPECT_FALSE(connects("/nonexistent"));
+  EXPECT_TRUE(connects(xvfb->authority()));
+}
+
 TEST(GraphicsContext, AWindowOpensOnTheDisplay) {
   const osg::ref_ptr<graphics::Xvfb> xvfb = new graphics::Xvfb(800, 600);
+  xvfb->authorize();
   setenv("DISPLAY", std::string(":").append(std::to_string(xvfb->display())).c_str(), 1);
   {
     const graphics::Context context = graphics::open_window("a title", 400, 300);
@@ -198,6 +212,7 @@ TEST(GraphicsContext, AWindowOpensOnTheDisplay) {
 
 TEST(GraphicsContext, AWindowIsGreyUntilItsFirstFrame) {
   const osg::ref_ptr<graphics::Xvfb> xvfb = new graphics::Xvfb(800, 600);
+  xvfb->authorize();
   const std::string name = std::string(":").append(std::to_string(xvfb->display()));
   setenv("DISPLAY", name.c_str(), 1);
   {

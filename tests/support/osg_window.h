@@ -30,6 +30,8 @@ constexpr double patience = 20.0;  // seconds until something has to have happen
 inline void need_display() {
   static const osg::ref_ptr<roam::graphics::Xvfb> xvfb = new roam::graphics::Xvfb(1000, 700);
   setenv("DISPLAY", std::string(":").append(std::to_string(xvfb->display())).c_str(), 1);
+  xvfb->authorize();
+  setenv("XAUTHORITY", xvfb->authority().c_str(), 1);
   setenv("LIBGL_ALWAYS_SOFTWARE", "1", 1);
 }
 

@@ -29,7 +29,10 @@ void need_display(bool resets) {
   static const osg::ref_ptr<roam::graphics::Xvfb> xvfb = new roam::graphics::Xvfb(1000, 700);
   static osg::ref_ptr<roam::graphics::Xvfb> resetting;
   if (resets) resetting = new roam::graphics::Xvfb(1000, 700, true);
-  setenv("DISPLAY", std::string(":").append(std::to_string((resets ? resetting : xvfb)->display())).c_str(), 1);
+  const roam::graphics::Xvfb& display = resets ? *resetting : *xvfb;
+  setenv("DISPLAY", std::string(":").append(std::to_string(display.display())).c_str(), 1);
+  display.authorize();
+  setenv("XAUTHORITY", display.authority().c_str(), 1);
   setenv("LIBGL_ALWAYS_SOFTWARE", "1", 1);
 }
 
