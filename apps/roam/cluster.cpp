@@ -35,11 +35,11 @@ struct ClusterVerb {
   bool submit = false;
 };
 
-/// Whether a word has a control character (C0, DEL, C1). Bytes that are not UTF-8 are none.
+/// Whether a word has a control character. A byte that is not UTF-8 counts as the character of Latin-1.
 bool has_control(std::string_view word) {
   while (!word.empty()) {
     const Character first = first_character(word);
-    if (first.bytes > 0 && first.code < 0xA0 && is_control(first.code)) return true;
+    if (is_control(first.bytes > 0 ? first.code : static_cast<unsigned char>(word[0]))) return true;
     word.remove_prefix(std::max(first.bytes, std::size_t{1}));
   }
   return false;

@@ -75,7 +75,9 @@ TEST(Cluster, RefusesNamesThatTheShellWouldRead) {
   const TestFolder folder;
   const std::string scene = write_ply(folder.file("a\nEND\n.ply"), field(2, 0.5, {0.0, 0.0, 0.0}));
   const std::string steering = write_ply(folder.file("a\xc2\x9b.ply"), field(2, 0.5, {0.0, 0.0, 0.0}));
-  for (const std::string& name : {scene, steering}) {
+  const std::string raw = write_ply(folder.file("a\x9b.ply"), field(2, 0.5, {0.0, 0.0, 0.0}));
+  const std::string turning = write_ply(folder.file("a\xe2\x80\xae.ply"), field(2, 0.5, {0.0, 0.0, 0.0}));
+  for (const std::string& name : {scene, steering, raw, turning}) {
     const auto refused = run_roam({"cluster", "slurm", name, "--shards", "3"});
     EXPECT_EQ(refused.status, 2);
     EXPECT_NE(refused.err.find("this name has a line break"), std::string::npos) << refused.err;
