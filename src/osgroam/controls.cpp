@@ -5,6 +5,8 @@
 #include <cctype>
 #include <osgGA/GUIEventAdapter>
 
+#include "text/printable.h"
+
 namespace osgRoam {
 namespace {
 
@@ -159,10 +161,11 @@ Controls::Key Controls::parseKey(std::string_view name) {
   const std::string wanted = lower(name);
   constexpr std::string_view ctrl = "ctrl+";
   if (wanted.starts_with(ctrl)) {
-    const Key key = parseKey(trimmed(name.substr(ctrl.size())));
-    if (key.ctrl || key.symbol == Adapter::KEY_Control_L) {
-      throw roam::Error("\"" + std::string(name) + "\" names Ctrl twice");
-    }
+    const std::string_view rest = trimmed(name.substr(ctrl.size()));
+    const auto twice = [&] { return roam::Error("\"" + roam::excerpt(name) + "\" names Ctrl twice"); };
+    if (lower(rest).starts_with(ctrl)) throw twice();
+    const Key key = parseKey(rest);
+    if (key.symbol == Adapter::KEY_Control_L) throw twice();
     return {key.symbol, true};
   }
   for (const NamedKey& key : named_keys) {
@@ -171,7 +174,7 @@ Controls::Key Controls::parseKey(std::string_view name) {
   for (int symbol = 0x21; symbol <= 0xFF; ++symbol) {
     if (latin(symbol) && utf8(symbol) == name) return {canonical(symbol), false};
   }
-  throw roam::Error("there is no key \"" + std::string(name) +
+  throw roam::Error("there is no key \"" + roam::excerpt(name) +
                     "\"; keys are called W, 1, [, Up, Page_Down, Shift, F1, Space, Comma, Plus, Ctrl+1");
 }
 

@@ -71,7 +71,7 @@ std::optional<RecordedBody> recorded_body(const std::string& text, const std::st
     }
     if (!good) {
       throw Error(line.place, fmt::format("'{}' does not say a body as in '{}'; correct or remove the line",
-                                          printable(line.text), body_line({}, Mode::walk)));
+                                          excerpt(line.text), body_line({}, Mode::walk)));
     }
     if (!body) {
       try {

@@ -4,6 +4,7 @@
 
 #include "math/floating_point.h"
 #include "roam/error.h"
+#include "text/printable.h"
 
 namespace roam {
 
@@ -11,14 +12,14 @@ UpAxis parse_up_axis(std::string_view text) {
   for (std::size_t i = 0; i < up_axis_names.size(); ++i) {
     if (up_axis_names[i] == text) return static_cast<UpAxis>(i);
   }
-  throw Error("'" + std::string(text) + "' is no axis; give x, y, z, -x, -y or -z.");
+  throw Error("'" + excerpt(text) + "' is no axis; give x, y, z, -x, -y or -z.");
 }
 
 LengthUnit parse_length_unit(std::string_view text) {
   for (std::size_t i = 0; i < length_unit_names.size(); ++i) {
     if (length_unit_names[i] == text) return static_cast<LengthUnit>(i);
   }
-  throw Error("'" + std::string(text) + "' is no unit of length; give m, cm, mm, ft or in.");
+  throw Error("'" + excerpt(text) + "' is no unit of length; give m, cm, mm, ft or in.");
 }
 
 std::array<std::array<double, 4>, 4> SceneFrame::to_file() const {

@@ -53,6 +53,10 @@ TEST(Controls, UnknownKeysAreNamedInTheMessage) {
     EXPECT_TRUE(says(refusal([&] { (void)Controls::parseKey(name); }), "\"")) << name;
   }
   EXPECT_TRUE(says(refusal([] { (void)Controls::parseKey("Pagedown"); }), "Pagedown"));
+  std::string many;
+  while (many.size() < 1'000'000) many += "Ctrl+";
+  EXPECT_TRUE(says(refusal([&] { (void)Controls::parseKey(many + "W"); }), "names Ctrl twice"));
+  EXPECT_LT(refusal([&] { (void)Controls::parseKey(std::string(1000, 'x')); }).size(), 200U);
 }
 
 TEST(Controls, LookupKnowsKeysWhateverShiftAndTheSideAre) {

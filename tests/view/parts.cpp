@@ -58,6 +58,8 @@ TEST(ViewSettings, NameFileAndEntryOfWhatIsWrong) {
   EXPECT_TRUE(contains(error(R"({"tile_error": -1})"), "\"tile_error\""));
   EXPECT_TRUE(contains(error(R"({"hud": "big"})"), "\"hud\" must be \"plain\", \"full\", \"minimal\" or \"off\""));
   EXPECT_TRUE(contains(error(R"({"speeed": 1})"), "\"speeed\" is not known; there are: keys, mouse"));
+  const std::string secret(100, 's');
+  EXPECT_FALSE(contains(error(R"({")" + secret + R"(": 1})"), secret.substr(0, 24)));
   EXPECT_TRUE(contains(error(R"({"keys": {"jump": 3}})"), "\"keys.jump\" must be the name of a key"));
   EXPECT_TRUE(contains(error("{"), "is no JSON"));
   EXPECT_TRUE(contains(error("[]"), "one JSON object"));

@@ -37,7 +37,7 @@ Json read(const std::filesystem::path& file) {
 
 double number(const Json& value, const std::filesystem::path& file) {
   const double x = value.is_number() ? value.get<double>() : std::nan("");
-  if (!std::isfinite(x)) fail(file, fmt::format("{} must be a number", printable(value.dump())));
+  if (!std::isfinite(x)) fail(file, fmt::format("{} must be a number", excerpt(value.dump())));
   return x;
 }
 
@@ -48,7 +48,7 @@ std::vector<Bookmark> bookmarks_of(const Json& scene, const std::filesystem::pat
   for (const Json& item : list) {
     const bool whole = item.is_object() && item.contains("name") && item["name"].is_string() &&
                        item.contains("position") && item["position"].is_array() && item["position"].size() == 3;
-    if (!whole) fail(file, "a bookmark must have a \"name\" and a \"position\" [x, y, z]: " + printable(item.dump()));
+    if (!whole) fail(file, "a bookmark must have a \"name\" and a \"position\" [x, y, z]: " + excerpt(item.dump()));
     Bookmark bookmark;
     bookmark.name = item["name"].get<std::string>();
     for (int k = 0; k < 3; ++k) bookmark.pose.position[k] = number(item["position"][static_cast<std::size_t>(k)], file);

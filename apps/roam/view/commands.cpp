@@ -6,6 +6,7 @@
 #include <iterator>
 
 #include "roam/error.h"
+#include "text/printable.h"
 #include "view/gamepad.h"
 
 namespace roam::app {
@@ -106,7 +107,7 @@ void set_up(osgRoam::Controls& controls, const ViewSettings& settings) {
                "other cameras, as in osgviewer, which meet no walls; click: the next one", Kind::gesture);
   std::string changes;
   for (const auto& [command, keys] : settings.keys) {
-    const std::string file = settings.file.string(), entry = fmt::format("the entry \"keys.{}\"", command);
+    const std::string file = settings.file.string(), entry = fmt::format("the entry \"keys.{}\"", excerpt(command));
     const Controls::Command* const known = controls.find(command);
     if (known == nullptr) throw Error(file, entry + ": there is no such command; `roam view --keys` lists them");
     if (known->kind == Kind::gesture) throw Error(file, entry + " is no command that can be given another key");

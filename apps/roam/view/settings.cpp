@@ -28,8 +28,8 @@ class SettingsObject {
   }
 
   [[noreturn]] void fail(const std::string& entry, const std::string& what) const {
-    const std::string path = where_.empty() || entry.empty() ? where_ + entry : where_ + "." + entry;
-    throw Error(file_.string(), path.empty() ? what : fmt::format("the entry \"{}\" {}", printable(path), what));
+    const std::string path = (where_.empty() || entry.empty() ? where_ : where_ + ".") + excerpt(entry);
+    throw Error(file_.string(), path.empty() ? what : fmt::format("the entry \"{}\" {}", path, what));
   }
 
   [[nodiscard]] std::optional<json> take(const std::string& entry) {
