@@ -93,6 +93,38 @@ TEST(StoreBuildHostile, ShardsAndScenesOfMoreTrianglesThanThereCanBeAreRefused) 
   EXPECT_LT(planning.mebibytes, 200U);
 }
 
+TEST(StoreBuildHostile, PartsOfMoreCellsThanFitTheMemoryArePlannedInIt) {
+  const TestFolder folder;
+  std::vector<std::string> scene;
+  for (int i = 0; i < 16; ++i) {
+    scene.push_back(write_ply(folder.file(std::to_string(i) + ".ply"), field(9, 1.0, {10.0 * i, 0.0, 0.0})));
+  }
+  auto o = options(scene, folder.file("s"));
+  o.memory = roam::StoreBuildOptions::least_memory;
+  roam::build_store(o);
+  const roam::store::Work work(o);
+  roam::store::Manifest manifest = *roam::store::manifest_in_force(work);
+  for (std::size_t i = 0; i < scene.size(); ++i) {
+    roam::store::PartFile part;
+    part.cell_bits = 30;
+    for (; part.triangles < roam::store::most_cells; ++part.triangles) {
+      part.cells.push_back({roam::store::CurveKey{part.triangles * scene.size() + i} << part.cell_bits, 1});
+    }
+    const auto bytes = roam::store::encode_part(part);
+    roam::store::NewFile file(o.output, "parts/new.part");
+    file.write(bytes);
+    manifest.parts[i].file = file.commit_by_hash();
+    manifest.parts[i].bytes = bytes.size();
+  }
+  fs::remove_all(folder.file("s/packs"));  // so that something is to be built
+  roam::store::publish(work.store, manifest);
+  roam::StoreBuildReport report;
+  const Cost planning = cost_of([&] { static_cast<void>(roam::plan_store(o, report)); });
+  EXPECT_EQ(planning.said, "");
+  EXPECT_EQ(report.parts_read, scene.size());
+  EXPECT_LT(planning.mebibytes, 200U);
+}
+
 TEST(StoreBuildHostile, AManifestMayTakeAllMemoryOfTheBuildAndNoMore) {
   const TestFolder folder;
   auto o = options({write_ply(folder.file("a.ply"), field(60, 1.0, Vec3(0.0)))}, folder.file("s"));

@@ -4,13 +4,19 @@
 
 #include <algorithm>
 #include <map>
+#include <numeric>
+#include <set>
 
 #include "clutter.h"
+#include "memory_cost.h"
 #include "program.h"
 #include "store/build/divide.h"
 #include "store/build/histogram.h"
+#include "store/build/part_cells.h"
+#include "store/build/plan.h"
 #include "store/build/run.h"
 #include "store/mask.h"
+#include "store_builds.h"
 
 namespace {
 
@@ -42,27 +48,27 @@ std::vector<PartCell> cells_of(const std::vector<CurveKey>& keys, std::uint32_t 
 
 struct Divided {
   std::vector<Stretch> stretches;
-  int refined = 0;
+  std::set<std::uint32_t> refined;  ///< parts that were counted in their triangles
 };
 
-Divided divided(const std::vector<std::vector<CurveKey>>& parts, const std::vector<int>& bits, ShardLimits limits) {
-  std::vector<PartCell> cells;
-  for (std::uint32_t p = 0; p < parts.size(); ++p) {
-    const auto some = cells_of(parts[p], p, bits[p]);
-    cells.insert(cells.end(), some.begin(), some.end());
-  }
+constexpr std::size_t plenty_of_cells = std::size_t{1} << 62;
+
+/// `bits`: of the cells in which each part is counted already.
+Divided divided(const std::vector<std::vector<CurveKey>>& parts, const std::vector<int>& bits, ShardLimits limits,
+                std::size_t most_cells = plenty_of_cells) {
   Divided result;
   result.stretches = divide(
-      cells,
-      [&](std::uint32_t part, const CurveCell& cell, int finer) {
-        ++result.refined;
+      static_cast<std::uint32_t>(parts.size()),
+      [&](std::uint32_t part, const CurveCell& cell) {
+        const bool counted = bits[part] < cell.bits;
+        if (!counted) result.refined.insert(part);
         std::vector<CurveKey> inside;
         for (const CurveKey key : parts[part]) {
           if (key >= cell.key && key <= cell.last()) inside.push_back(key);
         }
-        return cells_of(inside, part, finer);
+        return cells_of(inside, part, counted ? bits[part] : std::max(0, cell.bits - 12));
       },
-      limits);
+      most_cells, limits);
   return result;
 }
 
@@ -71,7 +77,7 @@ TEST(StoreDivision, CoversEveryTriangleOnceInShardsThatAreSmallEnough) {
   const std::vector<std::vector<CurveKey>> parts{crowded_keys(random, 9000), crowded_keys(random, 4000)};
   const ShardLimits limits{1000, 4000};
   const auto [stretches, refined] = divided(parts, {40, 61}, limits);
-  EXPECT_GT(refined, 0);
+  EXPECT_FALSE(refined.empty());
   ASSERT_GT(stretches.size(), 10U);
   std::vector<CurveKey> all = parts[0];
   all.insert(all.end(), parts[1].begin(), parts[1].end());
@@ -114,6 +120,70 @@ TEST(StoreDivision, DoesNotDependOnHowFinelyTrianglesAreCounted) {
   }
 }
 
+TEST(StoreDivision, IsTheSameWhereFewCellsAreKept) {
+  clutter::Random random(9);
+  std::vector<std::vector<CurveKey>> parts;
+  for (int p = 0; p < 6; ++p) parts.push_back(crowded_keys(random, 1500));
+  for (int p = 0; p < 60; ++p) {
+    std::vector<CurveKey>& keys = parts.emplace_back();
+    for (int i = 0; i < 500; ++i) keys.push_back(key_at({30.0 * p + random.unit() * 30.0, random.unit() * 30.0, 0.0}));
+    std::sort(keys.begin(), keys.end());
+  }
+  const ShardLimits limits{1500, 6000};
+  const std::vector<int> bits(parts.size(), 33);
+  const auto [stretches, refined] = divided(parts, bits, limits);
+  EXPECT_FALSE(refined.empty());
+  EXPECT_LT(refined.size(), parts.size());
+  std::size_t cells = 0;
+  for (std::uint32_t p = 0; p < parts.size(); ++p) cells += cells_of(parts[p], p, 33).size();
+  for (const std::size_t most : {cells, cells / 3, cells / 6}) {
+    const Divided few = divided(parts, bits, limits, most);
+    EXPECT_EQ(few.refined, refined) << "no part must be read for want of memory";
+    ASSERT_EQ(few.stretches.size(), stretches.size());
+    for (std::size_t i = 0; i < stretches.size(); ++i) {
+      EXPECT_EQ(few.stretches[i].cells, stretches[i].cells);
+      EXPECT_EQ(few.stretches[i].skip, stretches[i].skip);
+      EXPECT_EQ(few.stretches[i].triangles, stretches[i].triangles);
+      EXPECT_EQ(few.stretches[i].parts, stretches[i].parts);
+    }
+  }
+  try {
+    static_cast<void>(divided(parts, bits, limits, parts.size()));
+    FAIL() << "there is no room for a cell of each part";
+  } catch (const roam::Error& error) {
+    EXPECT_NE(std::string(error.what()).find("--memory"), std::string::npos) << error.what();
+  }
+}
+
+// 20,000 tiles of 60,000 triangles: their 5 million cells would take 160 MB. As many cells in 1 GiB are those of 1.3
+// million tiles.
+TEST(StoreDivision, TakesTheMemoryThatItIsGivenForAnyNumberOfParts) {
+  constexpr std::uint32_t parts = 20'000, row = 160, side = 16;
+  constexpr int bits = 36;  // 4 m
+  constexpr std::size_t most_cells = 1U << 18;
+  std::vector<Stretch> stretches;
+  const memory_cost::Cost cost = memory_cost::cost_of([&] {
+    stretches = divide(
+        parts,
+        [&](std::uint32_t part, const CurveCell& cell) {
+          std::vector<PartCell> cells;
+          for (std::uint32_t i = 0; i < side * side; ++i) {
+            const CurveKey key =
+                key_at({4.0 * (side * (part % row) + i % side), 4.0 * (side * (part / row) + i / side), 0.0});
+            if (key >= cell.key && key <= cell.last()) cells.push_back({key >> bits << bits, 234, part, bits});
+          }
+          std::sort(cells.begin(), cells.end(), [](const PartCell& a, const PartCell& b) { return a.key < b.key; });
+          return cells;
+        },
+        most_cells);
+  });
+  EXPECT_EQ(cost.said, "");
+  EXPECT_LT(cost.mebibytes, most_cells * sizeof(PartCell) / (1U << 20) + 8);
+  std::uint64_t triangles = 0;
+  for (const Stretch& s : stretches) triangles += s.triangles;
+  EXPECT_EQ(triangles, std::uint64_t{parts} * side * side * 234);
+}
+
 TEST(StoreDivision, ShardsOfOneSmallestCellNameThePartsOfTheirOwnTriangles) {
   clutter::Random random(4);
   const ShardLimits limits{100, 400};
@@ -125,7 +195,8 @@ TEST(StoreDivision, ShardsOfOneSmallestCellNameThePartsOfTheirOwnTriangles) {
     all.insert(all.end(), triangles, part);
   }
   std::size_t at = 0;
-  for (const Stretch& s : divide(cells, {}, limits)) {
+  const auto counted = [&](std::uint32_t part, const CurveCell&) { return std::vector{cells[part]}; };
+  for (const Stretch& s : divide(200, counted, plenty_of_cells, limits)) {
     ASSERT_EQ(s.cells, (std::vector<CurveCell>{{7, 0}}));
     // The triangles of its parts, by part and number.
     std::vector<std::uint32_t> own;
@@ -144,7 +215,8 @@ TEST(StoreDivision, OfAnyCountsOfOneCellTakesMemoryForItsPartsAndShards) {
   std::vector<PartCell> cells;
   for (std::uint32_t part = 0; part < 1100; ++part) cells.push_back({7, (1ULL << 38) / 1100, part, 0});
   std::size_t parts = 0;
-  const std::vector<Stretch> stretches = divide(cells, {});
+  const std::vector<Stretch> stretches = divide(
+      1100, [&](std::uint32_t part, const CurveCell&) { return std::vector{cells[part]}; }, plenty_of_cells);
   for (const Stretch& s : stretches) parts += s.parts.size();
   EXPECT_LE(parts, cells.size() + stretches.size());
 }
@@ -185,6 +257,48 @@ TEST(StoreDivision, AChangeMovesNoBordersFarAway) {
   EXPECT_GT(moved, 0);
   EXPECT_LT(moved, 10);
   EXPECT_GT(after.size(), 40U);
+}
+
+TEST(StorePartCells, OfACellAreThoseOfThePartInIt) {
+  const TestFolder folder;
+  const auto o = store_builds::options(
+      {store_builds::write_ply(folder.file("a.ply"), store_builds::field(200, 0.5, Vec3(0.0)))}, folder.file("s"));
+  roam::StoreBuildReport report;
+  static_cast<void>(roam::plan_store(o, report));
+  Work work(o);
+  std::vector<PartRecord> parts = read_plan(work).parts;
+  PartCells cells(work, parts);
+  const std::vector<PartCell> all = cells(0, {0, key_bits});
+  ASSERT_GT(all.size(), 100U);
+  const PartCell& middle = all[all.size() / 2];
+  const auto sum = [](const std::vector<PartCell>& counted) {
+    return std::accumulate(counted.begin(), counted.end(), std::uint64_t{0},
+                           [](std::uint64_t n, const PartCell& c) { return n + c.triangles; });
+  };
+  EXPECT_EQ(sum(all), report.triangles);
+  // From the file.
+  for (const int more : {1, 3, 5}) {
+    const CurveCell wide{middle.key >> (middle.bits + more) << (middle.bits + more), middle.bits + more};
+    std::vector<PartCell> inside = all;
+    std::erase_if(inside, [&](const PartCell& c) { return c.key < wide.key || c.key > wide.last(); });
+    const std::vector<PartCell> counted = cells(0, wide);
+    ASSERT_EQ(counted.size(), inside.size()) << more;
+    EXPECT_LT(counted.size(), all.size());
+    for (std::size_t i = 0; i < inside.size(); ++i) {
+      EXPECT_EQ(counted[i].key, inside[i].key);
+      EXPECT_EQ(counted[i].triangles, inside[i].triangles);
+      EXPECT_EQ(counted[i].bits, inside[i].bits);
+    }
+  }
+  // From the runs.
+  const std::vector<PartCell> narrow = cells(0, {middle.key, middle.bits});
+  EXPECT_GT(narrow.size(), 1U);
+  EXPECT_LT(narrow.front().bits, middle.bits);
+  EXPECT_EQ(sum(narrow), middle.triangles);
+  EXPECT_TRUE(cells.unread().empty());
+  parts[0].has_runs = false;
+  EXPECT_EQ(sum(cells(0, {middle.key, middle.bits})), 1U);
+  EXPECT_EQ(cells.unread(), std::set<std::size_t>{0});
 }
 
 TEST(StoreHistogram, DoesNotDependOnTheRuns) {

@@ -38,12 +38,13 @@ struct Stretch {
   std::vector<std::uint32_t> parts;  ///< with triangles here, ascending
 };
 
-/// Counts the triangles of a part in the parts of `cell` that remain when the `bits` low bits of the keys are left out.
-using Refine = std::function<std::vector<PartCell>(std::uint32_t part, const CurveCell& cell, int bits)>;
+/// Counts the triangles of a part in `cell`, in narrower cells, ascending by key.
+using Refine = std::function<std::vector<PartCell>(std::uint32_t part, const CurveCell& cell)>;
 
-/// Divides these cells into shards. Cells of one part may not overlap. The result depends only on the triangles'
-/// positions, not on the size of the cells.
-[[nodiscard]] std::vector<Stretch> divide(std::vector<PartCell> cells, const Refine& refine,
+/// Divides the triangles of so many parts into shards. The result depends only on the triangles' positions, not on the
+/// size of the cells. Keeps at most `most` of them at any moment: where there are more, it counts in wider ones,
+/// and refines these again as it comes to them. Throws roam::Error if that is not enough.
+[[nodiscard]] std::vector<Stretch> divide(std::uint32_t parts, const Refine& refine, std::size_t most,
                                           const ShardLimits& limits = {});
 
 }  // namespace roam::store

@@ -11,8 +11,8 @@
 #include "store/build/layout.h"
 #include "store/build/merge.h"
 #include "store/build/output_folder.h"
+#include "store/build/part_cells.h"
 #include "store/build/plan.h"
-#include "store/build/run.h"
 #include "store/build/scene_reader.h"
 #include "store/files.h"
 
@@ -76,55 +76,14 @@ class Planner {
 
   /// Decides the shards as far as the parts' runs allow. `missing_` gets the parts that must be read first.
   void lay_out() {
-    missing_.clear();
-    std::map<std::string, std::vector<std::uint32_t>> parts_of;  // by file
-    for (std::size_t i = 0; i < plan_.parts.size(); ++i) {
-      parts_of[plan_.parts[i].info.file].push_back(static_cast<std::uint32_t>(i));
-    }
-    std::vector<PartCell> cells;
-    std::uint64_t triangles = 0;
-    for (const auto& [hash, parts] : parts_of) {
-      const std::string file = part_file(hash);
-      int bits = 0;
-      PartVisitor visitor;
-      visitor.counts = [&, &parts = parts](const PartCounts& counts) {
-        bits = counts.cell_bits;
-        if (counts.triangles > (most_triangles - triangles) / parts.size()) {
-          throw Error::at((work_.store / file).string(),
-                          fmt::format("{} counts more triangles than any scene has: verify the store, and repair it",
-                                      (work_.store / file).string()));
-        }
-        triangles += counts.triangles * parts.size();
-        if (counts.cells > (most_cells_of_plan() - std::min(most_cells_of_plan(), cells.size())) / parts.size()) {
-          throw Error::at(work_.store.string(),
-                          fmt::format("the parts of {} take more memory than there is to plan in; give --memory more",
-                                      work_.store.string()));
-        }
-      };
-      visitor.cell = [&, &parts = parts](const Cell& cell) {
-        for (const std::uint32_t part : parts) cells.push_back({cell.key, cell.triangles, part, bits});
-      };
-      visitor.enough = [&] {
-        work_.tick();
-        return false;
-      };
-      const Descriptor opened = open_file(work_.store, file, O_RDONLY);
-      if (!opened.is_open()) fail("read", work_.store, file, errno);
-      visit_part(
-          [&](std::span<std::byte> out) {
-            const ssize_t got = again([&] { return ::read(opened.number(), out.data(), out.size()); });
-            if (got < 0) fail("read", work_.store, file, errno);
-            return static_cast<std::size_t>(got);
-          },
-          size_of(work_.store, file).value_or(0), file, visitor);
-    }
-    if (cells.empty()) {
+    PartCells cells(work_, plan_.parts);
+    std::vector<Stretch> stretches =
+        divide(static_cast<std::uint32_t>(plan_.parts.size()), std::ref(cells), most_cells_of_plan());
+    missing_ = cells.unread();
+    if (stretches.empty()) {
       remove_results();
       throw Error("the scene holds no triangle; check its files, and --ignore");
     }
-    std::vector<Stretch> stretches = divide(std::move(cells), [&](std::uint32_t part, const CurveCell& cell, int bits) {
-      return refine(part, cell, bits);
-    });
     plan_.shards.clear();
     if (!missing_.empty()) return;
     std::map<std::string, const ShardInfo*> before;
@@ -142,11 +101,9 @@ class Planner {
     }
   }
 
-  /// The largest scene: some 100,000 shards.
-  static constexpr std::uint64_t most_triangles = 1ull << 38;
-  /// Half of the memory, for a list that grows by doubling.
+  /// Half of the memory.
   [[nodiscard]] std::size_t most_cells_of_plan() const {
-    return static_cast<std::size_t>(work_.options.memory / (6 * sizeof(PartCell)));
+    return static_cast<std::size_t>(work_.options.memory / (2 * sizeof(PartCell)));
   }
 
   /// If a scene cannot become a store, its results are removed.
@@ -154,36 +111,6 @@ class Planner {
     if (in_force_) return;
     remove_scratch(work_.store);
     for (const PartRecord& part : plan_.parts) remove_file(work_.store, part_file(part.info.file));
-  }
-
-  /// See Refine. Counts in the runs of the part. A part without runs goes into `missing_`, and counts as one triangle
-  /// in one cell.
-  std::vector<PartCell> refine(std::uint32_t part, const CurveCell& cell, int bits) {
-    const PartRecord& record = plan_.parts[part];
-    if (!record.has_runs) {
-      missing_.insert(part);
-      return {{cell.key, 1, part, bits}};
-    }
-    std::vector<std::uint64_t> counts(std::size_t{1} << (cell.bits - bits));
-    RunBlock block;
-    for (std::size_t r = 0; r < record.runs.size(); ++r) {
-      if (record.runs[r].last < cell.key || cell.last() < record.runs[r].first) continue;
-      const RunReader run(work_.store, run_file(record.id, r), record.runs[r].hash);
-      const RunReader::Range range = run.blocks(cell.key, cell.last());
-      for (std::size_t b = range.begin; b < range.end; ++b) {
-        run.read(b, block);
-        for (const Triangle& t : block.triangles) {
-          const CurveKey key = place_of(t).key;
-          if (key >= cell.key && key <= cell.last()) ++counts[static_cast<std::size_t>((key - cell.key) >> bits)];
-        }
-        work_.tick();
-      }
-    }
-    std::vector<PartCell> out;
-    for (std::size_t i = 0; i < counts.size(); ++i) {
-      if (counts[i] > 0) out.push_back({cell.key + (CurveKey{i} << bits), counts[i], part, bits});
-    }
-    return out;
   }
 
   /// The parts that must be read before the shards can be decided or built.
