@@ -86,14 +86,13 @@ std::vector<ShardInfo> collect(Work& work, const Plan& plan) {
 }
 
 /// Removes a manifest, unless a process reads the store by it and therefore holds a shared lock on it. The manifest is
-/// removed while locked here: a process that waits for the lock then finds it gone and reads CURRENT again. Returns
-/// whether it was removed.
-bool remove_unless_read(const Folder& store, const std::string& manifest) {
+/// removed while locked here: a process that waits for the lock then finds it gone and reads CURRENT again.
+void remove_unless_read(const Folder& store, const std::string& manifest) {
   // On network file systems, an exclusive lock needs a descriptor open for writing.
   const Descriptor opened = open_file(store, manifest, O_RDWR);
-  if (!opened.is_open()) return false;
+  if (!opened.is_open()) return;
   const bool read = ::flock(opened.number(), LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
-  return !read && remove_file(store, manifest);
+  if (!read) remove_file(store, manifest);
 }
 
 /// Whether a build writes a file of this name into the scratch folder.
@@ -127,22 +126,27 @@ void keep(const Manifest& manifest, std::set<std::string>& files) {
 
 }  // namespace
 
+std::set<std::string> files_of_manifests(const Folder& store, std::uint64_t memory) {
+  std::set<std::string> files;
+  for (const std::string& file : files_in(store, "manifests")) {
+    if (!is_named_by_hash(file, ".json")) continue;
+    files.insert(codes_file(fs::path(file).stem().string()));
+    const std::vector<std::byte> bytes = read_file(store, file, memory);
+    keep(parse_manifest({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, file, memory), files);
+  }
+  return files;
+}
+
 std::string tidy(const Folder& store, std::uint64_t memory, bool keeps_versions) {
   std::string hash;
   const Manifest manifest = read_manifest(*files_of(store), store.string(), &hash, nullptr, memory);
-  std::set<std::string> needed;
-  keep(manifest, needed);
   for (const std::string& file : files_in(store, "manifests")) {
     if (is_temporary(file, [](auto name) { return name == manifest_file("new"); })) remove_file(store, file);
-    if (!is_named_by_hash(file, ".json") || file == manifest_file(hash)) continue;
-    if (!keeps_versions && remove_unless_read(store, file)) continue;
-    needed.insert(codes_file(fs::path(file).stem().string()));
-    const std::vector<std::byte> bytes = read_file(store, file, memory);
-    const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-    keep(parse_manifest(text, file, memory), needed);
+    if (!is_named_by_hash(file, ".json") || file == manifest_file(hash) || keeps_versions) continue;
+    remove_unless_read(store, file);
   }
+  std::set<std::string> needed = files_of_manifests(store, memory);
   needed.insert(spare_file(keep_spare(store, manifest)));
-  needed.insert(codes_file(hash));
   constexpr std::array<std::pair<const char*, const char*>, 4> kinds{
       {{"packs", ".pack"}, {"parts", ".part"}, {"spare", ".json"}, {"codes", ".hmac"}}};
   for (const auto& [folder, extension] : kinds) {

@@ -19,6 +19,10 @@ class Incomplete : public Error {
 /// for a manifest that takes more than the memory of the build.
 [[nodiscard]] std::vector<std::string> merge(Work& work, const Plan& plan, std::uint64_t usual = Store::usual_memory);
 
+/// The files that the manifests in the store's folder name, in force or not, and their codes. Reads manifests that take
+/// at most `memory` bytes. Throws roam::Error if one cannot be read.
+[[nodiscard]] std::set<std::string> files_of_manifests(const Folder& store, std::uint64_t memory);
+
 /// Removes files that no manifest in force names, and the scratch folder. Reads manifests that take at most `memory`
 /// bytes. With `keeps_versions` all manifests count as in force. The store must be locked. Returns the result of
 /// remove_scratch.

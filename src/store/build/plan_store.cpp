@@ -1,9 +1,8 @@
 // The first step of a build: reads the changed parts and decides the shards.
-#include <fcntl.h>
-#include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
+#include <filesystem>
+#include <functional>
 #include <map>
 #include <string_view>
 
@@ -40,6 +39,7 @@ class Planner {
       reader_.limit_references();
       lay_out();
     } while (reader_.read(needed()));
+    remove_former_shards();
     reader_.save();
     return std::move(plan_);
   }
@@ -54,6 +54,32 @@ class Planner {
     for (const std::string& file : files_in(work_.store, "scratch/runs")) {
       const std::string_view id = id_of_run(file);
       if (!id.empty() && !ids.contains(id)) remove_file(work_.store, file);
+    }
+  }
+  /// Removes the shards that are not of this plan but of a build that never ended, and their packs.
+  void remove_former_shards() const {
+    std::map<std::string, const PlannedShard*> planned;
+    for (const PlannedShard& shard : plan_.shards) planned[shard_file(shard.key)] = &shard;
+    std::vector<std::string> former;
+    std::set<std::string> needed;
+    for (const std::string& file : files_in(work_.store, "scratch/shards")) {
+      if (!is_named_by_hash(file, ".json")) continue;
+      if (!planned.contains(file)) {
+        former.push_back(file);
+      } else if (const auto shard = built_shard(work_, planned[file]->key)) {
+        needed.insert(pack_file(shard->pack));
+      }
+    }
+    if (former.empty()) return;
+    try {
+      needed.merge(files_of_manifests(work_.store, work_.options.memory));
+    } catch (const Error&) {
+      return;  // the packs of a manifest that cannot be read are not known
+    }
+    for (const std::string& file : former) {
+      const auto shard = built_shard(work_, std::filesystem::path(file).stem().string());
+      if (shard && !needed.contains(pack_file(shard->pack))) remove_file(work_.store, pack_file(shard->pack));
+      remove_file(work_.store, file);
     }
   }
   [[nodiscard]] bool is_there(const ShardInfo& shard) const {

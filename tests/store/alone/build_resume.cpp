@@ -360,6 +360,55 @@ TEST(StoreBuildResume, KeepsNoRunsOfAnEarlierStateOfTheScene) {
   expect_same(folder.file("fresh"), folder.file("s"));
 }
 
+TEST(StoreBuildResume, KeepsNoShardsOfAnEarlierStateOfTheScene) {
+  const TestFolder folder;
+  // More than a shard, so that b has one of its own.
+  write_ply(folder.file("b.ply"), field(600, 0.5, {0.0, 0.0, 0.0}));
+  const auto o = options({folder.file("a.ply"), folder.file("b.ply")}, folder.file("s"));
+  std::uint32_t size = 410;
+  std::uint64_t tasks = 0;
+  const auto plan_after_a_change = [&] {
+    write_ply(folder.file("a.ply"), field(--size, 0.5, {5000.0, 0.0, 0.0}));
+    roam::StoreBuildReport report;
+    tasks = roam::plan_store(o, report);
+    return report.shards;
+  };
+  const auto build = [&] {
+    roam::StoreBuildReport report;
+    for (std::uint64_t task = 0; task < tasks; ++task) roam::build_task(o, task, report);
+  };
+  const auto files = [&](const char* in) {
+    std::vector<std::string> there = roam::store::files_in(folder.file("s"), in);
+    std::sort(there.begin(), there.end());
+    return there;
+  };
+  ASSERT_EQ(plan_after_a_change(), 2U);
+  build();
+  const auto shards = files("scratch/shards"), packs = files("packs");
+  ASSERT_EQ(shards.size(), 2U);
+  ASSERT_EQ(packs.size(), 2U);
+  ASSERT_EQ(plan_after_a_change(), 2U);
+  const auto kept = files("scratch/shards"), kept_packs = files("packs");
+  ASSERT_EQ(kept.size(), 1U) << "the shard of b";
+  ASSERT_EQ(kept_packs.size(), 1U);
+  EXPECT_EQ(std::count(shards.begin(), shards.end(), kept[0]), 1);
+  EXPECT_EQ(std::count(packs.begin(), packs.end(), kept_packs[0]), 1);
+  build();
+  EXPECT_EQ(files("packs").size(), 2U);
+  // Packs that a manifest names stay.
+  roam::StoreBuildReport report;
+  roam::merge_store(o, report);
+  const auto published = files("packs");
+  ASSERT_EQ(plan_after_a_change(), 2U);
+  build();
+  EXPECT_EQ(files("packs").size(), 3U);
+  ASSERT_EQ(plan_after_a_change(), 2U);
+  EXPECT_EQ(files("packs"), published);
+  roam::build_store(o);
+  roam::build_store(options({folder.file("a.ply"), folder.file("b.ply")}, folder.file("fresh")));
+  expect_same(folder.file("fresh"), folder.file("s"));
+}
+
 TEST(StoreBuildResume, StopsWhenTheCallerSaysSoAndGoesOnLater) {
   const TestFolder folder;
   const std::string scene = write_ply(folder.file("a.ply"), field(300, 0.5, {0.0, 0.0, 0.0}));
