@@ -25,6 +25,7 @@
 /// called from any thread, and lock for a moment.
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 
@@ -74,10 +75,12 @@ class Pager final : public LiveSpace {
   ~Pager() override;
 
   bool update(const Body& body, const Vec3& place, const Vec3& velocity) override;
-  /// Updates until all that the body can reach within `ahead` seconds is known or failed, for at most `seconds`.
-  /// Returns whether it is; if so, the speed limit takes no latency into account until the next update(). Blocks: not
-  /// for use in a frame.
-  bool wait(const Body& body, const Vec3& place, const Vec3& velocity, double seconds, double ahead = 0.5);
+  /// Updates until all that the body can reach within `ahead` seconds is known or failed, or memory holds no more of
+  /// it, for at most `seconds`. Returns whether it is known or failed; if so, the speed limit takes no latency into
+  /// account until the next update(). `goes_on` is called now and then; false ends the wait. Blocks: not for use
+  /// in a frame.
+  bool wait(const Body& body, const Vec3& place, const Vec3& velocity, double seconds, double ahead = 0.5,
+            const std::function<bool()>& goes_on = {});
 
   /// The speed limit is (ready_radius - radius) / (latency + 1/60 s), with the latency of a read that starts now: a
   /// body slows down before unknown space instead of hitting it.

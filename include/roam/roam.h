@@ -421,10 +421,10 @@ ROAM_API roam_status roam_walker_get_contacts(const roam_walker* walker, roam_co
  */
 ROAM_API roam_status roam_space_update(roam_space* space, const roam_walker* walker, int32_t* changed);
 /**
- * Loads the surroundings of a body and of its motion from a store, for at most `seconds`: 4 m around the body, or the
- * motion's length if that is more. Before roam_clearance() and roam_contacts() add their reach to the radius. Writes
- * whether all of it is known or known to be unreadable: 1 or 0. 0 for a motion longer than 1000 m, of which it loads no
- * more. Always 1 in a world.
+ * Loads the surroundings of a body and of its motion from a store: 4 m around the body, or the motion's length if that
+ * is more. Ends after `seconds`, or when memory holds no more. Before roam_clearance() and roam_contacts() add their
+ * reach to the radius. Writes whether all of it is known or known to be unreadable: 1 or 0. 0 for a motion longer than
+ * 1000 m, of which it loads no more. Always 1 in a world.
  */
 ROAM_API roam_status roam_space_load(roam_space* space, const roam_query* query, double seconds, roam_progress progress,
                                      void* progress_data, int32_t* complete);

@@ -246,10 +246,10 @@ class Store(Space):
              patience: float = 10.0, cache: Optional[Path] = None, cache_size: Union[int, str] = "1G",
              redirects: bool = False, web_patience: float = 20.0) -> "Store":
         """Opens a store. `memory`: bytes, or a text such as "64M", at least 8M. `loaders`: loading threads, 1 to 16; 0:
-        1 for a folder, up to 8 for a web server. `patience`: seconds that a query waits for what it needs. `path` may
-        be an address; only then `cache` is a file of `cache_size` for what is read, `redirects` follows the server to
-        other hosts and folders, and `web_patience` is the time in seconds, 0.1 to 3600, for which a failing request is
-        tried again."""
+        1 for a folder, up to 8 for a web server. `patience`: seconds that a query waits for what it needs, as far as
+        memory holds that. `path` may be an address; only then `cache` is a file of `cache_size` for what is read,
+        `redirects` follows the server to other hosts and folders, and `web_patience` is the time in seconds, 0.1 to
+        3600, for which a failing request is tried again."""
         patience = _arrays.number(patience, "patience")
         if not 0.0 <= patience < float("inf"):
             raise ValueError(f"patience must be at least 0 seconds; it is {patience}")

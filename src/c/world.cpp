@@ -195,18 +195,15 @@ roam_status roam_space_load(roam_space* space, const roam_query* query, double s
       return;
     }
     // At a velocity of its length a second, the whole motion is what a body reaches within one second.
-    constexpr double ahead = 1.0, slice = 0.02;
+    constexpr double ahead = 1.0;
     Progress goes_on(progress, progress_data);
     using Clock = std::chrono::steady_clock;
     const auto begin = Clock::now();
-    bool known = false;
-    for (;;) {
-      const double left = seconds - std::chrono::duration<double>(Clock::now() - begin).count();
-      known = of.store->pager.wait({what.radius, what.half_height}, cpp_of(what.from), cpp_of(what.motion),
-                                   std::clamp(left, 0.0, slice), ahead);
-      if (known || left <= 0.0) break;
-      goes_on.check(std::min(1.0, 1.0 - left / seconds));
-    }
+    const bool known = of.store->pager.wait(
+        {what.radius, what.half_height}, cpp_of(what.from), cpp_of(what.motion), seconds, ahead, [&] {
+          goes_on.check(std::min(1.0, std::chrono::duration<double>(Clock::now() - begin).count() / seconds));
+          return true;
+        });
     *complete = known && glm::length(cpp_of(what.motion)) <= roam::Space::reach_limit ? 1 : 0;
   });
 }

@@ -215,6 +215,33 @@ TEST(Pager, IsNeverLaterThanTheTruthWhateverIsInMemory) {
   EXPECT_EQ(stats.failures, 0u);
 }
 
+TEST(Pager, WaitsNoLongerOnceMemoryHoldsNoMore) {
+  const made::Folder folder("pager_long");
+  const auto meshes = roam::generate::collect(roam::generate::gallery({.triangles = 1'000'000, .seed = 2}));
+  const auto store = made::store(folder.path(), meshes, {.page_tiles = 9});
+  ASSERT_GT(store->info().resident_bytes, 9u << 20);
+  Pager pager(store, {.memory = Pager::least_memory});
+  const Vec3 middle = pager.bounds().center();
+  std::uint64_t loads = 0;
+  double before = 0.0;
+  for (const double speed : {1000.0, 1000.0, -1000.0, -1000.0}) {
+    int calls = 0;
+    EXPECT_FALSE(pager.wait({0.3, 0.6}, middle, {speed, 0.0, 0.0}, 600.0, 1.0, [&] { return ++calls < 50'000; }));
+    EXPECT_LT(calls, 50'000);
+    const auto stats = pager.stats();
+    EXPECT_TRUE(stats.full);
+    EXPECT_GT(stats.tiles, 50u);
+    EXPECT_EQ(stats.reading, 0u);
+    if (speed == before) {
+      EXPECT_EQ(stats.loads, loads) << "it had ended too early";
+    }
+    loads = stats.loads;
+    before = speed;
+  }
+  // A body that reaches less finds room for it.
+  EXPECT_TRUE(pager.wait({0.3, 0.6}, middle, Vec3(0.0), 600.0));
+}
+
 TEST(Pager, TellsWhatIsWrongWithItsOptions) {
   const made::Folder folder("pager_options");
   clutter::Random random(5);

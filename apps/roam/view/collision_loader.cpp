@@ -12,7 +12,6 @@ namespace roam::app {
 namespace {
 
 constexpr double longest_wait = 5.0;  // s, for the tiles around the start
-constexpr double short_wait = 0.1;    // s
 
 }  // namespace
 
@@ -25,10 +24,8 @@ void wait_at(Pager& pager, const WalkerSettings& walker, const Vec3& place, cons
   const Body body = Body::capsule(walker.radius, walker.height);
   // Wait for the tiles that a body needs if it moves off at once.
   const Vec3 velocity(0.0, 0.0, -walker.speed);
-  for (double waited = 0.0; waited < longest_wait; waited += short_wait) {
-    if (!goes_on()) throw Cancelled();
-    if (pager.wait(body, place, velocity, short_wait, 1.0)) return;
-  }
+  static_cast<void>(pager.wait(body, place, velocity, longest_wait, 1.0, goes_on));
+  if (!goes_on()) throw Cancelled();
 }
 
 CollisionLoader::CollisionLoader(const SceneAndStore& what, const CollisionWish& wish)

@@ -60,7 +60,8 @@ struct Handover {
 
   std::mutex mutex;
   TrackedBody tracked;
-  std::uint64_t told = 0;  ///< number of times that update() has set `tracked`
+  std::uint64_t told = 0;     ///< number of times that update() has set `tracked`
+  std::uint64_t full_at = 0;  ///< `told` when memory last was full, and nothing on its way
   Queue<Message> messages{capacity};
   Queue<Gone> gone{capacity};
   PagerStats stats;      ///< all except last_failure

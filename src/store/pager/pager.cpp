@@ -132,6 +132,10 @@ struct Pager::State {
   void count(const PagedItem& item, bool comes);
   [[nodiscard]] bool take(const Message& message, const TrackedBody& tracked);
   [[nodiscard]] bool exchange(const TrackedBody& tracked, double& latency);
+  /// Handover::told
+  [[nodiscard]] std::uint64_t told() const;
+  /// Whether memory was full, and nothing on its way, at a body that was told after this number.
+  [[nodiscard]] bool holds_no_more(std::uint64_t told_before) const;
   /// The scene for a query of `reach` (m).
   [[nodiscard]] PagedScene scene(const Query& query, double reach, Vicinity* vicinity) const;
 };
@@ -211,6 +215,16 @@ bool Pager::State::exchange(const TrackedBody& tracked, double& latency) {
   return changed;
 }
 
+std::uint64_t Pager::State::told() const {
+  const std::lock_guard lock(handover.mutex);
+  return handover.told;
+}
+
+bool Pager::State::holds_no_more(std::uint64_t told_before) const {
+  const std::lock_guard lock(handover.mutex);
+  return handover.full_at > told_before && handover.messages.empty();
+}
+
 namespace {
 
 std::shared_ptr<const Store> demand(std::shared_ptr<const Store> store) {
@@ -243,11 +257,13 @@ bool Pager::update(const Body& body, const Vec3& place, const Vec3& velocity) {
   return changed;
 }
 
-bool Pager::wait(const Body& body, const Vec3& place, const Vec3& velocity, double seconds, double ahead) {
+bool Pager::wait(const Body& body, const Vec3& place, const Vec3& velocity, double seconds, double ahead,
+                 const std::function<bool()>& goes_on) {
   const DefaultFloatingPoint guard;
   const auto begin = Clock::now();
   const auto limit = std::chrono::duration<double>(seconds);
   State& s = *state_;
+  const std::uint64_t told_before = s.told();
   for (;;) {
     (void)update(body, place, velocity);
     const TrackedBody tracked(body, place, velocity);
@@ -256,7 +272,7 @@ bool Pager::wait(const Body& body, const Vec3& place, const Vec3& velocity, doub
       s.speed_limiter.forget_latency();
       return true;
     }
-    if (Clock::now() - begin >= limit) return false;
+    if (Clock::now() - begin >= limit || s.holds_no_more(told_before) || (goes_on && !goes_on())) return false;
     std::this_thread::sleep_for(std::chrono::microseconds(500));
   }
 }

@@ -143,9 +143,11 @@ void Planner::end(Request& request) {
 bool Planner::next(Work& work) {
   settle();
   TrackedBody tracked;
+  std::uint64_t told = 0;
   {
     const std::lock_guard lock(handover_.mutex);
-    if (handover_.told == 0 || handover_.messages.room() < spare_messages) return false;
+    told = handover_.told;
+    if (told == 0 || handover_.messages.room() < spare_messages) return false;
     tracked = handover_.tracked;
   }
   const auto time = Clock::now();
@@ -154,7 +156,15 @@ bool Planner::next(Work& work) {
   for (Request& r : requests_) {
     if (r.state == Request::State::ready && (!first || r.key < first->key)) first = &r;
   }
-  if (!first) return false;
+  if (!first) {
+    const bool idle = std::all_of(requests_.begin(), requests_.end(),
+                                  [](const Request& r) { return r.state == Request::State::none; });
+    if (full_ && idle && !changed_) {
+      const std::lock_guard lock(handover_.mutex);
+      handover_.full_at = told;
+    }
+    return false;
+  }
   first->state = Request::State::reading;
   work.item = first->item;
   work.unit = first->unit;
