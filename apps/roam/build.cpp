@@ -345,11 +345,8 @@ void add_build(CLI::App& program, Run& run) {
   verb->add_option("-o,--output", options->output, "Folder of the store (default: SCENE.roam beside the scene)")
       ->type_name("FOLDER");
   verb->add_flag("--adopt", options->adopt, "Trust and update a store that somebody else built; it is yours then");
-  verb->add_option("--near", options->near, "Build the parts near this position first; the store is the same")
-      ->expected(3)
-      ->delimiter(',')
-      ->check(from_to(-coordinate_limit, coordinate_limit))
-      ->type_name("X,Y,Z");
+  add_place(*verb, "--near", options->near, "Build the parts near this position first; the store is the same")
+      ->check(from_to(-coordinate_limit, coordinate_limit));
   verb->add_flag("--json", options->json, "Print one JSON object");
   verb->add_flag("--json-lines", options->json_lines,
                  "Print the progress as JSON objects, one a line, and at the end the object of --json");

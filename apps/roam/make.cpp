@@ -129,10 +129,7 @@ void add_kind(CLI::App& verb, const std::shared_ptr<MakeOptions>& options, std::
   verb.add_option("--seed", options->seed, "Seed: the same seed gives the same bits (default: 1)")
       ->check(seed())
       ->type_name("S");
-  verb.add_option("--origin", options->origin, "Added to all coordinates, in metres (default: 0,0,0)")
-      ->expected(3)
-      ->delimiter(',')
-      ->type_name("X,Y,Z");
+  add_place(verb, "--origin", options->origin, "Added to all coordinates, in metres (default: 0,0,0)");
   verb.add_flag("--json", options->json, "Print one JSON object");
   verb.callback([options, maker, gallery, &run] {
     run = [options, maker, gallery] {

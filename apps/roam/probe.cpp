@@ -353,7 +353,7 @@ void add_probe(CLI::App& program, Run& run) {
   add_surveyed_to(*verb, o.scene);
   verb->option_defaults()->group("Way");
   const auto place = [&](const char* name, std::vector<double>& value, const char* text) {
-    verb->add_option(name, value, text)->expected(3)->delimiter(',')->type_name("X,Y,Z")->required();
+    add_place(*verb, name, value, text)->required();
   };
   place("--from", o.from, "Start");
   place("--to", o.to, "Target");

@@ -53,6 +53,10 @@ CLI::Validator rewritten(double step, bool of_bytes, const char* what) {
 
 }  // namespace
 
+CLI::Option* add_place(CLI::App& app, const std::string& name, std::vector<double>& place, const std::string& what) {
+  return app.add_option(name, place, what)->expected(3)->delimiter(',')->allow_extra_args(false)->type_name("X,Y,Z");
+}
+
 CLI::Validator positive() {
   return {[](std::string& text) {
             double value = 0.0;

@@ -59,6 +59,9 @@ template <class Number>
 /// Rewrites 64M or 8G as bytes. K, M, G and T are powers of 1024; B or iB may follow.
 [[nodiscard]] CLI::Validator bytes();
 
+/// An option for a place: three numbers, as 1,2,3 or 1 2 3. No later argument counts as a fourth.
+CLI::Option* add_place(CLI::App& app, const std::string& name, std::vector<double>& place, const std::string& what);
+
 /// An option for a number of triangles, within roam::generate's limits, at least `least`.
 inline CLI::Option* add_triangles(CLI::App& app, const std::string& name, std::uint64_t& triangles,
                                   const std::string& what, std::uint64_t least = generate::least_triangles) {

@@ -87,6 +87,20 @@ TEST(Usage, SaysWhichValueIsWrongAndWhatFits) {
   });
 }
 
+TEST(Usage, TakesTheSceneAfterAPlace) {
+  for (const Arguments& arguments : std::vector<Arguments>{{"build", "--near", "1,2,3", "gone.ply"},
+                                                           {"build", "--near=1,2,-3", "gone.ply"},
+                                                           {"build", "--near", "1", "2", "3", "gone.ply"},
+                                                           {"probe", "--from", "1,2,3", "gone.ply", "--to", "1,2,3"},
+                                                           {"view", "--origin", "1,2,3", "gone.ply"},
+                                                           {"walk", "--wander", "5", "--from", "1,2,3", "gone.ply"}}) {
+    const ProgramResult result = run_program(ROAM_PROGRAM, arguments);
+    EXPECT_EQ(result.err.substr(0, result.err.find('\n')),
+              "roam: gone.ply: there is no such file or folder. Check the spelling.")
+        << arguments[0];
+  }
+}
+
 TEST(Usage, RefusesAnEmptyNameOfAFile) {
   expect_refused({
       {{"walk", "x.obj", "--wander", "1", "--certify", ""}, "roam walk: --certify: a file needs a name"},

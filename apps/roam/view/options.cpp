@@ -223,12 +223,9 @@ void ViewOptions::add_to(CLI::App& verb) {
                 "The body passes through what --hide and --section hide: objects, and triangles that lie as a whole "
                 "beyond a plane or one side of the box. With a store only such triangles")
       ->excludes(replay);
-  verb.add_option("--origin", origin,
-                  "Coordinates of the scene's zero at the site, in metres: the display shows those of the body, too")
-      ->expected(3)
-      ->delimiter(',')
-      ->check(from_to(-coordinate_limit, coordinate_limit))
-      ->type_name("X,Y,Z");
+  add_place(verb, "--origin", origin,
+            "Coordinates of the scene's zero at the site, in metres: the display shows those of the body, too")
+      ->check(from_to(-coordinate_limit, coordinate_limit));
   verb.add_flag("--headless", headless, "Draw without a screen");
   verb.add_option("--time", time_limit, "End after S seconds of roaming")
       ->excludes(replay)

@@ -88,11 +88,7 @@ void WalkOptions::add_to(CLI::App& verb) {
                         ->excludes(way)
                         ->check(positive())
                         ->type_name("S");
-  verb.add_option("--from", from, "With --wander: start here (default: a roomy place within walls)")
-      ->expected(3)
-      ->delimiter(',')
-      ->type_name("X,Y,Z")
-      ->needs(wandering);
+  add_place(verb, "--from", from, "With --wander: start here (default: a roomy place within walls)")->needs(wandering);
   verb.add_option("--speed", route.speed, "Metres per second (default: 1.4)")->check(positive())->type_name("V");
   verb.add_option("--dt", route.dt, "Length of one time step, in seconds, at least 1e-6 (default: 1/60)")
       ->check(positive())
