@@ -218,7 +218,7 @@ std::string stats_report(const Store& store) {
 
 ExitStatus store_info(const SceneOptions& options, bool json, bool stats) {
   options.demand_store_alone();
-  const auto store = Store::open(options.scenes.front(), Store::usual_memory, options.web);
+  const auto store = Store::open(options.scenes.front(), options.manifest_memory(), options.web);
   const std::string problem = reading_problem(*store);
   Json report = json_report(*store);
   if (!problem.empty()) report["not_read"] = problem;

@@ -64,7 +64,7 @@ std::optional<SceneProfile> profile_for(const ViewOptions& options, const std::o
 verification::Verification verified(const ViewReport& report, const ViewOptions& options,
                                     const std::function<bool(std::uint64_t)>& progress) {
   if (report.store.empty() || !report.meshes.empty()) return verify(report.meshes, report.pieces, progress);
-  const std::uint64_t memory = options.scene.store_memory();
+  const std::uint64_t memory = options.scene.manifest_memory();
   const bool named = !options.store.empty() || options.scene.name_a_store();
   const auto store =
       named ? Store::open(report.store, memory, options.scene.web) : open_store_beside(report.store, memory);

@@ -35,7 +35,7 @@ std::optional<SceneFrame> frame_of(const Store& store) {
 std::optional<SceneFrame> frame_of(const SceneOptions& scene) {
   if (!scene.name_a_store()) return frame_of(scene.scenes, scene.import_options());
   try {
-    return frame_of(*Store::open(scene.scenes.front(), Store::usual_memory, scene.web));
+    return frame_of(*Store::open(scene.scenes.front(), scene.manifest_memory(), scene.web));
   } catch (const Error&) {
     return std::nullopt;
   }
@@ -77,7 +77,7 @@ std::string kept_frame_line(const SceneOptions& scene) {
 std::optional<SceneFrame> frame_to_keep(const SceneOptions& scene) {
   const std::optional<SceneFrame> frame = frame_of(scene);
   const std::optional<SceneFrame> usual =
-      scene.name_a_store() ? frame_of_parts(*Store::open(scene.scenes.front(), Store::usual_memory, scene.web), {})
+      scene.name_a_store() ? frame_of_parts(*Store::open(scene.scenes.front(), scene.manifest_memory(), scene.web), {})
                            : usual_frame_of(scene);
   return frame == usual ? std::nullopt : frame;
 }

@@ -2,6 +2,7 @@
 /// \file
 /// The options by which every verb names its scene, and the way from them to a world.
 
+#include <algorithm>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -37,6 +38,8 @@ struct SceneOptions {
   /// Default of `memory` for a store's collision, in bytes.
   static constexpr std::uint64_t usual_store_memory = 64ull << 20;
   [[nodiscard]] std::uint64_t store_memory() const { return memory.value_or(usual_store_memory); }
+  /// Limit for a store's manifest where not all must keep within `memory`.
+  [[nodiscard]] std::uint64_t manifest_memory() const { return std::max(Store::usual_memory, store_memory()); }
 
   /// Adds SCENE..., --up, --unit, --ignore, --allow, --no-profile, --lossless, --threads and --memory.
   void add_to(CLI::App& verb);

@@ -82,7 +82,7 @@ Surveyed survey_scene(const SceneOptions& options, double slope_degrees) {
   std::vector<TriangleId> numbers;
   if (options.name_a_store()) {
     options.demand_store_alone();
-    store = Store::open(options.scenes.front(), Store::usual_memory, options.web);
+    store = Store::open(options.scenes.front(), options.manifest_memory(), options.web);
     identity = identity_of(store->info());
     meshes = read_store(*store, numbers);
   } else {

@@ -6,6 +6,8 @@
 #include "import/page_reader.h"
 #include "roam/error.h"
 #include "scenes/beside_scene.h"
+#include "scenes/frame.h"
+#include "store/opened.h"
 #include "view/store_triangles.h"
 #include "view_stores.h"
 
@@ -238,6 +240,35 @@ TEST(ViewStore, ReadsTheSceneOfAStoreAsTheStoreWas) {
   const StoreChoice choice = choose_store(what, [] { return true; });
   EXPECT_TRUE(choice.store);
   EXPECT_FALSE(choice.stale) << choice.note;
+}
+
+TEST(ViewStore, OpensAsLargeAManifestAsMemorySays) {
+  Driven d;
+  const std::string scene = d.write_scene(), place = d.folder.file("s");
+  (void)build_store(build_of(scene, place));
+  {
+    // Short notes take over 256 MiB in the end, and little as text.
+    std::string text = store::to_text(Store::open(place)->state().manifest), notes = "\"notes\": [\"\"";
+    for (int i = 0; i < 4'000'000; ++i) notes += ",\"\"";
+    text.replace(text.find("\"notes\": ["), 10, notes);
+    store::publish(fs::path(place), text, store::format_version);
+  }
+  SceneOptions named;
+  named.scenes = {place};
+  for (const std::string& in : {std::string(), place}) {
+    SceneOptions shown = named;
+    if (!in.empty()) shown.scenes = {scene};
+    const auto open = [&] { return choose_store(scene_and_store(shown, in), [] { return true; }).store; };
+    EXPECT_THROW(static_cast<void>(open()), Error);
+    shown.memory = std::uint64_t{1} << 30;
+    EXPECT_TRUE(open());
+  }
+  EXPECT_FALSE(frame_of(named));
+  named.memory = std::uint64_t{1} << 30;
+  EXPECT_TRUE(frame_of(named));
+  const SceneAndStore what = scene_and_store(named, {});
+  ASSERT_TRUE(what.store_only);
+  EXPECT_TRUE(frame_of(what.scene));
 }
 
 TEST(ViewStore, TakesNoFolderAboveForTheSceneOfAStore) {

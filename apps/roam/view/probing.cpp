@@ -36,6 +36,7 @@ std::vector<std::string> arguments_of(const SceneAndStore& what, const WalkerSet
   }
   SceneOptions scene = what.scene;
   if (!what.store.empty()) scene.scenes = {what.store};
+  scene.memory.reset();  // it is that of the window's store
   scene.ignore.insert(scene.ignore.end(), ignored.begin(), ignored.end());
   for (std::string& argument : scene.arguments()) arguments.push_back(std::move(argument));
   return arguments;

@@ -114,8 +114,8 @@ std::string demand_fits(const Manifest& manifest, const Work& work, std::uint64_
   const std::uint64_t needed = text.size() + kept;
   if (needed <= usual) return "";
   return fmt::format(
-      "the manifest of {} takes {} MiB: `roam walk`, `sweep`, `build` and `verify --repair` open it with "
-      "more --memory than that; other verbs do not",
+      "the manifest of {} takes {} MiB: verbs that have --memory open it with more than that; other verbs do "
+      "not",
       work.store.string(), (needed >> 20) + 1);
 }
 
