@@ -4,14 +4,20 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <numbers>
 
+#include "math/slope.h"
 #include "roam/space.h"
 #include "roam/walker.h"
 
 namespace roam::wandering {
 
-constexpr double stride = 0.5;      // m of one probe
+constexpr double stride = 0.5;        // m of one probe
+constexpr double least_piece = 0.05;  // m, of a stride on foot; after less the body is before a kerb or a slope
+constexpr int most_pieces = 4;        // of a stride: up a slope of 60 degrees it has three
+// m above the ground: a level sweep must not touch it, so more than the tolerance of a hit, 2 mm.
+constexpr double rest = 2.5e-3;
 constexpr double fly_height = 2.0;  // m above the floor, where there is no ceiling to stay under
 
 /// The scene, and the air around it that takes a flying body over a roof and round an object.
@@ -31,33 +37,49 @@ struct Prober {
   const WalkerSettings& settings;
   Mode mode;
   Body body;
+
+  /// Metres of `way` until the body touches something.
+  [[nodiscard]] double free_part(const Vec3& place, const Vec3& way) const {
+    return space.first_impact(body, place, way).time * glm::length(way);
+  }
+  /// Moves `place` on by at most `left` metres over the ground, level or, if that is blocked, up by a step. Returns the
+  /// metres: 0 at a wall, and where the ground ends or is too steep.
+  [[nodiscard]] double go_on_foot(Vec3& place, const Vec3& direction, double left) const {
+    const double slope = std::tan(settings.slope_degrees * std::numbers::pi / 180.0);
+    double raised = 0.0, length = free_part(place, left * direction);
+    if (length < least_piece) {
+      raised = std::max(0.0, free_part(place, {0, 0, settings.step + rest}) - rest);
+      length = free_part(place + Vec3(0, 0, raised), left * direction);
+    }
+    const Vec3 high = place + Vec3(0, 0, raised) + length * direction;
+    const double down = raised + settings.step + slope * length;
+    const Impact ground = space.sweep(body, high, {0, 0, -down});
+    const bool is_steep = ground.feature == Feature::face && ground.normal.z < least_upright(settings.slope_degrees);
+    if (!ground.hit || is_steep) return 0.0;
+    place = high - Vec3(0, 0, ground.time * down - rest);
+    return length;
+  }
 };
 
 /// Strides from `place` in a direction: where each leads to is handed to `visit`, with its length seen from above (or,
 /// flying, its length). Ends at a wall, where the ground ends, at the border of the scene, and after `count`.
 template <class Visit>
 void stride_ahead(const Prober& prober, Vec3 place, const Vec3& direction, int count, const Visit& visit) {
-  const auto& [space, settings, mode, body] = prober;
-  const bool on_foot = mode == Mode::walk;
-  // A stride may climb a slope or a kerb.
-  const double slope = std::tan(settings.slope_degrees * std::numbers::pi / 180.0);
-  const double climb = on_foot ? std::min(stride * slope + settings.step, settings.height) : 0.0;
+  const bool on_foot = prober.mode == Mode::walk;
+  if (on_foot) place.z += prober.free_part(place, {0, 0, rest});
   for (int i = 0; i < count; ++i) {
-    const Vec3 high = place + Vec3(0, 0, climb * space.first_impact(body, place, {0, 0, climb}).time);
-    const FirstImpact along = space.first_impact(body, high, stride * direction);
-    if (along.hit && along.time < 0.5) return;
-    Vec3 next = high + along.time * stride * direction;
+    double length = 0.0;
     if (on_foot) {
-      const double down = high.z - place.z + climb;
-      const FirstImpact ground = space.first_impact(body, next, {0, 0, -down});
-      if (!ground.hit) return;
-      next.z -= ground.time * down;
-    } else if (!airspace(space, settings).holds(next)) {
-      return;
+      for (int piece = 0; piece < most_pieces && length < stride; ++piece) {
+        length += prober.go_on_foot(place, direction, stride - length);
+      }
+    } else {
+      length = prober.free_part(place, stride * direction);
+      place += length * direction;
     }
-    visit(next, along.time * stride);
-    if (along.hit) return;
-    place = next;
+    if (length < 0.5 * stride) return;
+    if (!on_foot && !airspace(prober.space, prober.settings).holds(place)) return;
+    visit(place, length);
   }
 }
 

@@ -169,23 +169,46 @@ TEST(WanderStart, IsInAHouseOfSmallRoomsRatherThanInItsGarden) {
   EXPECT_EQ(std::adjacent_find(refused.begin(), refused.end()), refused.end()) << "a candidate is judged once";
 }
 
+/// Where ten strides lead to, from the floor at `feet`.
+std::vector<Vec3> strides(const World& world, const Vec3& feet, const Vec3& direction) {
+  std::vector<Vec3> places;
+  const Body body = Body::capsule(person.radius, person.height);
+  wandering::stride_ahead({world, person, Mode::walk, body}, feet + Vec3(0, 0, 0.5 * person.height + 1e-3), direction,
+                          10, [&](const Vec3& place, double length) {
+                            EXPECT_NEAR(length, 0.5, 1e-9);
+                            places.push_back(place);
+                          });
+  return places;
+}
+
 TEST(StrideAhead, GoesUpAndDownASlopeOnTheGround) {
   Mesh mesh;
   scenes::add_quad(mesh, {-10, -2, -4}, {10, -2, 4}, {10, 2, 4}, {-10, 2, -4});
   const World world = World::build({&mesh, 1});
-  const Body body = Body::capsule(person.radius, person.height);
   // On a slope of 2 in 5.
-  const double above = 0.5 * person.height + person.radius * (std::sqrt(1.16) - 1.0) + 1e-3;
+  const double above = person.radius * (std::sqrt(1.16) - 1.0);
   for (const double way : {-1.0, 1.0}) {
-    int strides = 0;
-    wandering::stride_ahead({world, person, Mode::walk, body}, {0, 0, above}, {way, 0, 0}, 10,
-                            [&](const Vec3& place, double length) {
-                              ++strides;
-                              EXPECT_NEAR(place.x, 0.5 * way * strides, 1e-9);
-                              EXPECT_NEAR(place.z, 0.4 * place.x + above, 4e-3);
-                              EXPECT_EQ(length, 0.5);
-                            });
-    EXPECT_EQ(strides, 10);
+    const std::vector<Vec3> places = strides(world, {0, 0, above}, {way, 0, 0});
+    EXPECT_EQ(places.size(), 10U);
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      EXPECT_NEAR(places[i].x, 0.5 * way * double(i + 1), 1e-9);
+      EXPECT_NEAR(places[i].z, 0.4 * places[i].x + above + 0.5 * person.height, 4e-3);
+    }
+  }
+}
+
+TEST(StrideAhead, GoesThroughADoorAndUnderALowCeilingThatFalls) {
+  Mesh door, tunnel;
+  scenes::add_floor(door, -10, -2, 10, 2, 0);
+  scenes::add_floor(door, -10, -2, 10, 2, 3);
+  scenes::add_wall(door, 2, -2, 2, 2, 2, 3);
+  scenes::add_floor(tunnel, -10, -2, 10, 2, 0);
+  scenes::add_quad(tunnel, {-10, -2, 2.6}, {10, -2, 1.9}, {10, 2, 1.9}, {-10, 2, 2.6});
+  for (const Mesh* mesh : {&door, &tunnel}) {
+    const std::vector<Vec3> places = strides(World::build({mesh, 1}), {0, 0, 0}, {1, 0, 0});
+    EXPECT_EQ(places.size(), 10U);
+    ASSERT_FALSE(places.empty());
+    EXPECT_NEAR(places.back().x, 5.0, 1e-9);
   }
 }
 
