@@ -62,7 +62,8 @@ struct Prober {
 };
 
 /// Strides from `place` in a direction: where each leads to is handed to `visit`, with its length seen from above (or,
-/// flying, its length). Ends at a wall, where the ground ends, at the border of the scene, and after `count`.
+/// flying, its length). Ends at a wall, where the ground ends, at the border of the scene, after `count`, and where
+/// `visit` returns false.
 template <class Visit>
 void stride_ahead(const Prober& prober, Vec3 place, const Vec3& direction, int count, const Visit& visit) {
   const bool on_foot = prober.mode == Mode::walk;
@@ -79,7 +80,7 @@ void stride_ahead(const Prober& prober, Vec3 place, const Vec3& direction, int c
     }
     if (length < 0.5 * stride) return;
     if (!on_foot && !airspace(prober.space, prober.settings).holds(place)) return;
-    visit(place, length);
+    if (!visit(place, length)) return;
   }
 }
 

@@ -27,8 +27,9 @@ constexpr double stuck_share = 0.2;
 constexpr double stuck_seconds = 0.5;
 // However long it goes, it remembers no more: cells of some ten hours, then it begins anew.
 constexpr std::size_t most_visits = 1 << 15;
-constexpr std::ptrdiff_t most_events = 10'000, most_voids = 1'000;
-constexpr double held_limit = 2.0;  // s after which a body that cannot move is given up
+constexpr std::ptrdiff_t most_events = 10'000, most_legs = 1'000;
+constexpr double same_heading = 0.9;  // cosine
+constexpr double held_limit = 2.0;    // s after which a body that cannot move is given up
 
 }  // namespace
 
@@ -51,11 +52,16 @@ class Wander::State {
   [[nodiscard]] bool is_barred(const Vec3& direction) const;
   void note(const StepReport& report);
 
-  /// A way that ended in the void.
+  /// A way that failed.
   struct Leg {
     Vec3 from{0.0};
     Vec3 heading{0.0};
   };
+  /// Whether one of `legs` began within `reach` metres of `place`, in about this direction.
+  [[nodiscard]] static bool has_failed(const std::vector<Leg>& legs, const Vec3& place, const Vec3& direction,
+                                       double reach);
+  /// Adds the present way: from `place`, and from where it began, the body does not go the same way again.
+  void give_up(std::vector<Leg>& legs, const Vec3& place) const;
 
   Walker* walker_;
   WanderOptions options_;
@@ -68,7 +74,8 @@ class Wander::State {
   std::uint64_t vain_steps_ = 0;  ///< see is_vain_again
   bool stuck_ = false;
   Vec3 leg_start_{0.0};
-  std::vector<Leg> voids_;
+  std::vector<Leg> voids_;  ///< ways that ended in the void
+  std::vector<Leg> vain_;   ///< ways that a look finds free, but where the body got stuck
   double held_seconds_ = 0.0;
   bool was_inside_ = false;  ///< has been in the box of the scene
   EventFilter filter_;
@@ -106,25 +113,39 @@ std::uint64_t Wander::State::cell(const Vec3& place) const {
   return key;
 }
 
+bool Wander::State::has_failed(const std::vector<Leg>& legs, const Vec3& place, const Vec3& direction, double reach) {
+  return std::any_of(legs.begin(), legs.end(), [&](const Leg& leg) {
+    return glm::distance(leg.from, place) < reach && glm::dot(direction, leg.heading) > same_heading;
+  });
+}
+
 Wander::State::Look Wander::State::probe(const Vec3& direction) const {
+  // At a door, the body may be stuck beside it, and pass through its middle.
+  constexpr double as_vain = 0.4;  // m
   Look look;
+  const auto goes_on = [&](const Vec3& place) { return !has_failed(vain_, place, direction, as_vain); };
+  if (!goes_on(walker_->position())) return look;
   stride_ahead({walker_->space(), walker_->settings(), walker_->mode(), walker_->body()}, walker_->position(),
                direction, most_strides, [&](const Vec3& place, double length) {
                  look.way += length;
                  const auto visits = visits_.find(cell(place));
                  look.novelty += visits == visits_.end() ? 1.0 : 1.0 / (1.0 + visits->second);
+                 return goes_on(place);
                });
   return look;
 }
 
 bool Wander::State::is_barred(const Vec3& direction) const {
-  constexpr double same_place = 1.0;    // m
-  constexpr double same_heading = 0.9;  // cosine
+  constexpr double same_place = 1.0;  // m
   // Where the body got stuck it does not try the same at once; where it fell into the void, never again.
   if (stuck_ && glm::dot(direction, heading_) > same_heading) return true;
-  return std::any_of(voids_.begin(), voids_.end(), [&](const Leg& leg) {
-    return glm::distance(leg.from, walker_->position()) < same_place && glm::dot(direction, leg.heading) > same_heading;
-  });
+  return has_failed(voids_, walker_->position(), direction, same_place);
+}
+
+void Wander::State::give_up(std::vector<Leg>& legs, const Vec3& place) const {
+  legs.push_back({place, heading_});
+  legs.push_back({leg_start_, heading_});
+  if (std::ssize(legs) > most_legs) legs.erase(legs.begin(), legs.begin() + 2);
 }
 
 void Wander::State::look() {
@@ -172,6 +193,8 @@ const StepReport& Wander::State::advance() {
   if (window_seconds_ >= stuck_seconds) {
     stuck_ = window_length_ < stuck_share * options_.speed * window_seconds_;
     window_length_ = window_seconds_ = 0.0;
+    // Unknown space may soon be free.
+    if (stuck_ && !report.met_unknown) give_up(vain_, report.to);
   }
   note(report);
   if (is_vain && !done) {
@@ -196,10 +219,7 @@ void Wander::State::note(const StepReport& report) {
   last_cell_ = here;
 
   if (report.put_back && !done && result.steps > 0) {
-    // Put back to where it stood last: from there, and from where this leg began, it does not go the same way again.
-    voids_.push_back({report.to, heading_});
-    voids_.push_back({leg_start_, heading_});
-    if (std::ssize(voids_) > most_voids) voids_.erase(voids_.begin(), voids_.begin() + 2);
+    give_up(voids_, report.to);
     way_left_ = 0.0;
   }
   held_seconds_ = report.held ? held_seconds_ + report.elapsed : 0.0;

@@ -68,7 +68,7 @@ WanderStart start_at(const Space& space, const WalkerSettings& settings, Mode mo
     walls += wall.hit ? 1 : 0;
     sight = std::max(sight, (wall.hit ? wall.time : 1.0) * wall_reach);
     stride_ahead({space, settings, mode, body}, start.place, level(i, directions), room_strides,
-                 [&](const Vec3&, double length) { start.room += length; });
+                 [&](const Vec3&, double length) { return start.room += length, true; });
   }
   start.on_top = !above.hit && (start.room < least_open_room || is_over_hollow(space, floor));
   // In the open, a place with walls all around has no view: a hollow of the land.

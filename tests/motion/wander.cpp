@@ -102,6 +102,27 @@ TEST(Wander, RefusesWhatCannotBe) {
   EXPECT_TRUE(contains(refused({}), "ghost"));
 }
 
+TEST(Wander, LooksElsewhereWhereItGetsStuckAgainAndAgain) {
+  // A corridor between two kerbs too high to climb, which a look ahead climbs, and a small room beside it.
+  Mesh mesh;
+  scenes::add_floor(mesh, -4, -1, 4, 1, 0);
+  scenes::add_floor(mesh, -1, 1, 1, 4, 0);
+  for (const double side : {-1.0, 1.0}) {
+    scenes::add_wall(mesh, 4 * side, -1, 4 * side, 1, 0, 0.45);
+    scenes::add_floor(mesh, std::min(4 * side, 20 * side), -1, std::max(4 * side, 20 * side), 1, 0.45);
+    scenes::add_wall(mesh, side, 1, 20 * side, 1, 0, 3);
+    scenes::add_wall(mesh, side, 1, side, 4, 0, 3);
+  }
+  scenes::add_wall(mesh, -20, -1, 20, -1, 0, 3);
+  scenes::add_wall(mesh, -1, 4, 1, 4, 0, 3);
+  const World world = World::build({&mesh, 1});
+  Walker walker(world, person, Mode::walk, {0, 0, 0.95});
+  Wander wander(walker, {.seconds = 60.0});
+  double beside = 0.0;
+  while (!wander.done()) beside = std::max(beside, wander.advance().to.y);
+  EXPECT_GT(beside, 3.0);
+}
+
 TEST(Wander, MayFlyInFromOutside) {
   const World world = two_rooms();
   Walker walker(world, person, Mode::fly, {3, 3, 60});
@@ -176,7 +197,7 @@ std::vector<Vec3> strides(const World& world, const Vec3& feet, const Vec3& dire
   wandering::stride_ahead({world, person, Mode::walk, body}, feet + Vec3(0, 0, 0.5 * person.height + 1e-3), direction,
                           10, [&](const Vec3& place, double length) {
                             EXPECT_NEAR(length, 0.5, 1e-9);
-                            places.push_back(place);
+                            return places.push_back(place), true;
                           });
   return places;
 }
