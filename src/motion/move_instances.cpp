@@ -98,17 +98,28 @@ std::optional<walking::Response> Walker::State::response(const Space& rest, cons
   const bool drifts = gait_.object == shift.instance && !gait_.grounded();
   const Vec3 carried = shift.carried(at_.place) - at_.place;
   const Vec3 own = stands ? carried : drifts ? gait_.ground_velocity * shift.seconds : Vec3(0.0);
-  // Moves as far as the rest of the scene allows, a skin away, and then along the obstacle.
-  walking::Move move{{rest, vicinity_, settings_, report_, skin_, slope_cosine_, was_blocked_}, at_};
+  // Moves as far as the rest of the scene allows, a skin away, and then along the obstacle, if it can.
+  const walking::Move move{{rest, vicinity_, settings_, report_, skin_, slope_cosine_, was_blocked_}, at_};
   const auto towards = [&](const Vec3& wish) -> std::optional<walking::Response> {
     if (largest(wish) > walking::longest_way) return std::nullopt;
     const walking::Advance part = move.probe(wish);
-    const Vec3 first = part.embedded ? Vec3(0.0) : wish * part.fraction;
-    if (const auto to = along(first)) return to;
-    if (!part.touched) return std::nullopt;
+    const Vec3 first = wish * part.fraction;
+    if (!part.touched) return along(first);
     const Vec3 left = wish - first, &normal = part.contact.normal;
+    const auto aside = [&](const Vec3& slide) {
+      walking::Move there = move;
+      there.place += first;
+      return along(first + slide * there.probe(slide).fraction);
+    };
+    const Vec3 level(normal.x, normal.y, 0.0);
+    const double towards_it = glm::dot(left, level);
+    // To a body that stands, a wall is vertical.
+    if (gait_.grounded() && towards_it < 0.0) {
+      if (const auto to = aside(left - level * (towards_it / glm::dot(level, level)))) return to;
+    }
     const Vec3 slide = left - normal * glm::dot(left, normal);
-    if (const auto to = along(first + slide)) return to;
+    if (const auto to = aside(slide)) return to;
+    if (const auto to = along(first)) return to;
     // Squeezed out between the two: along the obstacle, as fast as the instance approaches.
     const Vec3 seen = shift.from.to_instance(at_.place);
     const double near = std::min(glm::length(wish) + skin_, Space::reach_limit);
