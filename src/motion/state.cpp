@@ -137,6 +137,11 @@ void Walker::State::release() {
   was_put_back_ = false;
 }
 
+bool Walker::State::may_have_changed() const {
+  const std::optional<std::uint64_t> now = space_->facts().revision;
+  return !now || *now != looked_at_;
+}
+
 bool Walker::State::embedded() const {
   return space_->clearance(body(), at_.place, 0.0).distance < -walking::world_tolerance;
 }
@@ -161,6 +166,8 @@ void Walker::State::look_again() {
       stays = !walking::above_ground(*space_, body(), at_.place);
       break;
     case walking::Hold::embedded:
+      stays = stays && !may_have_changed();  // in a space without revision it may, at any time
+      break;
     case walking::Hold::no_ground:
       break;
   }
@@ -241,7 +248,7 @@ const StepReport& Walker::State::step(const WalkerInput& wish, double dt) {
       if (walking::above_ground(*space_, body(), at_.place)) ground_ = safe_;
     }
   } else {
-    const bool changed = revision() != looked_at_;
+    const bool changed = may_have_changed();
     // A free way that starts at the body's position proves that nothing has come there.
     if (!held() && changed && input.velocity * dt != Vec3(0.0)) {
       at_.known.fit = walking::Fit::unproven;
@@ -358,7 +365,7 @@ bool Walker::State::resize(double radius, double support_radius) {
     walking::adapt(m, gait_, sizes);
     at_ = m;
     // The new body may fit where something met the old one.
-    if (revision() != looked_at_) look_again();
+    if (may_have_changed()) look_again();
     resized_ = true;
   }
   finish();

@@ -77,6 +77,8 @@ class Walker::State {
   [[nodiscard]] Vec3 moved() const;
   /// Revision of the space; 0 if it has none.
   [[nodiscard]] std::uint64_t revision() const { return space_->facts().revision.value_or(0); }
+  /// Whether the space may have changed since looked_at_.
+  [[nodiscard]] bool may_have_changed() const;
   [[nodiscard]] walking::Move under_way();
   [[nodiscard]] walking::Sizes sizes();
   void take_size_here();

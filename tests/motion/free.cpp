@@ -97,12 +97,13 @@ TEST(WalkerFree, WhatIsFreeForASmallBodyIsNotForALargeOne) {
 }
 
 TEST(WalkerFree, WhatComesUponAMovingBodyFreesOrHoldsIt) {
-  for (const Mode mode : {Mode::fly, Mode::walk}) {
+  for (const auto& [mode, tells] :
+       {std::pair(Mode::fly, true), {Mode::walk, true}, {Mode::fly, false}, {Mode::walk, false}}) {
     for (const double speed : {0.0, 0.5, 50.0}) {
       for (const double ahead : {-0.1, 0.1, 0.25}) {
         SCOPED_TRACE(testing::Message() << to_string(mode) << " at " << speed << " m/s, a wall " << ahead
-                                        << " m ahead");
-        ChangingRoom room(hall(), true);
+                                        << " m ahead, " << (tells ? "told" : "not told"));
+        ChangingRoom room(hall(), tells);
         Walker w(room, {}, mode, {0.0, 0.0, -4.0});
         for (int i = 0; i < 30; ++i) w.step({}, frame);
         const double wall = w.position().x + ahead;
@@ -115,6 +116,21 @@ TEST(WalkerFree, WhatComesUponAMovingBodyFreesOrHoldsIt) {
         EXPECT_GE(room.judge().distance(w.body(), w.position(), 1.0), w.settings().radius - 1e-6);
       }
     }
+  }
+}
+
+TEST(WalkerFree, AHeldBodyIsFreeWhenWhatHeldItIsGone) {
+  Mesh thicket = hall();
+  for (int i = -20; i <= 20; ++i) {
+    add_wall(thicket, 0.1 * i, -2.0, 0.1 * i, 2.0, -3.0, 3.0);
+    add_wall(thicket, -2.0, 0.1 * i, 2.0, 0.1 * i, -3.0, 3.0);
+  }
+  for (const bool tells : {true, false}) {
+    ChangingRoom room(thicket, tells);
+    Walker w(room, {}, Mode::fly, {0.05, 0.05, 0.0});
+    EXPECT_TRUE(w.step({}, frame).held);
+    room.become(hall());
+    EXPECT_FALSE(w.step({}, frame).held) << tells;
   }
 }
 
