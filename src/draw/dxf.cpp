@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
+#include <numbers>
 #include <span>
 #include <utility>
 #include <vector>
@@ -237,12 +239,62 @@ class Writer {
     }
   }
 
+  static Point at(const Disc& disc, double angle) {
+    return disc.centre + disc.radius * Point(std::cos(angle), std::sin(angle));
+  }
+
+  /// The visible parts of a circle: angles of pixels, from and to. The whole circle has one part, of two pi.
+  static std::vector<std::pair<double, double>> seen(const Disc& disc) {
+    constexpr double turn = 2.0 * std::numbers::pi;
+    if (disc.clip.empty()) return {{0.0, turn}};
+    std::vector<double> cuts;
+    for (int axis = 0; axis < 2; ++axis) {
+      for (const double side : {disc.clip.lower[axis], disc.clip.upper[axis]}) {
+        const double cosine = (side - disc.centre[axis]) / disc.radius;
+        if (!(std::abs(cosine) < 1.0)) continue;
+        const double off = std::acos(cosine), middle = axis == 0 ? 0.0 : 0.25 * turn;
+        for (const double cut : {middle - off, middle + off}) cuts.push_back(cut < 0.0 ? cut + turn : cut);
+      }
+    }
+    std::sort(cuts.begin(), cuts.end());
+    cuts.push_back(cuts.empty() ? turn : cuts.front() + turn);
+    if (cuts.size() == 1) cuts.insert(cuts.begin(), 0.0);
+    std::vector<std::pair<double, double>> parts;
+    for (std::size_t i = 0; i + 1 < cuts.size(); ++i) {
+      const double angle = 0.5 * (cuts[i] + cuts[i + 1]);
+      if (!disc.clip.contains(at(disc, angle))) continue;
+      if (!parts.empty() && parts.back().second == cuts[i]) {
+        parts.back().second = cuts[i + 1];
+      } else {
+        parts.emplace_back(cuts[i], cuts[i + 1]);
+      }
+    }
+    return parts;
+  }
+
   void add(const Disc& disc) {
-    const Placed* const placed = owner(disc.what, disc.centre, sign_room);
+    const Placed* const placed = owner(disc.what, disc.clip.empty() ? disc.centre : disc.clip.center(), sign_room);
     if (placed == nullptr) return;
-    begin("CIRCLE", disc.what, disc.style.width > 0.0 ? disc.style.stroke : disc.style.fill.value_or(ink));
-    point((*placed)(disc.centre));
-    entities_ += fmt::format("40\n{:.4f}\n", disc.radius / placed->view->frame.scale_x);
+    const Point centre = (*placed)(disc.centre);
+    for (const auto& [from, to] : seen(disc)) {
+      const bool whole = to - from >= 2.0 * std::numbers::pi;
+      begin(whole ? "CIRCLE" : "ARC", disc.what,
+            disc.style.width > 0.0 ? disc.style.stroke : disc.style.fill.value_or(ink));
+      entities_ += fmt::format("10\n{:.4f}\n20\n{:.4f}\n40\n{:.4f}\n", centre.x, centre.y,
+                               disc.radius / placed->view->frame.scale_x);
+      if (whole) {
+        box_.include(centre);
+        continue;
+      }
+      // Pixels have y down: their angles run the other way.
+      int code = 50;
+      for (const double angle : {to, from}) {
+        const Point end = (*placed)(at(disc, angle));
+        box_.include(end);
+        const double degrees = std::atan2(end.y - centre.y, end.x - centre.x) * 180.0 / std::numbers::pi;
+        entities_ += fmt::format("{}\n{:.4f}\n", code++, degrees < 0.0 ? degrees + 360.0 : degrees);
+      }
+    }
   }
 
   void add(const Text& t) {

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Sheets as DXF, for those who draw on: lines, circles and texts in metres, a layer for each kind.
+/// Sheets as DXF, for those who draw on: lines, circles, arcs and texts in metres, a layer for each kind.
 
 #include <string>
 

@@ -118,6 +118,29 @@ TEST(Dxf, AreasEndAtTheFrameOfTheirView) {
   EXPECT_NE(dxf.find("$EXTMIN\n10\n90.0000\n20\n199.0000\n"), std::string::npos);
 }
 
+TEST(Dxf, CirclesEndAtTheFrameOfTheirView) {
+  draw::Page page;
+  const draw::Turn turn{{100, 200, 0}, 0.0, 1.0};  // right is +y and up is -x of the scene
+  draw::Panel plan = page.panel("plan", {{{-10, -5}, {10, 5}}, 80.0, 80.0}, draw::sheet_margin, &turn);
+  plan.disc("whole", {2, 1}, 1.0, draw::body_style);
+  plan.disc("cut", {11, 0}, 2.0, draw::body_style);
+  plan.disc("tall", {0, 0}, 6.0, draw::body_style);
+  plan.disc("around", {0, 0}, 30.0, draw::body_style);
+  plan.disc("beside", {30, 0}, 2.0, draw::body_style);
+  const auto all = entities(to_dxf(page.finish()));
+  EXPECT_EQ(on(all, "PLAN_WHOLE", "CIRCLE").size(), 1u);
+  EXPECT_EQ(on(all, "PLAN_TALL", "ARC").size(), 2u);
+  for (const Entity& e : all) EXPECT_TRUE(e.values.at(8) != "PLAN_AROUND" && e.values.at(8) != "PLAN_BESIDE");
+  EXPECT_TRUE(on(all, "PLAN_CUT", "CIRCLE").empty());
+  const auto arcs = on(all, "PLAN_CUT", "ARC");
+  ASSERT_EQ(arcs.size(), 1u);
+  expect_near(arcs[0].at(), {100, 211});
+  EXPECT_NEAR(arcs[0].number(40), 2.0, 1e-3);
+  // The part with y <= 210, counterclockwise: 60 degrees to both sides of -y.
+  EXPECT_NEAR(arcs[0].number(50), 210.0, 0.01);
+  EXPECT_NEAR(arcs[0].number(51), 330.0, 0.01);
+}
+
 TEST(Dxf, LinesOfOneKindKeepTheirColours) {
   draw::Page page;
   const draw::Turn turn{{0, 0, 0}, 1.0, 0.0};
