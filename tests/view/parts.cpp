@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdlib>
+#include <thread>
 
 #include "cli/exit_status.h"
 #include "messages.h"
@@ -404,6 +405,19 @@ TEST(Bookmarks, KeepWhatAnotherSessionHasWrittenMeanwhile) {
   one.add({{1, 0, 0}, 0, 0});
   EXPECT_EQ(two.add({{2, 0, 0}, 0, 0}).name, "2");
   EXPECT_EQ(two.all().size(), 2u);
+}
+
+TEST(Bookmarks, KeepWhatAnotherSessionWritesAtTheSameTime) {
+  const TestFolder folder;
+  const std::string file = folder.file("b.json");
+  const auto add_some = [&] {
+    Bookmarks some(file, {"mine.obj"}, {});
+    for (int i = 0; i < 50; ++i) some.add({{1, 0, 0}, 0, 0});
+  };
+  std::thread other(add_some);
+  add_some();
+  other.join();
+  EXPECT_EQ(Bookmarks(file, {"mine.obj"}, {}).all().size(), 100U);
 }
 
 TEST(Bookmarks, OfSeveralEntriesAreKept) {

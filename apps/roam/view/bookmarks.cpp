@@ -1,11 +1,14 @@
 #include "view/bookmarks.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/file.h>
 
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "files/descriptor.h"
 #include "files/escaped.h"
 #include "files/json_text.h"
 #include "files/whole_file.h"
@@ -145,6 +148,11 @@ std::string Bookmarks::names() const {
 /// Edits the scene's list with the changes of other sessions, and writes the file.
 void Bookmarks::change(const std::function<void(std::vector<Bookmark>&)>& edit) {
   if (file_.empty()) throw Error("there is no folder for bookmarks: set HOME or XDG_CONFIG_HOME");
+  std::error_code none;
+  std::filesystem::create_directories(file_.parent_path(), none);
+  // One after the other. A file system that cannot lock keeps nobody from writing.
+  const files::Descriptor folder(::open(file_.parent_path().c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  static_cast<void>(files::again([&] { return ::flock(folder.number(), LOCK_EX); }));
   Json document = read(file_);
   const auto is_ours = [&](const Json& scene) {
     return scene.is_object() && scene.value("scene", Json::array()) == Json(scenes_) &&
@@ -169,8 +177,6 @@ void Bookmarks::change(const std::function<void(std::vector<Bookmark>&)>& edit) 
   Json list = Json::array();
   for (const Bookmark& bookmark : bookmarks) list.push_back(to_json(bookmark));
   (*ours)["bookmarks"] = list;
-  std::error_code none;
-  std::filesystem::create_directories(file_.parent_path(), none);
   files::write_whole(file_, document.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
   bookmarks_ = std::move(bookmarks);
 }
