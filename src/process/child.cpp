@@ -75,7 +75,9 @@ Child::Child(const std::filesystem::path& program, const std::vector<std::string
   command.insert(command.end(), arguments.begin(), arguments.end());
 
   words_ = file_in_memory();
-  const Descriptor nothing(::open("/dev/null", O_RDONLY | O_CLOEXEC));
+  if (!words_.is_open()) refuse(errno);
+  const Descriptor nothing(files::again([] { return ::open("/dev/null", O_RDONLY | O_CLOEXEC); }));
+  if (!nothing.is_open()) refuse(errno);
   std::vector<Inheritance> wanted{
       {nothing.number(), STDIN_FILENO}, {words_.number(), STDOUT_FILENO}, {words_.number(), STDERR_FILENO}};
   for (const Inheritance& i : settings.descriptors) {

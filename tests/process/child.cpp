@@ -1,4 +1,6 @@
 // Children: what they inherit, how they end, and that none is left behind.
+#include "process/child.h"
+
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/prctl.h>
@@ -11,11 +13,12 @@
 #include <cerrno>
 #include <chrono>
 #include <csignal>
+#include <cstring>
 #include <optional>
 #include <string>
 #include <thread>
 
-#include "process/child.h"
+#include "files/descriptor.h"
 #include "process/find_program.h"
 #include "process/lines.h"
 #include "program.h"
@@ -84,6 +87,28 @@ TEST(Child, SaysWhyAProgramCannotBeStarted) {
   EXPECT_EQ(complaint(folder.write("text", "text")), "cannot start " + folder.file("text") + ": Permission denied");
   EXPECT_EQ(::waitpid(-1, nullptr, WNOHANG), -1);
   EXPECT_EQ(errno, ECHILD);
+}
+
+TEST(Child, SaysThatTooManyFilesAreOpen) {
+  rlimit before{};
+  ASSERT_EQ(::getrlimit(RLIMIT_NOFILE, &before), 0);
+  const int next = ::fcntl(STDOUT_FILENO, F_DUPFD, 20);
+  ::close(next);
+  std::vector<files::Descriptor> below;
+  while (below.empty() || below.back().number() < next - 1) below.emplace_back(::dup(STDOUT_FILENO));
+  std::vector<std::string> said;
+  for (const int more : {0, 1, 2}) {
+    const rlimit few{static_cast<rlim_t>(next + more), before.rlim_max};
+    ::setrlimit(RLIMIT_NOFILE, &few);
+    try {
+      Child child("/bin/true", {}, {});
+    } catch (const roam::Error& error) {
+      said.emplace_back(error.what());
+    }
+  }
+  ASSERT_EQ(::setrlimit(RLIMIT_NOFILE, &before), 0);
+  ASSERT_EQ(said.size(), 3U);
+  for (const std::string& one : said) EXPECT_NE(one.find(std::strerror(EMFILE)), std::string::npos) << one;
 }
 
 TEST(Child, KeepsItsLastWords) {
