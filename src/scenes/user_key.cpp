@@ -6,6 +6,7 @@
 #include <sys/stat.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <charconv>
 #include <chrono>
 #include <span>
@@ -155,6 +156,11 @@ void make(const Descriptor& folder, const fs::path& file) {
   out.commit();
 }
 
+/// Whether a machine without a place for a key has this error, and not one whose disk is full or fails.
+bool is_lasting(int error) {
+  return error == EACCES || error == EPERM || error == EROFS || error == ENOENT || error == ENOTDIR;
+}
+
 UserKey found(bool makes) {
   const fs::path file = key_file();
   if (file.empty()) return {{}, Error("there is no folder for it: set HOME or XDG_DATA_HOME")};
@@ -165,6 +171,9 @@ UserKey found(bool makes) {
       make(folder, file);
     }
     return {read(folder, file)};
+  } catch (const files::FileError& error) {
+    if (makes && !is_lasting(error.number)) throw;
+    return {{}, error};
   } catch (const Error& error) {
     return {{}, error};
   }

@@ -21,7 +21,8 @@ struct UserKey {
 
 /// The user's key. None if it does not exist, is damaged, is not the user's own, or if others may read or replace it.
 [[nodiscard]] UserKey user_key();
-/// The same, but makes a key if there is none, and stores it where only the user can read it.
+/// The same, but makes a key if there is none, and stores it where only the user can read it. Throws roam::Error if the
+/// disk is full or fails: later there may be a key, by which what was built meanwhile is not known.
 [[nodiscard]] UserKey made_user_key();
 /// A random key that is not stored anywhere, so a build with it continues no earlier build.
 [[nodiscard]] StoreKey key_of_this_run();

@@ -3,6 +3,7 @@
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
 #include <sys/syscall.h>
 #include <unistd.h>
@@ -152,6 +153,25 @@ TEST_F(UserKey, IsRefusedBehindALinkAndUnderTwoNames) {
   fs::remove(own_);
   folder_.write("data/roam", "");
   EXPECT_TRUE(is_refused(own_ + " is no folder"));
+}
+
+TEST_F(UserKey, IsNotGivenUpForAnErrorThatPasses) {
+  ASSERT_TRUE(made_user_key().key);
+  rlimit before{};
+  ASSERT_EQ(::getrlimit(RLIMIT_NOFILE, &before), 0);
+  const rlimit none{0, before.rlim_max};
+  ASSERT_EQ(::setrlimit(RLIMIT_NOFILE, &none), 0);
+  std::string why;
+  try {
+    static_cast<void>(made_user_key());
+  } catch (const roam::Error& error) {
+    why = error.what();
+  }
+  const bool is_read = user_key().key.has_value();
+  ASSERT_EQ(::setrlimit(RLIMIT_NOFILE, &before), 0);
+  EXPECT_NE(why.find("too many files are open"), std::string::npos) << why;
+  EXPECT_FALSE(is_read);
+  EXPECT_TRUE(user_key().key);
 }
 
 TEST_F(UserKey, IsMadeInAFolderThatOnlyTheUserMayWriteTo) {
