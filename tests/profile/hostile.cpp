@@ -1,6 +1,7 @@
 // A profile that a stranger put beside a scene: it is refused by a sentence, soon and in little memory.
 #include <gtest/gtest.h>
 #include <sys/stat.h>
+#include <sys/time.h>
 
 #include "program.h"
 #include "roam/profile.h"
@@ -59,6 +60,17 @@ TEST_F(HostileProfile, ThatWouldTakeMuchMemoryIsRefused) {
   for (int i = 0; i < 2000; ++i) wide += ",\"" + std::to_string(i) + "\":0";
   write(wide + "}}");
   expect_refused("more than 1000 members");
+}
+
+TEST_F(HostileProfile, OfAMillionObjectsIsReadInTheTimeOfItsSize) {
+  std::string text = R"({"roam_profile":1,"frame":{"up":"z","unit":"m"},"x":[{})";
+  for (int i = 0; i < 999'000; ++i) text += ",{}";
+  folder_.write("dam.ply.roam.json", text + "]}");
+  // A second would do. What grows with the square takes ten minutes of the processor, and is ended.
+  const itimerval most{{}, {.tv_sec = 100, .tv_usec = 0}}, none{};
+  ::setitimer(ITIMER_PROF, &most, nullptr);
+  EXPECT_EQ(complaint(), "");
+  ::setitimer(ITIMER_PROF, &none, nullptr);
 }
 
 TEST_F(HostileProfile, OfManyRegionsIsReadAllTheSame) {
