@@ -1,5 +1,6 @@
 // roam make: makes demo scenes of a given size.
 #include <fmt/format.h>
+#include <sys/stat.h>
 
 #include <CLI/CLI.hpp>
 #include <chrono>
@@ -14,6 +15,7 @@
 #include "cli/tell.h"
 #include "cli/values.h"
 #include "files/whole_file.h"
+#include "generate/write.h"
 #include "roam/error.h"
 #include "roam/generate.h"
 #include "verbs.h"
@@ -39,6 +41,16 @@ struct MakeOptions {
 struct GalleryPath {
   fs::path file;
   std::string text;
+
+  /// A person names no path, so each replaces only its equal or an empty file.
+  [[nodiscard]] FileKind equal() const {
+    FileKind kind = beginning_with(text, "path of Table 1 from this --origin");
+    kind.has = [begins = kind.has, most = static_cast<off_t>(text.size())](int there) {
+      struct stat status {};
+      return begins(there) && ::fstat(there, &status) == 0 && status.st_size <= most;
+    };
+    return kind;
+  }
 };
 
 std::vector<GalleryPath> gallery_paths(const MakeOptions& options) {
@@ -58,13 +70,13 @@ std::vector<GalleryPath> gallery_paths(const MakeOptions& options) {
 std::vector<std::string> write(std::span<const GalleryPath> paths) {
   std::vector<std::string> written;
   for (const GalleryPath& path : paths) {
-    files::write_whole(path.file, path.text, files::Naming::beside);
+    files::write_whole(path.file, path.text, files::Naming::beside, path.equal());
     written.push_back(path.file.string());
   }
   return written;
 }
 
-/// A person names no path, so each replaces only its equal or an empty file, and no link: a stranger may have made it.
+/// The paths replace no link, either: a stranger may have made it.
 void demand_no_overwriting(const MakeOptions& options, std::span<const GalleryPath> paths) {
   std::vector<NamedFile> outputs{{"-o", options.output, marked("mesh")}};
   for (const GalleryPath& path : paths) {
@@ -73,12 +85,7 @@ void demand_no_overwriting(const MakeOptions& options, std::span<const GalleryPa
     if (fs::is_symlink(fs::symlink_status(path.file, none)))
       throw UsageError(fmt::format("{} {}", name, path.file.string()),
                        "that is a link; name another file, or move it away");
-    FileKind equal = beginning_with(path.text, "path of Table 1 from this --origin");
-    equal.has = [begins = equal.has, size = path.text.size()](const fs::path& file) {
-      std::error_code error;
-      return begins(file) && fs::file_size(file, error) <= size;
-    };
-    outputs.push_back({name, path.file, std::move(equal)});
+    outputs.push_back({name, path.file, path.equal()});
   }
   app::demand_no_overwriting({}, outputs);
 }
@@ -89,7 +96,7 @@ ExitStatus make(const MakeOptions& options, const generate::Scene& scene, bool g
   const auto start = std::chrono::steady_clock::now();
   {
     Progress progress("making " + options.output.string(), "triangles");
-    generate::write_scene(scene, options.output,
+    generate::write_scene(scene, options.output, marked("mesh"),
                           [&](std::uint64_t made) { return progress.goes_on(made, scene.triangles()); });
   }
   const std::vector<std::string> paths = write(beside);

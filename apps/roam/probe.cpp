@@ -157,7 +157,7 @@ void write_path(const ProbeOptions& o, const Survey& survey, const ProbeAnswer& 
   if (const auto frame = frame_of(o.scene)) text += frame_line(*frame) + "\n";
   for (const Vec3& p : path) text += fmt::format("{} {} {}\n", p.x, p.y, p.z);
   if (is_standard(*o.path)) return write_output(text);
-  files::write_whole(*o.path, text);
+  files::write_whole(*o.path, text, files::Naming::exact, paths());
 }
 
 /// Measures the way with the body, or with the widest body that passes.

@@ -19,6 +19,7 @@
 #include "cli/values.h"
 #include "draw/picture_file.h"
 #include "files/whole_file.h"
+#include "profile/write_profile.h"
 #include "roam/error.h"
 #include "scenes/body_options.h"
 #include "scenes/frame.h"
@@ -91,7 +92,11 @@ void write_profile(const TrainVerbOptions& o, const std::filesystem::path& file,
   } else {
     Profile learnt = profile_of(t, identity);
     learnt.frame = frame_to_keep(o.scene);
-    save_profile(learnt, o.profile ? files::behind_links(file) : file);
+    if (o.profile) {
+      write_profile(learnt, file, files::Naming::exact, profiles());
+    } else {
+      save_profile(learnt, file);
+    }
     report.profile = file;
     std::error_code none;
     report.is_beside = std::filesystem::equivalent(file, profile_path(o.scene.scenes), none);
@@ -136,8 +141,7 @@ ExitStatus train(TrainVerbOptions o) {
   const std::filesystem::path profile = profile_file(o);
   take_kept_frame(o.scene);
   if (o.picture) check_output("--picture", *o.picture);
-  const NamedFile outputs[] = {{"-o", o.profile.value_or(""), beginning_with(std::string(profile_start), "profile")},
-                               {"--picture", o.picture.value_or("")}};
+  const NamedFile outputs[] = {{"-o", o.profile.value_or(""), profiles()}, {"--picture", o.picture.value_or("")}};
   demand_no_overwriting(named_scenes(o.scene.scenes), outputs);
   // -o may name the scene's own profile, in any spelling.
   const NamedFile kept{"the profile", profile_path(o.scene.scenes)};

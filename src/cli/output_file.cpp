@@ -6,20 +6,29 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
-#include <fstream>
 #include <utility>
 
 #include "cli/exit_status.h"
 #include "cli/interrupt.h"
 #include "cli/standard_streams.h"
 #include "cli/tell.h"
-#include "files/mark.h"
-#include "files/whole_file.h"
+#include "files/read_stream.h"
 #include "roam/path_file.h"
-#include "text/byte_order_mark.h"
 #include "text/web_address.h"
 
 namespace roam::app {
+
+namespace {
+
+files::Place place_behind(const std::filesystem::path& output) {
+  try {
+    return files::place_behind_links(output);
+  } catch (const Error& error) {
+    throw UsageError(error);
+  }
+}
+
+}  // namespace
 
 std::optional<Obstacle> obstacle(const std::filesystem::path& file) {
   namespace fs = std::filesystem;
@@ -43,28 +52,16 @@ void demand_no_address(const std::string& option, const std::filesystem::path& o
       Error(option + " " + output.string(), "a web server cannot be written to; name a place on the disk"));
 }
 
-FileKind beginning_with(std::string start, std::string noun) {
-  return {std::move(noun), [start = std::move(start)](const std::filesystem::path& file) {
-            std::string read(byte_order_mark.size() + start.size(), '\0');
-            std::ifstream in(file, std::ios::binary);
-            in.read(read.data(), static_cast<std::streamsize>(read.size()));
-            read.resize(static_cast<std::size_t>(in.gcount()));
-            const bool was_read = in.is_open() && !in.bad();
-            return read.empty() ? was_read : without_byte_order_mark(read).starts_with(start);
-          }};
-}
-
 FileKind paths() {
-  return {"path", [](const std::filesystem::path& file) {
+  return {"path", [](int file) {
             try {
-              return beginning_with("# roam: ", "").has(file) || !load_path(file).empty();
+              files::ReadStream in(file, "");
+              return beginning_with("# roam: ", "").has(file) || !read_path(in, "").empty();
             } catch (const Error&) {
               return false;
             }
           }};
 }
-
-FileKind marked(const std::string& noun) { return {noun + " made by roam", files::is_marked}; }
 
 std::vector<NamedFile> named_scenes(std::span<const std::filesystem::path> scenes) {
   std::vector<NamedFile> named;
@@ -93,14 +90,14 @@ void demand_no_overwriting(std::span<const NamedFile> inputs, std::span<const Na
       throw UsageError(fmt::format("{} {}", outputs[i].name, output.string()),
                        fmt::format("this would overwrite {}; {}", what, advice));
     };
-    const std::optional<FileKind>& kind = outputs[i].kind;
+    const files::Place place = place_behind(output);
     for (const NamedFile& input : inputs) {
       if (!is_file(input.file)) continue;
       if (same(input.file, output)) refuse(input.name);
       if (has_part(input.file, output)) refuse("a file of " + input.name);
     }
-    if (kind && fs::is_regular_file(output, none) && !kind->has(output))
-      refuse(fmt::format("a file that is no {}", kind->noun), "name another file, or move that one away");
+    if (!place.may_get(outputs[i].kind))
+      refuse(fmt::format("a file that is no {}", outputs[i].kind.noun), "name another file, or move that one away");
     for (const NamedFile& other : outputs.first(i)) {
       if (is_file(other.file) && same(other.file, output)) refuse("the file of " + other.name);
     }
@@ -110,7 +107,7 @@ void demand_no_overwriting(std::span<const NamedFile> inputs, std::span<const Na
 void check_output(const std::string& option, const std::filesystem::path& file) {
   if (is_standard(file)) throw UsageError(option + " -", "standard output takes paths and traces only; name a file");
   demand_no_address(option, file);
-  if (const std::optional<Obstacle> found = obstacle(files::behind_links(file))) {
+  if (const std::optional<Obstacle> found = obstacle(place_behind(file).path())) {
     throw UsageError(option + " " + file.string(), found->what + "; " + found->advice);
   }
 }

@@ -4,13 +4,14 @@
 /// the result.
 
 #include <filesystem>
-#include <functional>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "files/mark.h"
+#include "files/place.h"
 #include "roam/error.h"
 
 namespace roam::app {
@@ -25,30 +26,25 @@ struct Obstacle {
 /// Throws UsageError, naming the option, for the address of a web server.
 void demand_no_address(const std::string& option, const std::filesystem::path& output);
 
-/// Files that an output of their kind may replace: a noun in the singular, and whether a file is one.
-struct FileKind {
-  std::string noun;
-  std::function<bool(const std::filesystem::path&)> has;
-};
-/// Files that begin with a text, or are empty. A byte order mark before it does not count. None that cannot be read.
-[[nodiscard]] FileKind beginning_with(std::string start, std::string noun);
+using files::beginning_with;
+using files::FileKind;
+using files::marked;
 /// Paths, whoever made them, empty files, and recordings that ended before their first place.
 [[nodiscard]] FileKind paths();
-/// Meshes, pictures and films with the mark of roam (files/mark.h), and empty files.
-[[nodiscard]] FileKind marked(const std::string& noun);
 
 /// A file, and its name in a sentence ("the path") or the option that names it. Empty: not given.
 struct NamedFile {
   std::string name;
   std::filesystem::path file;
-  std::optional<FileKind> kind{};  ///< an output replaces only files of this kind; none: any
+  FileKind kind{};  ///< an output replaces only files of this kind
 };
 
 /// The scenes, each named "the scene".
 [[nodiscard]] std::vector<NamedFile> named_scenes(std::span<const std::filesystem::path> scenes);
 
 /// Throws UsageError if an output is the same file as an input or another output, a file in a folder that is an input,
-/// or a file that is not of its kind: somebody else made that, and the scene may refer to it.
+/// a file that is not of its kind: somebody else made that, and the scene may refer to it; or behind a link that
+/// files::is_link() refuses. A files::WholeFile looks at kind and links again when it is written.
 void demand_no_overwriting(std::span<const NamedFile> inputs, std::span<const NamedFile> outputs);
 
 /// Throws UsageError, naming the option, for a file that cannot be written: an address, a folder, a pipe, or one in a

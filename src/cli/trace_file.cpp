@@ -30,7 +30,7 @@ std::string joined_events(const StepReport& report) {
 FileKind traces() { return beginning_with(std::string(first_columns), "trace"); }
 
 TraceFile::TraceFile(const std::filesystem::path& file) {
-  if (!is_standard(file)) out_.emplace(file);
+  if (!is_standard(file)) out_.emplace(file, files::Naming::exact, traces());
   rows_ = std::string(first_columns) + "radius,height,clearance,contacts,event,teleport\n";
 }
 

@@ -114,7 +114,7 @@ const std::filesystem::path& checked(const std::filesystem::path& file, PictureF
   const std::string extension = files::lower_extension(file);
   const bool in_metres = views == PictureFile::Views::in_metres;
   if (extension == ".svg" || extension == ".png" || (extension == ".dxf" && in_metres)) {
-    const app::NamedFile picture{"--picture", file, app::marked("picture")};
+    const app::NamedFile picture{"--picture", file, files::marked("picture")};
     app::demand_no_overwriting({}, {&picture, 1});
     return file;
   }
@@ -148,7 +148,8 @@ Rect measure_text(const std::string& text, const Font& font) {
           {std::max(extents.x_advance, extents.x_bearing + extents.width), line.descent}};
 }
 
-PictureFile::PictureFile(const std::filesystem::path& file, Views views) : path_(checked(file, views)), file_(file) {}
+PictureFile::PictureFile(const std::filesystem::path& file, Views views)
+    : path_(checked(file, views)), file_(file, files::Naming::exact, files::marked("picture")) {}
 
 void PictureFile::write(const Sheet& sheet) {
   std::string bytes;

@@ -38,21 +38,21 @@ constexpr std::array marked_starts{"999\nmade by roam\n"sv,
                                    "ply\nformat binary_little_endian 1.0\ncomment made by roam;"sv, "# made by roam;"sv,
                                    "binary STL made by roam;"sv};
 
-/// A place for bytes with the mark.
-struct Place {
+/// Where bytes with the mark belong.
+struct Spot {
   std::size_t at = 0;
   std::string_view bytes;
 };
 
 /// In a picture that begins with `start`; none if it is no PNG, JPEG or SVG.
-std::optional<Place> place_in(std::string_view start) {
-  if (start.starts_with(png_start)) return Place{png_header, png_chunk};
+std::optional<Spot> place_in(std::string_view start) {
+  if (start.starts_with(png_start)) return Spot{png_header, png_chunk};
   if (start.starts_with(jpeg_start) && start.size() > 6) {
     const auto byte = [&](std::size_t i) { return std::size_t{static_cast<unsigned char>(start[i])}; };
-    return Place{4 + 256 * byte(4) + byte(5), jpeg_segment};
+    return Spot{4 + 256 * byte(4) + byte(5), jpeg_segment};
   }
   const std::size_t line = start.starts_with("<?xml ") ? start.find('\n') : std::string_view::npos;
-  if (line != std::string_view::npos) return Place{line + 1, svg_comment};
+  if (line != std::string_view::npos) return Spot{line + 1, svg_comment};
   return std::nullopt;
 }
 
@@ -66,10 +66,13 @@ bool is_mp4_or_webm(std::string_view start) {
 
 std::span<const std::byte> bytes_of(std::string_view text) { return std::as_bytes(std::span(text)); }
 
-std::uint64_t size_of(int file) {
+/// None if it is not open.
+std::optional<std::uint64_t> known_size_of(int file) {
   struct stat status {};
-  return ::fstat(file, &status) == 0 && status.st_size > 0 ? static_cast<std::uint64_t>(status.st_size) : 0;
+  if (::fstat(file, &status) != 0) return std::nullopt;
+  return static_cast<std::uint64_t>(std::max<off_t>(status.st_size, 0));
 }
+std::uint64_t size_of(int file) { return known_size_of(file).value_or(0); }
 
 std::string read(int file, std::uint64_t offset, std::uint64_t size) {
   std::string text(size, '\0');
@@ -77,10 +80,28 @@ std::string read(int file, std::uint64_t offset, std::uint64_t size) {
   return text;
 }
 
+bool has_mark(int file) {
+  const std::optional<std::uint64_t> known = known_size_of(file);
+  if (!known) return false;
+  const std::uint64_t size = *known;
+  if (size == 0) return true;
+  const std::string start = read(file, 0, std::min(size, head));
+  const auto ends_with = [&](std::string_view bytes) {
+    return size > bytes.size() && read(file, size - bytes.size(), bytes.size()) == bytes;
+  };
+  if (is_gif(start)) return ends_with(gif_comment_and_end);
+  if (is_webp(start)) return ends_with(webp_chunk);
+  if (is_mp4_or_webm(start)) return read(file, 0, std::min(size, film_head)).find(mark) != std::string::npos;
+  if (const std::optional<Spot> place = place_in(start)) {
+    return place->at < start.size() && std::string_view(start).substr(place->at).starts_with(place->bytes);
+  }
+  return std::any_of(marked_starts.begin(), marked_starts.end(), [&](auto words) { return start.starts_with(words); });
+}
+
 }  // namespace
 
 void add_mark(std::string& picture) {
-  const std::optional<Place> place = place_in(picture);
+  const std::optional<Spot> place = place_in(picture);
   if (place && place->at < picture.size()) picture.insert(place->at, place->bytes);
 }
 
@@ -101,22 +122,9 @@ void add_mark(WholeFile& film) {
 
 bool is_marked(const std::filesystem::path& file) {
   const Descriptor opened(again([&] { return ::open(file.c_str(), O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC); }));
-  if (!opened.is_open()) return false;
-  const std::uint64_t size = size_of(opened.number());
-  if (size == 0) return true;
-  const std::string start = read(opened.number(), 0, std::min(size, head));
-  const auto ends_with = [&](std::string_view bytes) {
-    return size > bytes.size() && read(opened.number(), size - bytes.size(), bytes.size()) == bytes;
-  };
-  if (is_gif(start)) return ends_with(gif_comment_and_end);
-  if (is_webp(start)) return ends_with(webp_chunk);
-  if (is_mp4_or_webm(start)) {
-    return read(opened.number(), 0, std::min(size, film_head)).find(mark) != std::string::npos;
-  }
-  if (const std::optional<Place> place = place_in(start)) {
-    return place->at < start.size() && std::string_view(start).substr(place->at).starts_with(place->bytes);
-  }
-  return std::any_of(marked_starts.begin(), marked_starts.end(), [&](auto words) { return start.starts_with(words); });
+  return has_mark(opened.number());
 }
+
+FileKind marked(const std::string& noun) { return {noun + " made by roam", has_mark}; }
 
 }  // namespace roam::files

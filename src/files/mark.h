@@ -23,5 +23,7 @@ void add_mark(WholeFile& film);
 
 /// Whether a file has the mark at the place of its format, or is empty. False for one that cannot be read.
 [[nodiscard]] bool is_marked(const std::filesystem::path& file);
+/// Meshes, pictures and films with the mark, and empty files.
+[[nodiscard]] FileKind marked(const std::string& noun);
 
 }  // namespace roam::files

@@ -30,24 +30,6 @@ void demand_name(const fs::path& file) {
   if (file.empty()) throw Error("the path of the file is empty; name the file");
 }
 
-fs::path folder_of(const fs::path& file) {
-  demand_name(file);
-  return file.has_parent_path() ? file.parent_path() : fs::path(".");
-}
-
-Descriptor open_folder_of(const fs::path& file) {
-  const fs::path path = folder_of(file);
-  Descriptor folder(again([&] { return ::open(path.c_str(), list_flags); }));
-#ifdef O_PATH
-  // One that may not be listed may be written to all the same.
-  if (!folder.is_open() && errno == EACCES) {
-    folder = Descriptor(::open(path.c_str(), O_PATH | O_DIRECTORY | O_CLOEXEC));
-  }
-#endif
-  if (!folder.is_open()) fail("write", file, errno);
-  return folder;
-}
-
 /// "a-2.png" for "a.png" and 2.
 std::string numbered(const fs::path& name, int number) {
   return fmt::format("{}-{}{}", name.stem().string(), number, name.extension().string());
@@ -94,54 +76,59 @@ std::string read_to_end(const Descriptor& opened, const fs::path& file, std::uin
   }
 }
 
-fs::path behind_links(fs::path file) {
-  constexpr int most_links = 40;  // as Linux follows
-  std::error_code none;
-  for (int i = 0; i < most_links && fs::is_symlink(fs::symlink_status(file, none)); ++i) {
-    if (fs::exists(file, none) && !fs::is_regular_file(file, none)) break;  // links in /proc lead to pipes by no path
-    file = file.parent_path() / fs::read_symlink(file, none);
-  }
-  return file;
+namespace {
+
+/// The place of a file of this naming, in an open folder.
+Place place_for(const fs::path& file, Naming naming) {
+  demand_name(file);
+  Place place = naming == Naming::exact ? place_behind_links(file) : place_of(file);
+  if (!place.folder.is_open()) fail("write", file, place.error);
+  return place;
 }
 
-WholeFile::WholeFile(const fs::path& file, Naming naming)
-    : WholeFile(naming == Naming::exact ? behind_links(file) : file, naming, usual_rights) {}
+}  // namespace
 
-WholeFile::WholeFile(const fs::path& file, Naming naming, unsigned rights)
-    : WholeFile(open_folder_of(file), folder_of(file), file.filename().string(), rights, naming) {
-  if (naming != Naming::numbered) demand_replaceable();
+WholeFile::WholeFile(const fs::path& file, Naming naming, FileKind kind)
+    : WholeFile(place_for(file, naming), naming, std::move(kind), usual_rights) {
+  if (naming_ != Naming::numbered) demand_replaceable();
   remove_abandoned();
+}
+
+WholeFile::WholeFile(Descriptor folder, fs::path folder_path, std::string name, unsigned rights, Naming naming)
+    : WholeFile(Place{std::move(folder_path), std::move(name), std::move(folder)}, naming, {}, rights) {}
+
+WholeFile::WholeFile(Place place, Naming naming, FileKind kind, unsigned rights)
+    : place_(std::move(place)), kind_(std::move(kind)), rights_(rights), naming_(naming) {
+  static std::atomic<std::uint64_t> number{0};
+  if (place_.name.empty()) fail_to_write(EISDIR);
+  while (!begin(number++)) {
+  }
 }
 
 void WholeFile::demand_replaceable() const {
   // Renaming would replace a device, and fail on a folder after all the work.
   struct stat status {};
-  if (::fstatat(folder_.number(), name_.c_str(), &status, 0) != 0) {
+  if (::fstatat(folder(), place_.name.c_str(), &status, 0) != 0) {
     if (errno != ENOENT) fail_to_write(errno);
     return;
   }
   if (S_ISDIR(status.st_mode)) fail_to_write(EISDIR);
-  if (S_ISREG(status.st_mode)) return;
-  const std::string file = (folder_path_ / name_).string();
-  throw FileError(Error::at(file, fmt::format("cannot write {}: it is a pipe or a device; name a file", file)), ESPIPE);
-}
-
-WholeFile::WholeFile(Descriptor folder, fs::path folder_path, std::string name, unsigned rights, Naming naming)
-    : folder_(std::move(folder)),
-      folder_path_(std::move(folder_path)),
-      rights_(rights),
-      naming_(naming),
-      name_(std::move(name)) {
-  static std::atomic<std::uint64_t> number{0};
-  if (name_.empty()) fail_to_write(EISDIR);
-  while (!begin(number++)) {
+  const std::string file = place_.path().string();
+  if (!S_ISREG(status.st_mode)) {
+    throw FileError(Error::at(file, fmt::format("cannot write {}: it is a pipe or a device; name a file", file)),
+                    ESPIPE);
   }
+  if (place_.may_get(kind_)) return;
+  throw FileError(Error::at(file, fmt::format("cannot write {}: this would overwrite a file that is no {}; name "
+                                              "another file, or move that one away",
+                                              file, kind_.noun)),
+                  EEXIST);
 }
 
 bool WholeFile::begin(std::uint64_t number) {
-  temporary_ = fmt::format("{}.{}.{}{}", name_.substr(0, longest_stem), ::getpid(), number, temporary_suffix);
+  temporary_ = fmt::format("{}.{}.{}{}", place_.name.substr(0, longest_stem), ::getpid(), number, temporary_suffix);
   const int file = again([&] {
-    return ::openat(folder_.number(), temporary_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, rights_);
+    return ::openat(folder(), temporary_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, rights_);
   });
   if (file < 0) {
     const int error = errno;
@@ -159,42 +146,42 @@ bool WholeFile::begin(std::uint64_t number) {
     return false;
   }
   try {
-    listed_.begin(folder_.number(), temporary_);
+    listed_.begin(folder(), temporary_);
   } catch (...) {
     // Called by a constructor, so the destructor will not remove it.
-    ::unlinkat(folder_.number(), temporary_.c_str(), 0);
+    ::unlinkat(folder(), temporary_.c_str(), 0);
     throw;
   }
   return true;
 }
 
 void WholeFile::remove_abandoned() const {
-  Descriptor list(::openat(folder_.number(), ".", list_flags));
+  Descriptor list(::openat(folder(), ".", list_flags));
   const std::unique_ptr<DIR, int (*)(DIR*)> entries(::fdopendir(list.number()), &::closedir);
   if (!entries) return;
   static_cast<void>(list.release());
-  const std::string_view stem = std::string_view(name_).substr(0, longest_stem);
+  const std::string_view stem = std::string_view(place_.name).substr(0, longest_stem);
   while (const dirent* const entry = ::readdir(entries.get())) {
     const char* const name = entry->d_name;
     if (!is_temporary(name, [&](std::string_view of) { return of == stem; })) continue;
-    const Descriptor left(::openat(folder_.number(), name, O_RDWR | O_NONBLOCK | O_NOFOLLOW | O_NOCTTY | O_CLOEXEC));
+    const Descriptor left(::openat(folder(), name, O_RDWR | O_NONBLOCK | O_NOFOLLOW | O_NOCTTY | O_CLOEXEC));
     struct stat opened {};
     struct stat named {};
     if (!left.is_open() || ::flock(left.number(), LOCK_EX | LOCK_NB) != 0) continue;
     if (::fstat(left.number(), &opened) != 0 || !S_ISREG(opened.st_mode)) continue;
     // Committed meanwhile, and another one has the name now.
-    if (::fstatat(folder_.number(), name, &named, AT_SYMLINK_NOFOLLOW) != 0 || named.st_ino != opened.st_ino) continue;
-    ::unlinkat(folder_.number(), name, 0);
+    if (::fstatat(folder(), name, &named, AT_SYMLINK_NOFOLLOW) != 0 || named.st_ino != opened.st_ino) continue;
+    ::unlinkat(folder(), name, 0);
   }
 }
 
 WholeFile::~WholeFile() {
-  if (!temporary_.empty()) ::unlinkat(folder_.number(), temporary_.c_str(), 0);
+  if (!temporary_.empty()) ::unlinkat(folder(), temporary_.c_str(), 0);
 }
 
 void WholeFile::fail_to_write(int error) const {
-  if (naming_ == Naming::numbered) fail_to_write_numbered(folder_.number(), folder_path_, name_, error);
-  fail("write", folder_path_ / name_, error);
+  if (naming_ == Naming::numbered) fail_to_write_numbered(folder(), place_.folder_path, place_.name, error);
+  fail("write", place_.path(), error);
 }
 
 void WholeFile::write(std::span<const std::byte> bytes) {
@@ -214,39 +201,39 @@ void WholeFile::finish_writing() {
 
 bool WholeFile::take(const std::string& name) {
 #ifdef RENAME_NOREPLACE
-  if (::renameat2(folder_.number(), temporary_.c_str(), folder_.number(), name.c_str(), RENAME_NOREPLACE) == 0)
-    return true;
+  if (::renameat2(folder(), temporary_.c_str(), folder(), name.c_str(), RENAME_NOREPLACE) == 0) return true;
   if (errno == EEXIST) return false;
     // Some file systems cannot.
 #endif
-  if (::linkat(folder_.number(), temporary_.c_str(), folder_.number(), name.c_str(), 0) == 0) {
-    ::unlinkat(folder_.number(), temporary_.c_str(), 0);
+  if (::linkat(folder(), temporary_.c_str(), folder(), name.c_str(), 0) == 0) {
+    ::unlinkat(folder(), temporary_.c_str(), 0);
     return true;
   }
   // Some file systems know no second name of a file.
   struct stat status {};
-  if (errno == EEXIST || ::fstatat(folder_.number(), name.c_str(), &status, AT_SYMLINK_NOFOLLOW) == 0) return false;
-  if (::renameat(folder_.number(), temporary_.c_str(), folder_.number(), name.c_str()) != 0) fail_to_write(errno);
+  if (errno == EEXIST || ::fstatat(folder(), name.c_str(), &status, AT_SYMLINK_NOFOLLOW) == 0) return false;
+  if (::renameat(folder(), temporary_.c_str(), folder(), name.c_str()) != 0) fail_to_write(errno);
   return true;
 }
 
 // Nothing allocates once the file has its name. Only the fsync of its folder may fail then.
 fs::path WholeFile::commit() {
-  fs::path file = folder_path_ / name_;
+  fs::path file = place_.path();
   if (naming_ == Naming::unclaimed) {
     finish_writing();
-    if (!take(name_)) ::unlinkat(folder_.number(), temporary_.c_str(), 0);
+    if (!take(place_.name)) ::unlinkat(folder(), temporary_.c_str(), 0);
     settle();
     return file;
   }
+  finish_writing();
   if (naming_ != Naming::numbered) {
-    commit_as(name_);
+    demand_replaceable();
+    rename_to(place_.name);
     return file;
   }
-  finish_writing();
   for (int number = 1;; ++number) {
-    const std::string name = numbered(name_, number);
-    file = folder_path_ / name;
+    const std::string name = numbered(place_.name, number);
+    file = place_.folder_path / name;
     if (take(name)) break;
   }
   settle();
@@ -255,7 +242,11 @@ fs::path WholeFile::commit() {
 
 void WholeFile::commit_as(const std::string& name) {
   finish_writing();
-  if (::renameat(folder_.number(), temporary_.c_str(), folder_.number(), name.c_str()) != 0) fail_to_write(errno);
+  rename_to(name);
+}
+
+void WholeFile::rename_to(const std::string& name) {
+  if (::renameat(folder(), temporary_.c_str(), folder(), name.c_str()) != 0) fail_to_write(errno);
   settle();
 }
 
@@ -263,7 +254,7 @@ void WholeFile::settle() {
   temporary_.clear();
   listed_.end();
   file_.close();
-  sync_folder(folder_.number(), folder_path_);
+  sync_folder(folder(), place_.folder_path);
 }
 
 bool is_temporary(std::string_view name, const std::function<bool(std::string_view)>& is_final) {
@@ -277,8 +268,8 @@ bool is_temporary(std::string_view name, const std::function<bool(std::string_vi
   return is_final(name);
 }
 
-fs::path write_whole(const fs::path& file, std::string_view text, Naming naming) {
-  WholeFile out(file, naming);
+fs::path write_whole(const fs::path& file, std::string_view text, Naming naming, FileKind kind) {
+  WholeFile out(file, naming, std::move(kind));
   out.write(std::as_bytes(std::span(text)));
   return out.commit();
 }
@@ -288,12 +279,14 @@ std::string read_whole(const fs::path& file, std::uint64_t limit) {
   return read_to_end(open_regular(AT_FDCWD, file.string(), file), file, limit);
 }
 
-std::string read_named(const fs::path& file, std::uint64_t limit) {
+Descriptor open_named(const fs::path& file) {
   demand_name(file);
-  const Descriptor opened(again([&] { return ::open(file.c_str(), O_RDONLY | O_NOCTTY | O_CLOEXEC); }));
+  Descriptor opened(again([&] { return ::open(file.c_str(), O_RDONLY | O_NOCTTY | O_CLOEXEC); }));
   if (!opened.is_open()) fail("read", file, errno);
-  return read_to_end(opened, file, limit);
+  return opened;
 }
+
+std::string read_named(const fs::path& file, std::uint64_t limit) { return read_to_end(open_named(file), file, limit); }
 
 void sync_folder(int folder, const fs::path& path) {
   if (again([&] { return ::fsync(folder); }) == 0) return;

@@ -1,3 +1,5 @@
+#include "generate/write.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -136,6 +138,11 @@ bool has_scene_extension(const std::filesystem::path& path) {
 }
 
 void write_scene(const Scene& scene, const std::filesystem::path& path, const Progress& progress) {
+  write_scene(scene, path, {}, progress);
+}
+
+void write_scene(const Scene& scene, const std::filesystem::path& path, files::FileKind replaced,
+                 const Progress& progress) {
   const std::string extension = files::lower_extension(path);
   if (!has_scene_extension(path)) {
     throw Error::at(path.string(),
@@ -153,7 +160,7 @@ void write_scene(const Scene& scene, const std::filesystem::path& path, const Pr
                       path.string(), farthest));
     }
   }
-  files::WholeFile file(path);
+  files::WholeFile file(path, files::Naming::exact, std::move(replaced));
   if (extension == ".ply") write_ply(scene, file, progress);
   if (extension == ".obj") write_obj(scene, file, progress);
   if (extension == ".stl") write_stl(scene, file, progress);

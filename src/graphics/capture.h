@@ -17,7 +17,8 @@
 namespace roam::graphics {
 
 /// Writes an image in the format of its extension (.png, .jpg, .jpeg). The file gets a temporary name beside `path`
-/// until it is complete. Returns the file's path. Throws roam::Error with the reason.
+/// until it is complete, and replaces only a picture made by roam. Returns the file's path. Throws roam::Error with the
+/// reason.
 std::filesystem::path write_image(const osg::Image& image, const std::filesystem::path& path,
                                   files::Naming naming = files::Naming::exact);
 

@@ -39,7 +39,7 @@ fs::path write_image(const osg::Image& image, const fs::path& path, files::Namin
   }
   std::string bytes = std::move(encoded).str();
   files::add_mark(bytes);
-  return files::write_whole(path, bytes, naming);
+  return files::write_whole(path, bytes, naming, files::marked("picture"));
 }
 
 /// Shared by the caller, the drawing thread and the writing thread.

@@ -139,7 +139,7 @@ class Video::Encoder {
  public:
   Encoder(fs::path path, const Kind& kind, int width, int height, int rate)
       : path_(std::move(path)),
-        file_(path_),
+        file_(path_, files::Naming::exact, files::marked("film")),
         width_(width),
         height_(height),
         rate_(rate),

@@ -10,6 +10,7 @@
 
 #include "files/json_text.h"
 #include "files/whole_file.h"
+#include "profile/write_profile.h"
 #include "text/printable.h"
 
 namespace roam {
@@ -349,7 +350,14 @@ Profile load_profile(const std::filesystem::path& file) {
   return std::move(*contents.profile);
 }
 
+files::FileKind profiles() { return files::beginning_with(std::string(profile_start), "profile"); }
+
 void save_profile(const Profile& profile, const std::filesystem::path& file) {
+  write_profile(profile, file, files::Naming::beside, {});
+}
+
+void write_profile(const Profile& profile, const std::filesystem::path& file, files::Naming naming,
+                   files::FileKind replaced) {
   try {
     check(profile);
   } catch (const Error& error) {
@@ -360,8 +368,8 @@ void save_profile(const Profile& profile, const std::filesystem::path& file) {
                                         : "correct the profile"));
   }
   // Names of objects come from files and may hold any bytes.
-  files::write_whole(file, json_of(profile).dump(2, ' ', false, Json::error_handler_t::replace) + "\n",
-                     files::Naming::beside);
+  files::write_whole(file, json_of(profile).dump(2, ' ', false, Json::error_handler_t::replace) + "\n", naming,
+                     std::move(replaced));
 }
 
 std::optional<SceneFrame> find_frame(std::span<const std::filesystem::path> scenes) {

@@ -10,6 +10,7 @@
 #include <cerrno>
 #include <cstring>
 
+#include "files/place.h"
 #include "store/files.h"
 
 namespace roam::store {
@@ -127,8 +128,11 @@ bool remove(const Folder& store, const std::string& name, int flags) noexcept {
 
 Folder Folder::held(const fs::path& path, bool through_link) {
   Folder folder(path);
-  const int flags = O_RDONLY | O_DIRECTORY | O_CLOEXEC | (through_link ? 0 : O_NOFOLLOW);
-  folder.held_ = std::make_shared<const Descriptor>(again([&] { return ::open(path.c_str(), flags); }));
+  Descriptor opened = through_link ? files::open_folders(path) : Descriptor(again([&] {
+    return ::open(path.c_str(), not_to_read | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
+  }));
+  if (opened.is_open()) opened = files::open_folder(opened.number(), ".", O_RDONLY, path);
+  folder.held_ = std::make_shared<const Descriptor>(std::move(opened));
   if (folder.held_->is_open()) return folder;
   const int error = errno;
   std::error_code none;
@@ -144,8 +148,12 @@ Folder Folder::held_or_made(const fs::path& path, bool through_link, std::vector
     if (!name.empty() && name != ".") names.push_back(name.string());
   }
   for (const std::string& name : names) {
-    const int own = flags | (&name == &names.back() && !through_link ? O_NOFOLLOW : 0);
-    Descriptor next(again([&] { return ::openat(at.number(), name.c_str(), own); }));
+    const bool is_last = &name == &names.back();
+    const auto open = [&] {
+      if (!is_last || through_link) return files::open_folder(at.number(), name, not_to_read, path);
+      return Descriptor(again([&] { return ::openat(at.number(), name.c_str(), flags | O_NOFOLLOW); }));
+    };
+    Descriptor next = open();
     if (!next.is_open() && errno == ENOENT) {
       if (::mkdirat(at.number(), name.c_str(), 0777) == 0) {
         made.push_back({std::move(at), name});
@@ -154,7 +162,7 @@ Folder Folder::held_or_made(const fs::path& path, bool through_link, std::vector
         sync_folder(at.number(), path);
         next = Descriptor(again([&] { return ::openat(at.number(), name.c_str(), flags | O_NOFOLLOW); }));
       } else if (errno == EEXIST) {  // another builder has made it, or it is a link that leads nowhere
-        next = Descriptor(again([&] { return ::openat(at.number(), name.c_str(), own); }));
+        next = open();
       } else {
         fail("make the folder", path, "", errno);
       }
@@ -162,7 +170,7 @@ Folder Folder::held_or_made(const fs::path& path, bool through_link, std::vector
     if (!next.is_open()) {
       const int error = errno;
       struct stat status {};
-      const bool link = (own & O_NOFOLLOW) != 0 &&
+      const bool link = is_last && !through_link &&
                         ::fstatat(at.number(), name.c_str(), &status, AT_SYMLINK_NOFOLLOW) == 0 &&
                         S_ISLNK(status.st_mode);
       fail("open", path, "", link ? is_a_link : error);

@@ -1,5 +1,8 @@
 // No output overwrites what is read, nor a file that somebody else made: the scene may refer to it.
+#include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include "cli/output_file.h"
 #include "cli_scenes.h"
@@ -64,10 +67,15 @@ TEST(Outputs, CountNoFileAsEmptyThatCannotBeRead) {
   std::filesystem::create_symlink("circle", folder.file("circle"));
   std::filesystem::create_directory(folder.file("folder"));
   const roam::app::FileKind traces = roam::app::beginning_with("step", "trace");
-  EXPECT_TRUE(traces.has(folder.write("empty", "")));
+  const int empty = ::open(folder.write("empty", "").c_str(), O_RDONLY | O_CLOEXEC);
+  for (const auto& kind : {traces, roam::app::paths(), roam::app::marked("picture")}) EXPECT_TRUE(kind.has(empty));
+  ::close(empty);
   for (const char* name : {"circle", "folder", "absent"}) {
-    EXPECT_FALSE(traces.has(folder.file(name))) << name;
-    EXPECT_FALSE(roam::app::paths().has(folder.file(name))) << name;
+    const int opened = ::open(folder.file(name).c_str(), O_RDONLY | O_CLOEXEC);
+    EXPECT_FALSE(traces.has(opened)) << name;
+    EXPECT_FALSE(roam::app::paths().has(opened)) << name;
+    EXPECT_FALSE(roam::app::marked("picture").has(opened)) << name;
+    if (opened >= 0) ::close(opened);
   }
 }
 
@@ -175,6 +183,49 @@ TEST(Outputs, AreWrittenThroughLinksThatAPersonNames) {
       EXPECT_GT(folder.read(std::string("real-") + name).size(), 10U) << name;
     }
   }
+}
+
+TEST(Outputs, AreRefusedBehindLinksThatAnotherUserPutIntoASharedFolder) {
+  if (::geteuid() != 0) GTEST_SKIP() << "only root can make a link of another user";
+  const TestFolder shared, own;
+  const std::string scene = own.write("scene.obj", room_obj()), path = own.write("p.path", "2 0 1\n3 0 1\n");
+  ASSERT_EQ(::chmod(shared.file("").c_str(), 01777), 0);
+  const std::string target = own.file("target"), link = shared.file("x.svg"), folder = shared.file("x.roam");
+  std::filesystem::create_directory(own.file("empty"));
+  std::filesystem::create_symlink(target, link);
+  std::filesystem::create_symlink(own.file("empty"), folder);
+  for (const std::string& planted : {link, folder}) ASSERT_EQ(::lchown(planted.c_str(), 12345, 12345), 0);
+  for (const std::vector<std::string>& arguments :
+       std::vector<std::vector<std::string>>{{"walk", scene, "--path", path, "--trace", link},
+                                             {"walk", scene, "--path", path, "--picture", link},
+                                             {"walk", scene, "--path", path, "--certify", link},
+                                             {"probe", scene, "--from", "2,0,1", "--to", "3,0,1", "--path", link},
+                                             {"train", scene, "-o", link},
+                                             {"view", scene, "--headless", "--time", "1", "--record-path", link},
+                                             {"build", scene, "-o", folder},
+                                             {"build", scene, "-o", folder + "/inner.roam"}}) {
+    const ProgramResult refused = run_program(ROAM_PROGRAM, arguments);
+    EXPECT_EQ(refused.status, arguments[0] == "build" ? 1 : 2) << arguments[0] << ' ' << arguments.back();
+    EXPECT_TRUE(contains(refused.err, " is a link that another user put there; choose another place")) << refused.err;
+    EXPECT_FALSE(std::filesystem::exists(target)) << arguments.back();
+    EXPECT_TRUE(std::filesystem::is_empty(own.file("empty"))) << arguments.back();
+  }
+}
+
+TEST(Outputs, ReplaceNothingElseThatCameDuringTheWork) {
+  const TestFolder folder;
+  const std::string scene = folder.write("scene.obj", room_obj());
+  const std::string trace = folder.file("t.csv"), certificate = folder.file("c.txt");
+  const ProgramResult result = run_program(
+      "/bin/sh", {"-c", ROAM_PROGRAM " walk " + scene + " --wander 1e7 --trace " + trace + " --certify " + certificate +
+                            " & pid=$!; until ls " + trace +
+                            ".*; do kill -0 $pid || exit 9; sleep 0.1; done > /dev/null 2>&1; printf precious > " +
+                            trace + "; printf precious > " + certificate + "; kill $pid; wait $pid"});
+  EXPECT_EQ(result.status, 143) << result.err;
+  EXPECT_EQ(folder.read("t.csv"), "precious");
+  EXPECT_EQ(folder.read("c.txt"), "precious");
+  EXPECT_TRUE(contains(result.err, trace + ": this would overwrite a file that is no trace")) << result.err;
+  EXPECT_TRUE(contains(result.err, certificate + ": this would overwrite a file that is no certificate")) << result.err;
 }
 
 TEST(Outputs, AreRefusedBeforeTheWorkIfThereIsNoFolderBehindALink) {

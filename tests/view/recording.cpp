@@ -52,14 +52,14 @@ std::string recorded(const TestFolder& folder, const std::function<void()>& mean
 
 TEST(PathRecorder, LeavesWhatWasThereUntilItCloses) {
   const TestFolder folder;
-  folder.write("way.path", "of before");
-  EXPECT_EQ(recorded(folder, [&] { EXPECT_TRUE(folder.read("way.path") == "of before"); }), "");
+  folder.write("way.path", "# roam: of before");
+  EXPECT_EQ(recorded(folder, [&] { EXPECT_TRUE(folder.read("way.path") == "# roam: of before"); }), "");
   EXPECT_GT(load_path(folder.file("way.path")).size(), 100U);
 }
 
 TEST(PathRecorder, LeavesWhatWasThereWhenTheDiskIsFull) {
   const TestFolder folder;
-  folder.write("way.path", "of before");
+  folder.write("way.path", "# roam: of before");
   std::signal(SIGXFSZ, SIG_IGN);
   rlimit before{};
   ASSERT_EQ(::getrlimit(RLIMIT_FSIZE, &before), 0);
@@ -68,12 +68,12 @@ TEST(PathRecorder, LeavesWhatWasThereWhenTheDiskIsFull) {
   const std::string said = recorded(folder, [] {});
   ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &before), 0);
   EXPECT_TRUE(contains(said, "way.path: File too large")) << said;
-  EXPECT_TRUE(folder.read("way.path") == "of before");
+  EXPECT_TRUE(folder.read("way.path") == "# roam: of before");
 }
 
 TEST(PathRecorder, WritesWhereALinkLeads) {
   const TestFolder folder;
-  folder.write("real.path", "1 2 3\n");
+  folder.write("real.path", "1 2 3\n4 5 6\n");
   std::filesystem::create_symlink("real.path", folder.file("way.path"));
   EXPECT_EQ(recorded(folder, [] {}), "");
   EXPECT_TRUE(std::filesystem::is_symlink(folder.file("way.path")));

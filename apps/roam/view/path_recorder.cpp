@@ -6,6 +6,7 @@
 #include <span>
 #include <string>
 
+#include "cli/output_file.h"
 #include "roam/error.h"
 #include "scenes/recorded_body.h"
 
@@ -18,7 +19,7 @@ constexpr double period = 0.1;  // s: a person's shorter movements need no line
 
 PathRecorder::PathRecorder(const std::filesystem::path& file, const WalkerSettings& body, Mode mode,
                            const std::optional<SceneFrame>& frame, files::Naming naming)
-    : out_(file, naming), mode_(mode) {
+    : out_(file, naming, paths()), mode_(mode) {
   write(body_line(body, mode) + "\n");
   if (frame) write(frame_line(*frame) + "\n");
   write("# t x y z qx qy qz qw: seconds, the body's centre in metres, the camera's rotation\n");

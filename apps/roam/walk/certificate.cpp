@@ -62,6 +62,8 @@ class Segments {
 
 }  // namespace
 
+FileKind certificates() { return beginning_with(checking::first_line, "certificate"); }
+
 void add(checking::SceneSum& sum, const Mesh& mesh) {
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) sum.add(mesh.triangle(i));
 }
@@ -101,7 +103,7 @@ bool certify(const std::filesystem::path& file, const OpenScene& scene, const ve
             "this walk has no certificate: segment {}: {} (a body that was put elsewhere on its way has none){}",
             refused.segment, refused.what(), earlier_stays(file)));
   }
-  files::write_whole(file, text);
+  files::write_whole(file, text, files::Naming::exact, certificates());
   return true;
 }
 

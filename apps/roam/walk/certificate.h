@@ -5,11 +5,15 @@
 #include <filesystem>
 
 #include "check/check.h"
+#include "cli/output_file.h"
 #include "roam/mesh.h"
 #include "scenes/open_scene.h"
 #include "verify/piece_log.h"
 
 namespace roam::app {
+
+/// Certificates, and empty files.
+[[nodiscard]] FileKind certificates();
 
 void add(checking::SceneSum& sum, const Mesh& mesh);
 

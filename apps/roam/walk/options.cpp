@@ -16,6 +16,7 @@
 #include "roam/profile.h"
 #include "roam/wander.h"
 #include "scenes/web_options.h"
+#include "walk/certificate.h"
 
 namespace roam::app {
 
@@ -69,7 +70,7 @@ void check_outputs(const WalkOptions& options) {
   inputs.push_back({"the profile", profile_path(options.scene.scenes)});
   const NamedFile outputs[] = {{"--trace", options.trace, traces()},
                                {"--picture", options.picture},
-                               {"--certify", options.certify, beginning_with(checking::first_line, "certificate")}};
+                               {"--certify", options.certify, certificates()}};
   demand_no_overwriting(inputs, outputs);
   if (options.certify.empty()) return;
   check_output("--certify", options.certify);

@@ -277,6 +277,60 @@ TEST(WholeFile, IsWrittenThroughLinksThoughTheyLeadToNothingYet) {
   EXPECT_NE(complaint([&] { write_whole(folder.file("ring.txt"), "text"); }).find("cannot write"), std::string::npos);
 }
 
+TEST(WholeFile, IsWrittenThroughNoLinkThatAnotherUserPutIntoASharedFolder) {
+  if (::geteuid() != 0) GTEST_SKIP() << "only root can make a link of another user";
+  const TestFolder shared, own;
+  constexpr uid_t thief = 12345;
+  const auto plant = [&](const std::string& target, const char* name) {
+    fs::create_symlink(target, shared.file(name));
+    ASSERT_EQ(::lchown(shared.file(name).c_str(), thief, thief), 0);
+  };
+  own.write("precious.txt", "precious");
+  plant(own.file("precious.txt"), "a.txt");
+  plant(own.file("new.txt"), "b.txt");
+  plant(own.file(""), "folder");
+  for (const mode_t mode : {01777, 01770}) {
+    ASSERT_EQ(::chmod(shared.file("").c_str(), mode), 0);
+    for (const char* name : {"a.txt", "b.txt", "folder/new.txt"}) {
+      const std::string said = complaint([&] { write_whole(shared.file(name), "text"); });
+      EXPECT_NE(said.find("cannot write " + shared.file(name) + ": "), std::string::npos) << said;
+      EXPECT_NE(said.find("is a link that another user put there; choose another place"), std::string::npos) << said;
+    }
+  }
+  EXPECT_EQ(own.read("precious.txt"), "precious");
+  EXPECT_EQ(files_in(own), 1U);
+  EXPECT_EQ(files_in(shared), 3U);
+  // One's own links and those of the folder's owner are followed, and all in a folder that is not sticky.
+  ASSERT_EQ(::chmod(shared.file("").c_str(), 0777), 0);
+  EXPECT_EQ(write_whole(shared.file("b.txt"), "text"), own.file("new.txt"));
+  ASSERT_EQ(::chmod(shared.file("").c_str(), 01777), 0);
+  ASSERT_EQ(::lchown(shared.file("b.txt").c_str(), 0, 0), 0);
+  EXPECT_EQ(write_whole(shared.file("b.txt"), "text"), own.file("new.txt"));
+  ASSERT_EQ(::chown(shared.file("").c_str(), thief, thief), 0);
+  EXPECT_EQ(write_whole(shared.file("folder/new.txt"), "text"), shared.file("folder/new.txt"));
+}
+
+TEST(WholeFile, ReplacesOnlyItsLikeThoughThatComesWhileItIsWritten) {
+  const TestFolder folder;
+  const std::string file = folder.write("a.txt", "like 1");
+  const roam::files::FileKind kind = roam::files::beginning_with("like", "like");
+  {
+    WholeFile out(file, Naming::exact, kind);
+    out.write(bytes_of("like 2"));
+    folder.write("a.txt", "precious");
+    const std::string said = complaint([&] { out.commit(); });
+    EXPECT_NE(said.find("cannot write " + file + ": this would overwrite a file that is no like"), std::string::npos)
+        << said;
+  }
+  EXPECT_EQ(folder.read("a.txt"), "precious");
+  EXPECT_NE(complaint([&] { WholeFile(file, Naming::beside, kind); }), "");
+  EXPECT_EQ(files_in(folder), 1U);
+  folder.write("a.txt", "");
+  write_whole(file, "like 3", Naming::exact, kind);
+  write_whole(file, "like 4", Naming::exact, kind);
+  EXPECT_EQ(folder.read("a.txt"), "like 4");
+}
+
 TEST(WholeFile, ThatIsNamedByNobodyTakesThePlaceOfALink) {
   const TestFolder folder;
   folder.write("secret.txt", "precious");
