@@ -247,7 +247,7 @@ ExitStatus walk(WalkOptions options) {
   check_way(options);
   take_kept_frame(options.scene);
   if (!options.against.scenes.empty()) prepare_against(options.scene, options.against);
-  const RecordedPath recorded = load_recorded_path(options.path);
+  RecordedPath recorded = load_recorded_path(options.path);
   options.recorded = recorded.body;
   take_profile(options);
   options.settings = walker_settings(options);
@@ -264,6 +264,7 @@ ExitStatus walk(WalkOptions options) {
   const bool stored = options.scene.name_a_store();
   std::optional<SceneFrame> frame = stored ? std::nullopt : frame_of(options.scene);
   const std::vector<Vec3> path = positions(recorded.waypoints());
+  recorded.places = {};  // they take four times as much
   demand_frame(recorded, frame, options.scene);
   if (options.recorded) {
     const std::string other = compare(*options.recorded, options.settings, mode);

@@ -5,10 +5,10 @@
 #include <charconv>
 #include <cmath>
 #include <istream>
-#include <sstream>
 #include <string_view>
 
-#include "files/file_error.h"
+#include "files/path_lines.h"
+#include "files/read_stream.h"
 #include "files/whole_file.h"
 #include "roam/error.h"
 #include "text/byte_order_mark.h"
@@ -110,12 +110,15 @@ void demand_name(const std::filesystem::path& file) {
 
 }  // namespace
 
-std::vector<Waypoint> read_path(std::istream& in, const std::string& name) {
+std::vector<Waypoint> read_path(std::istream& in, const std::string& name) { return read_path(in, name, {}); }
+
+std::vector<Waypoint> read_path(std::istream& in, const std::string& name, const OnComment& on_comment) {
   std::vector<Waypoint> path;
   Lines lines(in, name);
   for (std::string_view text; lines.next(text);) {
     const int line = lines.number();
     if (line == 1) text = without_byte_order_mark(text);
+    if (on_comment && text.starts_with('#')) on_comment(text, line);
     const Numbers numbers = parse(text, name, line);
     if (numbers.count == 0) continue;
     const Waypoint next = waypoint(numbers, name, line);
@@ -147,7 +150,8 @@ std::vector<Waypoint> read_path(std::istream& in, const std::string& name) {
 
 std::vector<Waypoint> load_path(const std::filesystem::path& file) {
   demand_name(file);
-  std::istringstream in(files::read_named(file, longest_path_file));
+  const files::Descriptor opened = files::open_named(file);
+  files::ReadStream in(opened.number(), file);
   return read_path(in, file.string());
 }
 

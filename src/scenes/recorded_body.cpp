@@ -8,6 +8,9 @@
 #include <vector>
 
 #include "cli/standard_streams.h"
+#include "files/path_lines.h"
+#include "files/read_stream.h"
+#include "files/whole_file.h"
 #include "scenes/frame.h"
 #include "text/printable.h"
 #include "text/stream_of.h"
@@ -30,86 +33,87 @@ std::string describe(double radius, double height) {
                                : fmt::format("a sphere of radius {:g} m", radius);
 }
 
-/// A line of a path file that begins with a mark.
-struct MarkedLine {
-  std::string text;   ///< all of it
-  std::string words;  ///< behind the mark
-  std::string place;  ///< "FILE:LINE"
-};
-
-std::vector<MarkedLine> marked_lines(const std::string& text, const std::string& name_of_file, std::string_view mark) {
-  std::vector<MarkedLine> lines;
-  std::istringstream in = stream_of(text);
-  std::string line;
-  for (int number = 1; std::getline(in, line); ++number) {
-    if (line.starts_with(mark)) {
-      lines.push_back({line, line.substr(mark.size()), fmt::format("{}:{}", name_of_file, number)});
-    }
+/// `after`: the line without its mark.
+void add_to(std::optional<RecordedBody>& body, const std::string& line, const std::string& after) {
+  std::istringstream words = stream_of(after);
+  std::string word;
+  words >> word;
+  const std::optional<Mode> mode = parse_mode(word);
+  RecordedBody read;
+  WalkerSettings& s = read.settings;
+  bool good = mode.has_value();
+  while (good && words >> word) {
+    double* const value = word == "radius"    ? &s.radius
+                          : word == "height"  ? &s.height
+                          : word == "eye"     ? &s.eye
+                          : word == "step"    ? &s.step
+                          : word == "slope"   ? &s.slope_degrees
+                          : word == "support" ? &s.support_radius
+                                              : nullptr;
+    good = value != nullptr && words >> *value;
   }
-  return lines;
-}
-
-std::optional<RecordedBody> recorded_body(const std::string& text, const std::string& name_of_file) {
-  std::optional<RecordedBody> body;
-  for (const MarkedLine& line : marked_lines(text, name_of_file, mode_mark)) {
-    std::istringstream words = stream_of(line.words);
-    std::string word;
-    words >> word;
-    const std::optional<Mode> mode = parse_mode(word);
-    RecordedBody read;
-    WalkerSettings& s = read.settings;
-    bool good = mode.has_value();
-    while (good && words >> word) {
-      double* const value = word == "radius"    ? &s.radius
-                            : word == "height"  ? &s.height
-                            : word == "eye"     ? &s.eye
-                            : word == "step"    ? &s.step
-                            : word == "slope"   ? &s.slope_degrees
-                            : word == "support" ? &s.support_radius
-                                                : nullptr;
-      good = value != nullptr && words >> *value;
-    }
-    if (!good) {
-      throw Error(line.place, fmt::format("'{}' does not say a body as in '{}'; correct or remove the line",
-                                          excerpt(line.text), body_line({}, Mode::walk)));
-    }
-    if (!body) {
-      try {
-        check(s);
-      } catch (const Error& error) {
-        throw Error(line.place, fmt::format("{}; correct or remove the line", error.what()));
-      }
-      body = read;
-      body->mode = *mode;
-    }
-    // Some places of a way that was partly flown can only be reached by flying.
-    if (*mode != Mode::walk) body->mode = Mode::fly;
-    body->ghost |= *mode == Mode::ghost;
+  if (!good) {
+    throw Error(fmt::format("'{}' does not say a body as in '{}'; correct or remove the line", excerpt(line),
+                            body_line({}, Mode::walk)));
   }
-  return body;
-}
-
-std::optional<SceneFrame> recorded_frame(const std::string& text, const std::string& name_of_file) {
-  std::optional<SceneFrame> frame;
-  for (const MarkedLine& line : marked_lines(text, name_of_file, frame_mark)) {
-    const auto refuse = [&](const std::string& why) {
-      throw Error(line.place, fmt::format("'{}' {}; correct or remove the line", excerpt(line.text), why));
-    };
-    std::istringstream words = stream_of(line.words);
-    std::string up, axis, unit, length, more;
-    words >> up >> axis >> unit >> length;
-    SceneFrame read;
+  if (!body) {
     try {
-      read = {parse_up_axis(axis), parse_length_unit(length)};
-    } catch (const Error&) {
-      up.clear();
+      check(s);
+    } catch (const Error& error) {
+      throw Error(fmt::format("{}; correct or remove the line", error.what()));
     }
-    if (up != "up" || unit != "unit" || words >> more) refuse("does not say a frame as in '" + frame_line({}) + "'");
-    if (frame && *frame != read) refuse("is a second frame");
-    frame = read;
+    body = read;
+    body->mode = *mode;
   }
-  return frame;
+  // Some places of a way that was partly flown can only be reached by flying.
+  if (*mode != Mode::walk) body->mode = Mode::fly;
+  body->ghost |= *mode == Mode::ghost;
 }
+
+void add_to(std::optional<SceneFrame>& frame, const std::string& line, const std::string& after) {
+  const auto refuse = [&](const std::string& why) {
+    throw Error(fmt::format("'{}' {}; correct or remove the line", excerpt(line), why));
+  };
+  std::istringstream words = stream_of(after);
+  std::string up, axis, unit, length, more;
+  words >> up >> axis >> unit >> length;
+  SceneFrame read;
+  try {
+    read = {parse_up_axis(axis), parse_length_unit(length)};
+  } catch (const Error&) {
+    up.clear();
+  }
+  if (up != "up" || unit != "unit" || words >> more) refuse("does not say a frame as in '" + frame_line({}) + "'");
+  if (frame && *frame != read) refuse("is a second frame");
+  frame = read;
+}
+
+/// What the marked lines of a path file say of its body or its frame, line by line. The first problem stays.
+template <class Said>
+class Marked {
+ public:
+  Marked(const char* mark, const std::string& name_of_file) : mark_(mark), name_of_file_(name_of_file) {}
+
+  void add(std::string_view line, int number) {
+    if (problem_ || !line.starts_with(mark_)) return;
+    try {
+      add_to(said_, std::string(line), std::string(line.substr(mark_.size())));
+    } catch (const Error& error) {
+      problem_.emplace(fmt::format("{}:{}", name_of_file_, number), error.what());
+    }
+  }
+  /// Throws the problem.
+  [[nodiscard]] const std::optional<Said>& all() const {
+    if (problem_) throw Error(*problem_);
+    return said_;
+  }
+
+ private:
+  std::string_view mark_;
+  const std::string& name_of_file_;
+  std::optional<Said> said_;
+  std::optional<Error> problem_;
+};
 
 }  // namespace
 
@@ -135,14 +139,18 @@ std::string mode_line(Mode mode) { return fmt::format("{}{}", mode_mark, to_stri
 RecordedPath load_recorded_path(const std::filesystem::path& file) {
   RecordedPath path;
   if (file.empty()) return path;
+  path.name = is_standard(file) ? "standard input" : file.string();
+  Marked<RecordedBody> body(mode_mark, path.name);
+  Marked<SceneFrame> frame(frame_mark, path.name);
   try {
-    const std::string text = read_input(file, longest_path_file);
-    const std::string name = is_standard(file) ? "standard input" : file.string();
-    std::istringstream in(text);
-    path.name = name;
-    path.places = read_path(in, name);
-    path.frame = recorded_frame(text, name);
-    path.body = recorded_body(text, name);
+    const files::Descriptor opened = is_standard(file) ? files::Descriptor() : files::open_named(file);
+    files::ReadStream in(opened.is_open() ? opened.number() : STDIN_FILENO, path.name);
+    path.places = read_path(in, path.name, [&](std::string_view line, int number) {
+      body.add(line, number);
+      frame.add(line, number);
+    });
+    path.frame = frame.all();
+    path.body = body.all();
   } catch (const Error& error) {
     path.problem = error;
   }

@@ -64,6 +64,7 @@ class StoreMemory : public testing::Test {
 
   static void check_verbs();
   static void check_all_that_a_walk_does_besides();
+  static void check_text_files();
   static void check_long_walks();
   static void check_hostile_stores();
 
@@ -74,6 +75,7 @@ class StoreMemory : public testing::Test {
 TEST_F(StoreMemory, IsWhatMemorySaysAndLittleMore) {
   check_verbs();
   check_all_that_a_walk_does_besides();
+  check_text_files();
   check_long_walks();
   check_hostile_stores();
 }
@@ -102,6 +104,30 @@ void StoreMemory::check_verbs() {
     }
     for (const char* verb : {"info", "verify"}) EXPECT_LE(run({verb, folder}).peak, 2 * own << 10) << verb;
   }
+}
+
+void StoreMemory::check_text_files() {
+  const std::string store = folder_->file("gallery"), start = "-13739 253 182\n", way = start + "-12504 1566 182\n";
+  const auto walk = [&](const std::string& path) {
+    return run({"walk", store, "--path", path, "--mode", "fly", "--speed", "60", "--memory", "8M"});
+  };
+  std::string comments, places, texts = R"({"roam_profile":1,"frame":{"up":"z","unit":"m"},"x":[0)";
+  for (int i = 0; i < 1'000'000; ++i) comments += "# a comment that is as long as comments are, and says nothing\n";
+  const ProgramResult commented = walk(folder_->write("comments.way", comments + way));
+  EXPECT_EQ(commented.status, 0) << commented.err;
+  EXPECT_LE(commented.peak, (8 + own) << 10);
+  // As docs/stores.md says.
+  constexpr long of_a_path = 100, of_a_profile = 120;
+  for (int i = 0; i < 999'998; ++i) places += start;
+  const ProgramResult placed = walk(folder_->write("places.way", places + way));
+  EXPECT_EQ(placed.status, 0) << placed.err;
+  EXPECT_LE(placed.peak, (8 + own + of_a_path) << 10);
+  for (int i = 0; i < 999'900; ++i) texts += R"(,"abcdefghijklm")";
+  folder_->write("gallery.roam.json", texts + "]}");
+  const ProgramResult profiled = walk(folder_->file("gallery.way"));
+  EXPECT_LE(profiled.peak, (8 + own + of_a_profile) << 10);
+  EXPECT_GE(profiled.peak, of_a_profile << 9) << "this does not measure what it says";
+  fs::remove(folder_->file("gallery.roam.json"));
 }
 
 void StoreMemory::check_all_that_a_walk_does_besides() {

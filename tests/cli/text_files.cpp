@@ -73,7 +73,7 @@ TEST_F(TextFiles, ADashIsStandardInput) {
   EXPECT_EQ(probed.status, 0) << probed.err;
   EXPECT_TRUE(contains(probed.out, "\"radius\": 0.3")) << probed.out;
   expect_refused(run(walk("-"), {.input = "1 2\n"}), "standard input:1: found 2 numbers");
-  expect_refused(run(walk("- < /dev/zero")), "cannot read standard input: more than");
+  expect_refused(run(walk("- < /dev/zero")), "standard input:1: the line is longer than 4096 bytes");
 }
 
 TEST_F(TextFiles, ADashIsStandardOutputAndTheReportGoesToStandardError) {
@@ -119,7 +119,8 @@ TEST_F(TextFiles, ACtrlCEndsTheWaitForAPathThatNobodyWrites) {
 }
 
 TEST_F(TextFiles, NoneIsReadWithoutEnd) {
-  expect_refused(run(walk("/dev/zero")), "/dev/zero: File too large; is it the right file?");
+  expect_refused(run(walk("/dev/zero")), "/dev/zero:1: the line is longer than 4096 bytes");
+  expect_refused(run(walk("- < <(yes '# a comment')")), "standard input: is larger than 128 MiB");
   expect_refused(run("probe " + in_quotes(scene_) + " --from 0,0,1 --to 1,0,1 --matrix /dev/zero"),
                  "/dev/zero: File too large");
   expect_refused(run(view("--settings /dev/zero")), "/dev/zero: File too large");
