@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <glm/trigonometric.hpp>
 #include <limits>
 
 #include "cli/progress.h"
@@ -13,6 +12,7 @@
 #include "draw/page.h"
 #include "draw/walk_panels.h"
 #include "math/round_length.h"
+#include "math/slope.h"
 
 namespace roam::draw {
 namespace {
@@ -38,7 +38,7 @@ std::vector<double> depths_below(const WalkerSettings& settings) {
 std::vector<PlanView> plan_views(const WalkDrawing& walk, const WalkerSettings& settings) {
   const bool walks = walk.mode == Mode::walk;
   const std::vector<double> below = walks ? depths_below(settings) : std::vector<double>{};
-  const double ground = walks ? std::cos(glm::radians(settings.slope_degrees)) : 1.0;
+  const double ground = walks ? least_upright(settings.slope_degrees) : 1.0;
   const Frames& f = walk.frames;
   const LevelMap map(f.plan.view, walk.levels, walk.survey.stations, f.turn, storey_heights * settings.height);
   std::vector<PlanView> views{{map, walk.levels.cuts, below, ground}};

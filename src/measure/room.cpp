@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <glm/trigonometric.hpp>
+
+#include "math/slope.h"
 
 namespace roam::measure {
 namespace {
@@ -21,7 +22,7 @@ Room::Room(const Space& space, const WalkerSettings& settings, Mode mode, double
       settings_(settings),
       mode_(mode),
       reach_(std::min(std::max(side_reach * settings.radius, least_reach), Space::reach_limit - settings.radius)),
-      slope_cosine_(std::cos(glm::radians(settings.slope_degrees))) {}
+      least_upright_(least_upright(settings.slope_degrees)) {}
 
 Free Room::beside(const Body& body, const Vec3& centre, const Vec3& side) const {
   const double less = slimmed(body), far = reach_ + less;
@@ -30,7 +31,7 @@ Free Room::beside(const Body& body, const Vec3& centre, const Vec3& side) const 
   const Impact hit = space_.sweep(slim, centre, far * side);
   if (!hit.hit) return {reach_, false, no_triangle};
   const Free free{std::clamp(travelled(hit, far) - less, 0.0, reach_), !hit.unknown, hit.triangle};
-  const bool may_be_stepped_onto = hit.point.z <= step_above(body, centre) || hit.normal.z > slope_cosine_;
+  const bool may_be_stepped_onto = hit.point.z <= step_above(body, centre) || hit.normal.z >= least_upright_;
   if (mode_ != Mode::walk || !may_be_stepped_onto) return free;
   const Free over = beside_legs_lifted(body, centre, side);
   return over.distance < free.distance ? free : over;
@@ -67,11 +68,11 @@ double Room::step_above(const Body& body, const Vec3& centre) const {
 
 /// Whether it rises as gently as ground that can be walked on. An edge may also be that of a bench.
 bool Room::is_ground(const Impact& hit, const Vec3& side) const {
-  if (hit.normal.z <= slope_cosine_) return false;
+  if (hit.normal.z < least_upright_) return false;
   if (hit.feature == Feature::face) return true;
   constexpr double before = 0.005;  // m
   const Impact below = space_.sweep({0.0, 0.0}, hit.point - before * side, {0.0, 0.0, -settings_.step - before});
-  return below.hit && below.normal.z > slope_cosine_;
+  return below.hit && below.normal.z >= least_upright_;
 }
 
 Free Room::headroom(const Body& body, const Vec3& centre) const {

@@ -39,7 +39,7 @@ class Room {
   const Space& space_;
   const WalkerSettings& settings_;
   Mode mode_;
-  double reach_, slope_cosine_;
+  double reach_, least_upright_;
 };
 
 /// The triangles at both ends of a measured distance of `width` (m), centred on `point`; the one along the unit vector

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <vector>
 
+#include "math/slope.h"
 #include "roam/standing.h"
 
 namespace osgRoam {
@@ -66,10 +67,10 @@ std::optional<roam::Vec3> standing_place(const roam::Space& space, const roam::W
   std::stable_sort(tops.begin(), tops.end(), [&](const auto& a, const auto& b) { return off(a) < off(b); });
 
   const double down = std::min(bounds.size().z + 2.0, ray_limit);
-  const double flat = std::cos(s.slope_degrees * (std::numbers::pi / 180.0));
+  const double upright = roam::least_upright(s.slope_degrees);
   for (const roam::Vec3& top : tops) {
     const roam::Impact floor = space.ray(top, {0.0, 0.0, -down});
-    if (!floor.hit || floor.unknown || floor.normal.z < flat) continue;
+    if (!floor.hit || floor.unknown || floor.normal.z < upright) continue;
     const roam::Vec3 over = floor.point + roam::Vec3(0.0, 0.0, 0.5 * s.height);
     if (const std::optional<roam::Vec3> centre = roam::place_to_stand(space, s, over, s.radius)) return centre;
   }

@@ -207,6 +207,18 @@ TEST(PictureSheet, ShowsBodiesAndWallsToScale) {
   EXPECT_TRUE(drawn.says("1.20 m clear") || drawn.says("1.19 m clear"));
 }
 
+TEST(PictureSheet, ShowsNoWallInGroundAsSteepAsTheBodyWalks) {
+  std::vector<Mesh> meshes{part("valley")};
+  scenes::add_floor(meshes[0], 0, -1, 20, 1, 0);
+  for (const double y : {1.0, -1.0}) scenes::add_quad(meshes[0], {0, y, 0}, {20, y, 0}, {20, 9 * y, 8}, {0, 9 * y, 8});
+  for (const double slope : {44.9, 45.0}) {
+    roam::WalkerSettings settings;
+    settings.slope_degrees = slope;
+    const Drawn drawn(meshes, {{2, 0, 0.9}, {18, 0, 0.9}}, Mode::walk, settings);
+    EXPECT_EQ(drawn.all<Lines>("plan walls").empty(), slope == 45.0) << slope;
+  }
+}
+
 TEST(PictureSheet, ShowsTheWallsBesideAShortWayAndTheWholeNarrowestPlace) {
   std::vector<Mesh> meshes{part("corridor"), part("far away")};
   scenes::add_box(meshes[0], {0, 0, 0}, {40, 6.4, 3});

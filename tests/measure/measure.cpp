@@ -149,6 +149,10 @@ TEST(MeasureAlong, SeesNoWallInGroundThatIsWalkedOn) {
     scenes::add_quad(rounded, {0, 1.417 * y, 0.35}, {20, 1.417 * y, 0.35}, {20, 9 * y, 1.69}, {0, 9 * y, 1.69});
   }
   EXPECT_FALSE(walked(scenes::build(rounded), {}, path).narrowest());
+  Mesh steep;  // as steep as the body walks at most
+  scenes::add_floor(steep, 0, -1, 20, 1, 0);
+  for (const double y : {1.0, -1.0}) scenes::add_quad(steep, {0, y, 0}, {20, y, 0}, {20, 9 * y, 8}, {0, 9 * y, 8});
+  EXPECT_FALSE(walked(scenes::build(steep), {}, path).narrowest());
 }
 
 // The person steps 0.3 m high.
