@@ -18,7 +18,7 @@ class App;
 
 namespace roam::app {
 
-/// Adds SCENE..., --up, --unit, --ignore and --threads, but no option without meaning for a survey.
+/// Adds SCENE..., the options of SceneOptions::add_reading_to() and those of add_web_options().
 void add_surveyed_to(CLI::App& verb, SceneOptions& options);
 
 struct Surveyed {
