@@ -94,7 +94,9 @@ class Wander {
 
   /// The result so far; complete when done(). It has at most 10,000 events: the first ones, and the last of all.
   /// `reached` when the time is over; `held` if the body cannot move then, or could not for 2 s, or if every heading
-  /// has failed, or 64 steps in a row ended within 1e-6 s; `left_scene` as for a route. No `waypoints`, `blocked_at`.
+  /// has failed, or 64 steps in a row ended within 1e-6 s. `left_scene` if the whole body is outside the bounds of the
+  /// space: on foot, below or beside them; flying, by its height + 2.5 m, after it was nearer. No `waypoints`,
+  /// `blocked_at`.
   [[nodiscard]] const RouteResult& result() const;
 
  private:
