@@ -267,7 +267,7 @@ bool Route::State::gets_on() const {
   Vec3 moved = walker_->position() - window_from_;
   if (walker_->mode() == Mode::walk) moved.z = 0.0;
   // A slide that covers this part of free motion comes nearer by the square of that part.
-  return nearer >= least || (glm::length(moved) >= least && nearer >= progress_part * least);
+  return nearer > least || (glm::length(moved) > least && nearer > progress_part * least);
 }
 
 void Route::State::describe_blockage(const StepReport& report) {

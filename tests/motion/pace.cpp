@@ -280,6 +280,22 @@ TEST(Pace, ALimitedRouteIsBlockedByAWall) {
   }
 }
 
+TEST(Pace, ALimitedRouteEndsBelowOrAboveAWaypointOutOfReach) {
+  const World world = build(floor_mesh());
+  for (const Vec3& goal : {Vec3(3.0, 0.0, 4.0), Vec3(3.0, 0.0, -4.0), Vec3(0.0, 0.0, 5.0)}) {
+    for (const RouteOptions& options : {RouteOptions{.acceleration = 4.0}, RouteOptions{.braking = 4.0}}) {
+      SCOPED_TRACE(testing::Message() << goal.x << ' ' << goal.z << ' ' << options.braking);
+      const std::vector<Vec3> path{{0.0, 0.0, 0.91}, goal};
+      Walker w(world, {}, Mode::walk, path[0]);
+      Route route(w, path, options);
+      for (int i = 0; i < 1000 && !route.done(); ++i) route.advance();
+      ASSERT_TRUE(route.done());
+      EXPECT_EQ(route.result().outcome, Outcome::blocked);
+      EXPECT_NEAR(route.result().end.x, goal.x, 1e-6);
+    }
+  }
+}
+
 TEST(Pace, LimitsThatAreNoneAreRefused) {
   const Mesh m = floor_mesh();
   const World world = build(m);
