@@ -8,9 +8,6 @@
 namespace roam::walking {
 namespace {
 
-/// Halvings until the speed is as exact as a double.
-constexpr int halvings = 64;
-
 /// Metres covered in `seconds`: uniform change from one speed to another in `change` seconds, then constant speed.
 double gone(double from, double to, double change, double seconds) {
   const double changing = std::min(change, seconds);
@@ -68,8 +65,8 @@ Approach approach(double speed, double most, double goal, double until_rest, dou
   if (can_stop(fast)) {
     slow = fast;
   } else if (can_stop(slow)) {
-    for (int i = 0; i < halvings; ++i) {
-      const double middle = 0.5 * (slow + fast);
+    // Until the speed is as exact as a double; it is very small if the step is very long.
+    for (double middle = 0.5 * (slow + fast); slow < middle && middle < fast; middle = 0.5 * (slow + fast)) {
       (can_stop(middle) ? slow : fast) = middle;
     }
   }

@@ -296,6 +296,21 @@ TEST(Pace, ALimitedRouteEndsBelowOrAboveAWaypointOutOfReach) {
   }
 }
 
+TEST(Pace, ALimitedRouteIsReachedInStepsOfAnyLength) {
+  const World world = build(floor_mesh());
+  for (const Mode mode : {Mode::walk, Mode::fly}) {
+    for (const double dt : {1e6, 1e20, 1e150}) {
+      SCOPED_TRACE(testing::Message() << to_string(mode) << ' ' << dt);
+      const std::vector<Vec3> path{{0.0, 0.0, 0.91}, {3.0, 0.0, 0.91}, {-3.0, 2.0, 0.91}};
+      Walker w(world, {}, mode, path[0]);
+      Route route(w, path, {.dt = dt, .acceleration = 2.0, .braking = 3.0});
+      for (int i = 0; i < 100 && !route.done(); ++i) route.advance();
+      ASSERT_TRUE(route.done());
+      EXPECT_EQ(route.result().outcome, Outcome::reached);
+    }
+  }
+}
+
 TEST(Pace, LimitsThatAreNoneAreRefused) {
   const Mesh m = floor_mesh();
   const World world = build(m);
