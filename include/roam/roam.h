@@ -37,7 +37,10 @@
  * type, which also takes NULL. It keeps alive all that it needs: handles may be freed in any order.
  *
  * Threads. Calls that take a handle as pointer to const may run at the same time in any threads. Calls that take it
- * otherwise need it alone. The library keeps no global state but the text of roam_error(), which each thread has.
+ * otherwise need it alone. In a store, roam_space_update(), roam_space_load() and roam_route_follow() change it, all
+ * spaces made from it and the walkers in these: meanwhile no other call may take one of them, but roam_object_name()
+ * and those to free. roam_filtered_ignore_only() does so to its space, what was made from that, and the walkers in it.
+ * The library keeps no global state but the text of roam_error(), which each thread has.
  * It has threads of its own, so dlclose() does not unload it. A child of fork() lacks them: it must not use or free its
  * parent's stores, nor what was made in them.
  *
@@ -156,7 +159,7 @@ typedef struct roam_store_options {
  */
 ROAM_API roam_status roam_store_open(const char* path, const roam_store_options* options, roam_space** store);
 
-/** `space` without some objects, none at first: a space of its own that shares its triangles. */
+/** `space` without some objects, none at first: a space that shares its triangles. */
 ROAM_API roam_status roam_filtered_create(const roam_space* space, roam_space** filtered);
 /** Replaces the ignored objects. ROAM_INVALID: `filtered` is not from roam_filtered_create(). */
 ROAM_API roam_status roam_filtered_ignore_only(roam_space* filtered, const uint32_t* objects, size_t count);
@@ -398,7 +401,7 @@ ROAM_API roam_status roam_walker_create(const roam_space* space, const roam_walk
 ROAM_API roam_status roam_walker_copy(const roam_walker* walker, roam_walker** copy);
 ROAM_API void roam_walker_free(roam_walker* walker);
 
-/* `step` may be NULL in all of these. They query the space: in a store they must not run beside its updates. */
+/* `step` may be NULL in all of these. */
 
 /** Moves the body for `dt` seconds, >= 0. */
 ROAM_API roam_status roam_walker_step(roam_walker* walker, const roam_walker_input* input, double dt, roam_step* step);
@@ -417,7 +420,7 @@ ROAM_API roam_status roam_walker_get_contacts(const roam_walker* walker, roam_co
 
 /**
  * Takes loaded tiles of a store into use, and loads ahead of the walker: call it between two steps. `changed` may be
- * NULL. Does nothing in a world. No query or step may run in the space meanwhile.
+ * NULL. Does nothing in a world.
  */
 ROAM_API roam_status roam_space_update(roam_space* space, const roam_walker* walker, int32_t* changed);
 /**
