@@ -33,6 +33,9 @@ std::optional<Vec3> way_out(const Space& space, const Body& body, const Vec3& pl
   return walking::nearest_free(space, body, place, body.height(), skin, walking::Way::checked);
 }
 
+/// Metres. A body put exactly in touch is too near by a rounding; this much is corrected without an event.
+double correction(double skin) { return 2.0 * skin + walking::hit_tolerance; }
+
 }  // namespace
 
 Walker::State::State(const Space& space, const WalkerSettings& settings, Mode mode)
@@ -180,28 +183,37 @@ void Walker::State::look_again() {
 
 void Walker::State::fit_in() {
   if (space_->fits(body(), at_.place)) return;
+  const std::optional<Vec3> free = way_out(*space_, body(), at_.place, skin_);
+  if (free && glm::length(*free - at_.place) <= correction(skin_)) return free_to(free);
   const double low = walking::crouched_height(settings_);
   const Vec3 lowered = at_.place - Vec3(0.0, 0.0, 0.5 * (at_.height - low));
-  const auto fits_low = [&](const Vec3& place) {
-    return mode_ == Mode::walk && low < at_.height && space_->fits(Body::capsule(settings_.radius, low), place);
-  };
-  const auto crouch_at = [&](const Vec3& place) {
-    at_.height = low;
-    put(place, report_.elapsed);
-    report_.events.push({EventKind::crouched, at_.place});
-  };
-  if (fits_low(lowered)) return crouch_at(lowered);
+  if (crouch_at(lowered)) return;
   // The centre may be that of a crouched body.
-  if (fits_low(at_.place) && !way_out(*space_, body(), at_.place, skin_)) return crouch_at(at_.place);
-  free_body();
+  if (!free && crouch_at(at_.place)) return;
+  free_to(free);
 }
 
-void Walker::State::free_body() {
+bool Walker::State::crouch_at(const Vec3& place) {
+  const double low = walking::crouched_height(settings_);
+  if (mode_ != Mode::walk || !(low < at_.height)) return false;
+  const Body body = Body::capsule(settings_.radius, low);
+  std::optional<Vec3> at = place;
+  if (!space_->fits(body, place)) {
+    at = walking::nearest_free(*space_, body, place, correction(skin_), skin_, walking::Way::checked);
+  }
+  if (!at) return false;
+  at_.height = low;
+  put(*at, report_.elapsed);
+  report_.events.push({EventKind::crouched, at_.place});
+  return true;
+}
+
+void Walker::State::free_body() { free_to(way_out(*space_, body(), at_.place, skin_)); }
+
+void Walker::State::free_to(const std::optional<Vec3>& free) {
   at_.known.forget();
-  const std::optional<Vec3> free = way_out(*space_, body(), at_.place, skin_);
   if (!free) return hold(walking::Hold::embedded);
-  // A body put exactly in touch is too near by a rounding; that is corrected without an event.
-  const bool worth_saying = glm::length(*free - at_.place) > 2.0 * skin_ + walking::hit_tolerance;
+  const bool worth_saying = glm::length(*free - at_.place) > correction(skin_);
   put(*free, report_.elapsed);
   if (worth_saying) report_.events.push({EventKind::freed, at_.place});
 }

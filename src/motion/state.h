@@ -89,7 +89,9 @@ class Walker::State {
   walking::Ending move_for(const WalkerInput& input, double dt);
   void settle();
   void fit_in();
+  [[nodiscard]] bool crouch_at(const Vec3& place);  ///< if the crouched body fits, or is too near by a rounding
   void free_body();
+  void free_to(const std::optional<Vec3>& free);  ///< holds it if there is no such position
   void come_back();
   void put(const Vec3& place, double time);
   void hold(walking::Hold why);

@@ -91,6 +91,28 @@ TEST(Recovery, AStartAtTheCentreOfACrouchedBodyCrouchesWhereNothingElseFits) {
   EXPECT_TRUE(Walker(world, {}, Mode::fly, {0.0, 0.0, 0.56}).held());
 }
 
+TEST(Recovery, FeetOnTheFloorUnderALowCeilingCrouchThere) {
+  for (const double top : {1.12, 1.3, 1.5, 1.79, 1.8}) {
+    Mesh m = floor_mesh();
+    add_floor(m, -5.0, -5.0, 5.0, 5.0, top);
+    for (const bool lossless : {false, true}) {
+      const World world = build(m, lossless);
+      Walker w(world, {}, Mode::walk, {0.0, 9.0, 0.95});
+      for (const double lowest : {0.0, 1e-4, 1e-3, 0.01}) {
+        SCOPED_TRACE(testing::Message() << top << ' ' << lowest << ' ' << lossless);
+        const StepReport& r = w.place_feet({0.0, 0.0, lowest});
+        EXPECT_FALSE(r.held || r.has(EventKind::freed));
+        EXPECT_TRUE(r.has(EventKind::crouched));
+        EXPECT_TRUE(w.grounded());
+        EXPECT_NEAR(w.feet().z, 0.0, near_ground);
+        EXPECT_NEAR(w.position().x, 0.0, 1e-3);
+      }
+      w.place({0.0, 0.0, 0.5 * w.body().height()});
+      EXPECT_TRUE(w.crouched() && w.grounded()) << "by the centre of a crouched body";
+    }
+  }
+}
+
 TEST(Recovery, ABodyThatTouchesAWallWalksAwayFromIt) {
   for (const double gap : {0.0, 1e-9, 1e-6, 1e-4, -1e-5}) {
     Mesh m = floor_mesh();

@@ -89,6 +89,15 @@ TEST(ManipulatorPose, YawAndPitchAreAsTheHeaderSays) {
   EXPECT_THROW(r->look(0.0, INFINITY), roam::Error);
 }
 
+TEST(ManipulatorPose, FeetUnderALowCeilingCrouchThere) {
+  Mesh m = floor_mesh();
+  scenes::add_floor(m, -10.0, -10.0, 10.0, 10.0, 1.3);
+  Rig r(m, {}, roam::Mode::walk);
+  r->setFeet({0.0, 0.0, 0.0}, 0.0, 0.0);
+  EXPECT_TRUE(r->walker()->crouched());
+  EXPECT_NEAR(r->walker()->feet().z, 0.0, near_ground);
+}
+
 TEST(ManipulatorPose, AMatrixThatIsNoCameraChangesNothing) {
   Rig r(room(), {}, roam::Mode::fly);
   r->setPose({0.0, 0.0, 2.0}, 0.0, 0.0);
