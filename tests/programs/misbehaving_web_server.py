@@ -6,6 +6,7 @@ a beginning only packs. GET /log answers with all requests so far, one a line, a
 largest number of requests that were under way at once. GET /release/first lets go the requests of the file ffff...,
 which wait for it, and GET /release/rest all of mode "gated" but the first kB, which they send at once.
 """
+import contextlib
 import http.server
 import os
 import re
@@ -114,6 +115,23 @@ class Handler(http.server.BaseHTTPRequestHandler):
             except OSError:
                 self.close_connection = True
                 return None
+        if mode in ("head", "trailers"):  # header lines without end
+            self.close_connection = True
+            self.wfile.write(b"HTTP/1.1 200 OK\r\nTransfer-Encoding: chunked\r\n")
+            if mode == "trailers":
+                self.wfile.write(b"\r\n0\r\n")
+            with contextlib.suppress(OSError):
+                while True:
+                    self.wfile.write(b"X: aa\r\n" * 1000)
+            return None
+        if mode == "drip" and "/manifests/" in path:  # without end, and never too slow
+            self.answer(200, b"", Content_Length=None, Connection="close")
+            with contextlib.suppress(OSError):
+                while True:
+                    self.wfile.write(bytes(5000))
+                    time.sleep(0.1)
+            self.close_connection = True
+            return None
         if mode == "stall":
             time.sleep(600)
         if mode.startswith("late"):  # "late20": by 20 ms

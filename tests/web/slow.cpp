@@ -97,4 +97,12 @@ TEST(WebSlow, AReadThatHasWaitedForItsTurnIsTriedAgain) {
   for (std::size_t i = 0; i < reads.size(); ++i) EXPECT_STREQ(reads[i].get(), nullptr) << i;
 }
 
+/// Each second brings enough, and the end would come after days.
+TEST(WebSlow, ATransferThatTakesFarTooLongIsEnded) {
+  const Served served("web_drip");
+  const support::Misbehaving server(served.root());
+  const std::string message = refusal(server.address("all-drip"), patient(0.1));
+  EXPECT_NE(message.find("far too long"), std::string::npos) << message;
+}
+
 }  // namespace

@@ -117,6 +117,8 @@ TEST(WebStore, WhatIsNoStoreIsRefused) {
       {"current-elsewhere", "--redirects follows it"},
       {"current-endless", "larger than any of its kind"},
       {"current-stall", "does not answer"},
+      {"current-head", "more header lines"},
+      {"current-trailers", "more header lines"},
       {"current-garbage", "no HTTP"},
   };
   for (const auto& [mode, reason] : reasons) {

@@ -26,6 +26,14 @@ constexpr long least_speed = 1000;
 /// of a redirect libcurl names its target.
 constexpr std::uint64_t most_of_error = 64 << 10, most_of_redirect = 4 << 20;
 
+/// Bytes of all header lines, those before the file and behind it: libcurl keeps them.
+constexpr std::uint64_t most_of_header = 64 << 10;
+
+/// In `patience`: the longest transfer (33 minutes for 20 s). So the largest request may come at least_speed.
+constexpr double longest_transfer = 100.0;
+
+constexpr const char* too_long = "the web server's answer takes far too long";
+constexpr const char* long_header = "the web server sends more header lines than an answer has";
 constexpr const char* wrong_range = "the web server sends another range than requested";
 constexpr const char* too_much = "the web server sends more bytes than it says";
 constexpr const char* larger = "it is larger than any file of its kind";
@@ -142,6 +150,8 @@ Transfer::Transfer(std::vector<Job*>&& of, std::string where, const Manners& man
       handle(Curl::library().easy_init()),
       address(std::move(where)),
       manners_(manners),
+      end_(alive + std::chrono::duration_cast<Clock::duration>(
+                       std::chrono::duration<double>(longest_transfer * manners.patience))),
       is_whole_(jobs.front()->wanted.whole != nullptr) {
   if (handle == nullptr) throw std::bad_alloc();
   first_ = jobs.front()->wanted.offset;
@@ -195,6 +205,7 @@ void Transfer::redirect(const std::string& to) {
   is_elsewhere_ = is_elsewhere_ || web_host(to) != web_host(address);
   address = to;
   ++hops;
+  header_ = 0;
   set_login();
   set(CURLOPT_URL, address.c_str());
 }
@@ -207,6 +218,9 @@ int Transfer::keep_from_children(void* /*self*/, curl_socket_t socket, curlsockt
 std::size_t Transfer::take_header(char* text, std::size_t one, std::size_t size, void* self) noexcept {
   Transfer& t = *static_cast<Transfer*>(self);
   std::string_view line(text, one * size);
+  t.header_ += line.size();
+  if (t.header_ > most_of_header) t.problem_ = long_header;
+  if (t.problem_) return 0;
   while (!line.empty() && (line.back() == '\n' || line.back() == '\r' || line.back() == ' ')) line.remove_suffix(1);
   if (line.empty()) return t.headers_end() ? one * size : 0;
   t.header(line);
@@ -270,6 +284,8 @@ std::size_t Transfer::take_body(char* bytes, std::size_t one, std::size_t size, 
 }
 
 bool Transfer::body(std::span<const std::byte> bytes) {
+  if (Clock::now() > end_) problem_ = too_long;
+  if (problem_) return false;
   if (status_ != 200 && status_ != 206) {
     ignored_ += bytes.size();
     return ignored_ <= (is_redirect(status_) ? most_of_redirect : most_of_error);

@@ -62,8 +62,9 @@ class Transfer {
   [[nodiscard]] bool is_cut() const { return has_range_ && received_ <= range_last_ - range_first_; }
 
   Manners manners_;
-  const bool is_whole_;        ///< not a range; asking the jobs would be too late once one has ended
-  bool is_elsewhere_ = false;  ///< redirected to another host
+  const Clock::time_point end_;  ///< when the transfer has taken too long
+  const bool is_whole_;          ///< not a range; asking the jobs would be too late once one has ended
+  bool is_elsewhere_ = false;    ///< redirected to another host
   std::string range_;
   curl_slist* headers_ = nullptr;
   std::uint64_t first_ = 0, size_ = 0;  ///< the range of all jobs
@@ -75,6 +76,7 @@ class Transfer {
   std::uint64_t length_ = 0;    ///< Content-Length; 0: not said
   std::uint64_t received_ = 0;  ///< bytes of the file
   std::uint64_t ignored_ = 0;   ///< bytes of an answer that is none
+  std::uint64_t header_ = 0;    ///< bytes of header lines
   const char* problem_ = nullptr;
   bool too_large_ = false;
 };
