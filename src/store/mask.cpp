@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 #include <utility>
 
+#include "index/grid.h"
 #include "math/largest.h"
 
 namespace roam::store {
@@ -77,6 +78,29 @@ bool holds(const Box& box, const Vec3& lower, const Vec3& upper) {
   return true;
 }
 
+/// Whether the step is at most that of index::Grid::fitting. A larger one would have low bits of metres.
+bool step_fits(const TileEntry& entry) {
+  constexpr float finest = 0x1p-19F;
+  static_assert(index::finest_exponent == -19);
+  return entry.step <= finest ||
+         0.5 * double(entry.step) * double(index::grid_steps - 2) < largest(box_of(entry).size());
+}
+
+/// Whether the low bits move no vertex farther than the errors say. Boxes of nodes and leaves enclose the vertices
+/// without them.
+bool low_bits_are_within(const TileView& tile) {
+  // Both are distances from the source vertex; their roundings are smaller than 2^-10 of them.
+  const double most = (double(tile.tile.error) + double(tile.tile.fine_error)) * (1.0 + 0x1p-10);
+  const double low_step = double(tile.tile.step) / double(index::fine_steps);
+  for (const index::FineLeaf& leaf : tile.fine) {
+    for (int v = 0; v < index::node_width; ++v) {
+      const Vec3 low(leaf.vertex[0][v], leaf.vertex[1][v], leaf.vertex[2][v]);
+      if (glm::length(low_step * low) > most) return false;
+    }
+  }
+  return true;
+}
+
 }  // namespace
 
 Filled filled(const TileEntry& entry, const CellRange& range) {
@@ -142,6 +166,7 @@ void Mask::add(const Triangle& triangle) {
 }
 
 const char* check_place(const TileEntry& entry, const TileView& tile) {
+  if (!low_bits_are_within(tile)) return "its errors are smaller than its low bits";
   const Box box = box_of(entry);
   // Without a margin: a builder's mask, which has one, is never refused for rounding.
   const CellGrid grid(box, 0.0);
@@ -168,6 +193,7 @@ const char* check_place(const TileEntry& entry, const TileView& tile) {
       }
     }
   }
+  if (!tile.fine.empty() && !step_fits(entry)) return "its step is larger than its box needs";
   return nullptr;
 }
 

@@ -6,6 +6,7 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <span>
 #include <stop_token>
 #include <string>
 #include <vector>
@@ -13,6 +14,7 @@
 #include "roam/store.h"
 #include "store/bytes.h"
 #include "store/manifest.h"
+#include "store/page.h"
 
 namespace roam {
 
@@ -46,6 +48,12 @@ namespace store {
 
 /// Store::source. Throws Cancelled soon after `stop` is requested.
 [[nodiscard]] SourceTriangle find_source(const Store::State& s, TriangleId triangle, const std::stop_token& stop);
+
+/// view_page of a page of a store, which must also be the one that the manifest describes: whoever chooses pages by the
+/// manifest finds all its tiles, and whoever chooses tiles by their boxes and masks all that they hold. Null, or why it
+/// is not. Never allocates.
+[[nodiscard]] const char* view_page_of(const Store::State& s, std::uint64_t number, std::span<const std::byte> bytes,
+                                       PageView& view);
 
 }  // namespace store
 }  // namespace roam

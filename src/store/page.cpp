@@ -43,6 +43,9 @@ const char* check_entry(const TileEntry& t, std::uint64_t pack_bytes) {
   if (!(t.error >= 0.0F && t.error <= t.step + 1e-5F) || !(t.fine_error >= 0.0F && t.fine_error <= t.error)) {
     return "a tile's error is out of range";
   }
+  if (t.fine == 1 && !(double(t.fine_error) <= t.step * (1.0 / double(index::fine_steps)) + 1e-6)) {
+    return "a tile's error is out of range";
+  }
   if (t.triangles < 1 || t.triangles > index::most_tile_triangles || t.nodes < 1 || t.leaves < 1 ||
       t.nodes > t.leaves || t.leaves > t.triangles || t.fine > 1 || t.zero != 0 || shape_of(t).bytes() > tile_bytes) {
     return "a tile's counts are out of range";

@@ -66,17 +66,13 @@ std::vector<std::byte> TileReader::read(const CheckedRange& range, const std::st
 }
 
 LoadedPage TileReader::page(std::uint64_t number, const std::stop_token& stop) {
-  const Store::State::Page& page = store_.pages[number];
-  const std::string what = name_of(number, page.ref.box);
+  const std::string what = name_of(number, store_.pages[number].ref.box);
   const std::vector<std::byte> content = read(range_of(number), what, stop);
   LoadedPage loaded;
   loaded.memory = blocks_for(content.size());
   std::memcpy(loaded.memory.get(), content.data(), content.size());
   const std::span<const std::byte> bytes(reinterpret_cast<const std::byte*>(loaded.memory.get()), content.size());
-  const char* problem = view_page(bytes, store_.manifest.shards[page.shard].bytes, loaded.view);
-  if (problem == nullptr && loaded.view.tiles.size() != page.ref.tiles)
-    problem = "it has more or fewer tiles than said";
-  if (problem != nullptr) refuse(store_, what, problem);
+  if (const char* problem = view_page_of(store_, number, bytes, loaded.view)) refuse(store_, what, problem);
   return loaded;
 }
 

@@ -176,6 +176,99 @@ TEST_F(HostileStore, ATileOutsideItsBoxOrItsMaskIsNotUsed) {
   }
 }
 
+/// Bodies look for the tiles of a page within what the manifest says of it; pictures and verification show them.
+TEST_F(HostileStore, APageThatIsNotTheOneOfTheManifestIsNotUsed) {
+  const auto elsewhere = [](store::Manifest& m) {
+    for (store::PageRef& page : m.shards[0].pages) page.box = {{0, 0, -90'000}, {10, 10, -89'999}};
+    m.bounds.lower.z = m.shards[0].bounds.lower.z = -90'000;
+  };
+  const auto larger = [](store::Manifest& m) { m.shards[0].pages[0].box.upper.x += 1.0; };
+  const auto smaller = [](store::Manifest& m) { m.shards[0].pages[0].box.upper.x -= 1.0; };
+  const auto low = [](store::Manifest& m) { m.bounds.upper.z = m.shards[0].bounds.upper.z = 0.5; };
+  const auto exact = [](store::Manifest& m) { m.shards[0].largest_error *= 0.5; };
+  const auto fewer = [](store::Manifest& m) {
+    ++m.shards[0].pages[0].tiles;
+    --m.shards[0].pages[1].tiles;
+  };
+  const auto right = [](store::Manifest&) {};
+  const struct {
+    std::function<void(store::Manifest&)> lie;
+    std::string said;
+  } lies[] = {{right, ""},
+              {elsewhere, "not that of its tiles"},
+              {larger, "not that of its tiles"},
+              {smaller, "not that of its tiles"},
+              {low, "beyond the bounds"},
+              {exact, "error"},
+              {fewer, "more or fewer tiles"}};
+  const store::Manifest good = manifest();
+  for (const auto& [lie, said] : lies) {
+    SCOPED_TRACE(said);
+    store::Manifest m = good;
+    lie(m);
+    store::publish(folder_.path(), m);
+    const auto opened = Store::open(folder_.path());
+    std::uint64_t triangles = 0;
+    std::string missing;
+    opened->for_each_triangle(
+        {Vec3(-1e5), Vec3(1e5)}, [&](auto some, auto) { triangles += some.size(); },
+        [&](const std::string& what) { missing += what + "\n"; });
+    EXPECT_EQ(triangles == mesh_.triangles.size(), said.empty());
+    EXPECT_EQ(missing.empty(), said.empty());
+    EXPECT_NE(missing.find(said), std::string::npos) << missing;
+    EXPECT_NE(damage(verify_store(folder_.path())).find(said), std::string::npos);
+    Pager pager(opened);
+    const Vec3 at = m.shards[0].pages[0].box.center();
+    ASSERT_TRUE(
+        made::update_until(pager, {0.1, 0.1}, at, [&] { return pager.stats().pages + pager.stats().failed > 0; }));
+    EXPECT_NE(pager.stats().last_failure.find(said), std::string::npos) << pager.stats().last_failure;
+  }
+}
+
+/// The boxes by which queries find triangles are those without the low bits.
+TEST_F(HostileStore, AFineTileWhoseErrorsHideItsLowBitsIsNotUsed) {
+  Mesh wall;
+  wall.vertices = {{0, 0, 0}, {8, 0.01, 0.01}, {8.25, 8.75, 8.125}, {0, 8, 8}};
+  wall.triangles = {{0, 1, 2}, {0, 2, 3}};
+  const auto none = [](store::TileEntry& e) {
+    for (int k = 0; k < 3; ++k) {
+      e.lower[k] += double(e.error);
+      e.upper[k] -= double(e.error);
+    }
+    e.error = e.fine_error = 0.0F;
+  };
+  const auto coarse = [](store::TileEntry& e) { e.fine_error = e.error; };
+  const struct {
+    std::function<void(store::TileEntry&)> lie;
+    std::string said;
+  } lies[] = {{{}, ""}, {none, "low bits"}, {coarse, "error is out of range"}};
+  for (const auto& [lie, said] : lies) {
+    SCOPED_TRACE(said);
+    const made::Folder folder("low");
+    const auto opened = made::store(folder.path(), {&wall, 1}, {.lossless = true, .change = lie});
+    const auto all = [&] { opened->for_each_triangle({Vec3(-1e3), Vec3(1e3)}, [](auto, auto) {}); };
+    const std::string found = cost_of(all).said;
+    EXPECT_EQ(found.empty(), said.empty());
+    EXPECT_NE(found.find(said), std::string::npos) << found;
+    EXPECT_NE(damage(verify_store(folder.path())).find(said), std::string::npos);
+  }
+}
+
+/// Else a small pack would take as long as a large one.
+TEST_F(HostileStore, TilesThatLieOverEachOtherInTheirPackAreNotUsed) {
+  const auto longer = [](store::TileEntry& e) { e.number_bytes += 64; };
+  for (const bool lies : {false, true}) {
+    const made::Folder folder("over");
+    const auto opened = made::store(folder.path(), {&mesh_, 1},
+                                    {.page_tiles = 4,
+                                     .tile_triangles = 100,
+                                     .change = lies ? std::function<void(store::TileEntry&)>(longer) : nullptr});
+    const std::string found = damage(verify_store(folder.path()));
+    EXPECT_EQ(found.find("over each other") != std::string::npos, lies) << found;
+    EXPECT_EQ(found.empty(), !lies) << found;
+  }
+}
+
 /// The names of the first objects are kept without a look at those that follow them.
 TEST_F(HostileStore, APartWhoseFirstNamesAreGoodIsDamagedBehindThem) {
   constexpr std::uint64_t objects = 15'000, bad = 14'000;

@@ -63,4 +63,31 @@ TEST(VerifyStore, ComparesWhatTheManifestSaysWithWhatIsThere) {
   EXPECT_FALSE(found[0].where.empty());
 }
 
+/// Else the time would grow with names, which cost nothing, instead of with bytes.
+TEST(VerifyStore, DecodesAPackOnceWhateverNamesItHas) {
+  const made::Folder folder("verify_names");
+  make_store(folder.path());
+  store::Manifest m = store::read_manifest(*store::files_of(folder.path()), "s");
+  const store::ShardInfo shard = m.shards[0];
+  const std::uint64_t hash = m.geometry_hash;
+  for (const char digit : {'1', '2', '3'}) {
+    m.shards.push_back(shard);
+    m.shards.back().pack = std::string(64, digit);
+    std::filesystem::create_hard_link(folder.path() / store::pack_file(shard.pack),
+                                      folder.path() / store::pack_file(m.shards.back().pack));
+    m.parts[0].triangles += shard.triangles;
+    m.geometry_hash += hash;
+  }
+  store::publish(folder.path(), m);
+  const StoreVerification found = verify_store(folder.path());
+  EXPECT_EQ(found.tiles, 1U);
+  EXPECT_GE(found.damage.size(), 3U);
+  // Of a pack without its right name once, too, to tell what of it is usable.
+  std::filesystem::remove(folder.path() / store::pack_file(shard.pack));
+  m.shards.erase(m.shards.begin());
+  m.parts[0].triangles -= shard.triangles;
+  store::publish(folder.path(), m);
+  EXPECT_EQ(verify_store(folder.path()).tiles, 1U);
+}
+
 }  // namespace

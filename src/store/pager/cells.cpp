@@ -3,6 +3,7 @@
 #include <cstdint>
 
 #include "roam/pager.h"
+#include "store/mask.h"
 #include "world/unknown.h"
 
 namespace roam::paging {

@@ -15,19 +15,6 @@ namespace {
 /// Sleep of an idle thread, and so the longest delay after a body begins to move.
 constexpr std::chrono::milliseconds nap{2};
 
-/// Checks beyond those of view_page. They ensure that every unknown place is solid. Returns null, or what is wrong.
-const char* check_solid(const store::PageView& view, const Box& page) {
-  for (const store::TileEntry& tile : view.tiles) {
-    std::uint64_t cells = 0;
-    for (const std::uint64_t layer : tile.mask) cells |= layer;
-    if (cells == 0) return "a tile of it is nowhere in its box";
-    for (int k = 0; k < 3; ++k) {
-      if (tile.lower[k] < page.lower[k] || tile.upper[k] > page.upper[k]) return "a tile lies outside its page";
-    }
-  }
-  return nullptr;
-}
-
 constexpr const char* unnamed_reason = "whatever reads it has failed";
 
 double seconds_since(Clock::time_point begin) { return std::chrono::duration<double>(Clock::now() - begin).count(); }
@@ -163,9 +150,7 @@ const char* Loaders::load_page(const Work& work, Outcome& outcome) const {
   if (const char* problem = read(work, bytes, outcome)) return problem;
   const auto begin = Clock::now();
   PageInMemory in;
-  if (const char* problem = store::view_page(bytes, s.manifest.shards[page.shard].bytes, in.view)) return problem;
-  if (in.view.tiles.size() != page.ref.tiles) return "it has more or fewer tiles than said";
-  if (const char* problem = check_solid(in.view, page.ref.box)) return problem;
+  if (const char* problem = store::view_page_of(s, work.item.page, bytes, in.view)) return problem;
   std::byte* const tiles = memory + Planner::tiles_offset(page.ref.bytes);
   in.tiles = reinterpret_cast<index::Tile*>(tiles);
   for (std::size_t i = 0; i < in.view.tiles.size(); ++i) {
