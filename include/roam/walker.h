@@ -38,11 +38,11 @@ class Walker {
   Walker& operator=(Walker&& other) noexcept;
 
   /// Moves the body for `dt` seconds. Returns report(), which the next call of any kind overwrites. Throws roam::Error
-  /// for a velocity that is not finite, a `dt` that is negative or not finite, and limits of acceleration <= 0.
+  /// for a `dt` < 0, a velocity or `dt` not finite, limits of acceleration <= 0, and a ghost beyond coordinate_limit.
   const StepReport& step(const WalkerInput& input, double dt);
 
   /// Puts the standing body at rest with its centre, half its height above its lowest point, at `centre`. Throws
-  /// roam::Error if that is not finite. If the body does not fit there, the first of these that works:
+  /// roam::Error if that is not within coordinate_limit. If the body does not fit there, the first of these that works:
   ///   - in walk mode, it crouches with the same lowest point;
   ///   - it is freed: put to the nearest free position found, at most its height away. Its centre stays on its side of
   ///     walls: a small sphere about the centre meets nothing on the straight line there;

@@ -386,10 +386,10 @@ bool Walker::State::resize(double radius, double support_radius) {
 
 /// `lift`: height of the centre above `at`, as a part of the body's height.
 const StepReport& Walker::State::place(const Vec3& at, double lift) {
-  if (!is_finite(at)) throw Error("the place to put the walker to is not a finite point");
+  const Vec3 centre = at + Vec3(0.0, 0.0, lift * walking::sized(given_, outside_).height);
+  if (!is_within_limit(centre)) throw Error("the place to put the walker to is not a point within 1e9 m of the origin");
   begin();
-  const double height = walking::sized(given_, outside_).height;
-  at_.place = at + Vec3(0.0, 0.0, lift * height);
+  at_.place = centre;
   take_size_here();
   gait_ = {};
   ridden_ = Vec3(0.0);

@@ -194,6 +194,30 @@ TEST(Walker, AGhostThatWouldLeaveAllSpaceStaysWhereItIs) {
   EXPECT_EQ(w.walker.step({.velocity = {1.0, 0.0, 0.0}}, 1.0).to, Vec3(1.0, 0.0, 0.95));
 }
 
+TEST(Walker, IsPutNowhereOutsideAllSpace) {
+  const World world = build(floor_mesh());
+  for (const Mode mode : {Mode::walk, Mode::fly, Mode::ghost}) {
+    Walker w(world, {}, mode, {0.0, 0.0, 0.95});
+    const Vec3 before = w.position();
+    for (const double far : {1.7e308, 1e200, 2e9, -2e9}) {
+      for (int k = 0; k < 3; ++k) {
+        Vec3 at(0.0, 0.0, 1.0);
+        at[k] = far;
+        EXPECT_THROW(w.place(at), roam::Error) << far;
+        EXPECT_THROW(w.place_feet(at), roam::Error) << far;
+        EXPECT_EQ(w.position(), before) << far;
+      }
+    }
+    EXPECT_THROW(w.place_feet({0.0, 0.0, 1e9}), roam::Error) << "its centre is farther";
+    w.step({.velocity = {1.0, 0.0, 0.0}}, 1.0);
+    EXPECT_NEAR(w.position().x, 1.0, 1e-9) << to_string(mode);
+    w.place({1e9, 0.0, 0.0});
+    if (mode == Mode::walk) continue;  // nothing is below
+    w.step({.velocity = {-1.0, 0.0, 0.0}}, 1.0);
+    EXPECT_EQ(w.position().x, 1e9 - 1.0) << to_string(mode);
+  }
+}
+
 /// A narrower body over 0.3 m of each metre along +x, from x = -19: two events each.
 std::vector<roam::SizeRegion> many_regions(int count) {
   std::vector<roam::SizeRegion> regions;
