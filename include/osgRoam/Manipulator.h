@@ -129,7 +129,7 @@ class Manipulator : public osgGA::CameraManipulator {
   // --- the pose
 
   /// Places the standing body by its eye. If it does not fit, it is put to the nearest safe position (Walker::place).
-  /// Throws roam::Error if an argument is not finite.
+  /// Throws roam::Error if an angle is not finite, or the eye not within roam::coordinate_limit.
   ///
   /// Viewer::setCameraManipulator and setSceneData go home() and so undo an earlier setPose. Use setHomePose, or pass
   /// false as second argument of setCameraManipulator.
@@ -157,7 +157,7 @@ class Manipulator : public osgGA::CameraManipulator {
   /// Goes straight to `point`, with collision, as a double click does, and rests beside the surface there. `normal` is
   /// the unit normal of that surface towards the body. Walking counts only horizontal distance. Ends on arrival, when
   /// the body gets no nearer, or at the first key that moves it. Does nothing without a space, with a pilot, or after a
-  /// problem(). Throws roam::Error if an argument is not finite or `normal` is not of length 1 +- 1e-3.
+  /// problem(). Throws roam::Error if `point` is not within coordinate_limit or `normal` not of length 1 +- 1e-3.
   void goTo(const roam::Vec3& point, const roam::Vec3& normal);
   [[nodiscard]] bool going() const;
   void stopGoing();
@@ -220,7 +220,7 @@ class Manipulator : public osgGA::CameraManipulator {
 
   // --- osgGA::CameraManipulator
 
-  /// Places the eye at the camera without roll; see setPose. Ignores a matrix that is not finite. A walking body that
+  /// Places the eye at the camera without roll. Ignores a matrix that setPose would refuse. A walking body that
   /// is held there, or that would fall far, stands on a floor instead, looking level: below it, else where the camera
   /// looks, else near the middle of the space. So it walks after a trackball has looked at the scene from outside.
   void setByMatrix(const osg::Matrixd& matrix) override;

@@ -5,6 +5,8 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
+#include "math/finite.h"
+
 namespace osgRoam {
 namespace {
 
@@ -44,7 +46,7 @@ CameraPose looking_at(const roam::Vec3& eye, const roam::Vec3& center, const roa
 std::optional<CameraPose> camera_pose(const osg::Matrixd& matrix, const osg::Vec3d& origin) {
   const roam::Vec3 up(matrix(1, 0), matrix(1, 1), matrix(1, 2)), back(matrix(2, 0), matrix(2, 1), matrix(2, 2));
   const roam::Vec3 eye = to_roam(matrix.getTrans() + origin);
-  if (!std::isfinite(eye.x + eye.y + eye.z + glm::length(up)) || !(glm::length(back) > 0.0) ||
+  if (!roam::is_within_limit(eye) || !std::isfinite(glm::length(up)) || !(glm::length(back) > 0.0) ||
       !std::isfinite(glm::length(back))) {
     return std::nullopt;
   }

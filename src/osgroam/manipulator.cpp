@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "math/finite.h"
 #include "osgRoam/Triangles.h"
 #include "osgroam/manipulator_state.h"
 #include "text/number.h"
@@ -18,6 +19,11 @@ constexpr double unit_tolerance = 1e-3;
 
 void demand_finite(double sum, const char* what) {
   if (!std::isfinite(sum)) throw roam::Error(std::string(what) + " is not a finite number");
+}
+
+void demand_place(const roam::Vec3& place, const char* what) {
+  if (!roam::is_within_limit(place))
+    throw roam::Error(std::string(what) + " is not a point within 1e9 m of the origin");
 }
 
 }  // namespace
@@ -168,7 +174,8 @@ const std::string& Manipulator::problem() const { return _state->problem; }
 // --- the pose
 
 void Manipulator::setPose(const roam::Vec3& eye, double yaw, double pitch) {
-  demand_finite(eye.x + eye.y + eye.z + yaw + pitch, "the place or the angle of the eye");
+  demand_place(eye, "the place of the eye");
+  demand_finite(yaw + pitch, "the angle of the eye");
   _state->put_eye({eye, wrapped_yaw(yaw), limited_pitch(pitch)});
 }
 
@@ -196,7 +203,8 @@ void Manipulator::setAdjustNearFarRatio(bool on) { _state->limits_near_plane = o
 bool Manipulator::adjustNearFarRatio() const { return _state->limits_near_plane; }
 
 void Manipulator::setHomePose(const roam::Vec3& eye, double yaw, double pitch) {
-  demand_finite(eye.x + eye.y + eye.z + yaw + pitch, "the home pose");
+  demand_place(eye, "the place of the home pose");
+  demand_finite(yaw + pitch, "the angle of the home pose");
   const osg::Vec3d at = to_osg(eye) - _state->origin;
   const osg::Vec3d up = to_osg(glm::cross(osgRoam::right(yaw), forward(yaw, pitch)));
   setHomePosition(at, at + to_osg(forward(yaw, pitch)), up, false);
@@ -205,7 +213,7 @@ void Manipulator::setHomePose(const roam::Vec3& eye, double yaw, double pitch) {
 // --- motion without keys
 
 void Manipulator::goTo(const roam::Vec3& point, const roam::Vec3& normal) {
-  demand_finite(point.x + point.y + point.z, "the place to go to");
+  demand_place(point, "the place to go to");
   const double length = glm::length(normal);
   if (!(std::abs(length - 1.0) <= unit_tolerance)) {
     throw roam::Error("the normal at the place to go to has a length of " + roam::number_text(length) +

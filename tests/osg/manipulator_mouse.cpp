@@ -286,6 +286,7 @@ TEST(ManipulatorMouse, GoingComesToRestBesideTheSurface) {
   EXPECT_THROW(r->goTo({1.0, 1.0, 1.0}, Vec3(0.0, 0.0, 2.0)), roam::Error);
   EXPECT_THROW(r->goTo({1.0, 1.0, 1.0}, Vec3(0.0, 0.0, NAN)), roam::Error);
   EXPECT_THROW(r->goTo({1.0, INFINITY, 1.0}, Vec3(0.0, 0.0, 1.0)), roam::Error);
+  EXPECT_THROW(r->goTo({1e200, 0.0, 1.0}, Vec3(-1.0, 0.0, 0.0)), roam::Error);
   EXPECT_FALSE(r->going());
 }
 

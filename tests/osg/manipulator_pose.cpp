@@ -89,6 +89,18 @@ TEST(ManipulatorPose, YawAndPitchAreAsTheHeaderSays) {
   EXPECT_THROW(r->look(0.0, INFINITY), roam::Error);
 }
 
+TEST(ManipulatorPose, IsRefusedOutsideAllSpace) {
+  Rig r(room(), {}, roam::Mode::ghost);
+  r->setPose({0.0, 0.0, 2.0}, 0.0, 0.0);
+  for (const Vec3& far : {Vec3(2e9, 0.0, 2.0), Vec3(0.0, 0.0, 1e200)}) {
+    EXPECT_THROW(r->setPose(far, 0.0, 0.0), roam::Error);
+    EXPECT_THROW(r->setFeet(2.0 * far, 0.0, 0.0), roam::Error);
+    r->setByMatrix(camera_at(osg::Vec3d(far.x, far.y, far.z), osg::Vec3d()));
+    EXPECT_EQ(r->eye(), Vec3(0.0, 0.0, 2.0));
+  }
+  EXPECT_EQ(r->problem(), "");
+}
+
 TEST(ManipulatorPose, FeetUnderALowCeilingCrouchThere) {
   Mesh m = floor_mesh();
   scenes::add_floor(m, -10.0, -10.0, 10.0, 10.0, 1.3);
