@@ -98,7 +98,7 @@ roam_status roam_probe(const roam_survey* survey, const roam_probe_options* opti
     question.from = cpp_of(what.from);
     question.to = cpp_of(what.to);
     question.mode = mode_of(what.mode);
-    if (what.step != 0.0) question.step = std::max(0.0, what.step);
+    if (what.step != 0.0) question.step = what.step < 0.0 ? 0.0 : what.step;
     if (what.spacing != 0.0) question.spacing = what.spacing;
     question.progress = [&](std::uint64_t) { return progress.goes_on(0.0); };
     const roam::ProbedSize size{what.radius, what.height != 0.0 ? what.height : 2.0 * what.radius};

@@ -203,6 +203,11 @@ TEST(CSurvey, ProbesAndTrains) {
   EXPECT_NEAR(path[0].z, 0.9, 0.01);
   roam_path_free(way);
 
+  probe.step = std::nan("");
+  EXPECT_EQ(roam_probe(survey, &probe, &answer, nullptr), ROAM_INVALID);
+  probe.step = -1.0;
+  EXPECT_EQ(roam_probe(survey, &probe, &answer, nullptr), ROAM_OK) << roam_error();
+
   probe.radius = 0.6;
   ASSERT_EQ(roam_probe(survey, &probe, &answer, nullptr), ROAM_OK) << roam_error();
   EXPECT_EQ(answer.passable, 0);
