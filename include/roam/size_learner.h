@@ -55,7 +55,7 @@ class SizeLearner {
   [[nodiscard]] std::optional<Lesson> watch(const Walker& walker, const Vec3& wish, double seconds);
 
   /// Gives the size to the walker and the profile. After a fall, puts the walker back to the place where it last stood
-  /// firmly.
+  /// firmly. Throws roam::Error for a size that the walker may not have.
   void take(Walker& walker, const Lesson& lesson);
 
   [[nodiscard]] const Profile& profile() const { return profile_; }

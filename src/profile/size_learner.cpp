@@ -198,18 +198,25 @@ std::optional<Lesson> SizeLearner::support(const Walker& walker) const {
 
 void SizeLearner::take(Walker& walker, const Lesson& lesson) {
   const DefaultFloatingPoint guard;
-  if (lesson.kind == Lesson::Kind::narrower) {
-    profile_.regions.push_back(lesson.region);
-    walker.set_regions(profile_.regions);
-  } else {
-    profile_.support_radius = std::max(profile_.support_radius, lesson.support_radius);
-    for (SizeRegion& region : profile_.regions)
+  const bool is_support = lesson.kind == Lesson::Kind::support;
+  Profile learned = profile_;
+  learned.method = "roaming";
+  if (is_support) {
+    learned.support_radius = std::max(learned.support_radius, lesson.support_radius);
+    for (SizeRegion& region : learned.regions)
       region.support_radius = std::max(region.support_radius, lesson.support_radius);
-    walker.set_regions(profile_.regions);
-    static_cast<void>(walker.resize(profile_.radius, profile_.support_radius));
-    if (firm_) static_cast<void>(walker.place(firm_at_));
+  } else {
+    learned.regions.push_back(lesson.region);
   }
-  profile_.method = "roaming";
+  const auto give = [&](Walker& body) {
+    body.set_regions(learned.regions);
+    if (is_support) static_cast<void>(body.resize(learned.radius, learned.support_radius));
+    if (is_support && firm_) static_cast<void>(body.place(firm_at_));
+  };
+  Walker trial(walker);
+  give(trial);  // throws, if at all, before anything has changed
+  give(walker);
+  profile_ = std::move(learned);
   pushed_ = 0.0;
   changed_ = true;
 }

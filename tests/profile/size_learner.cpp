@@ -245,4 +245,30 @@ TEST(SizeLearner, RefusesAProfileOutOfRange) {
   }
 }
 
+TEST(SizeLearner, ALessonThatIsRefusedChangesNothing) {
+  const World world = corridor({});
+  const WalkerSettings low{.radius = 0.2, .height = 0.5, .eye = 0.4, .step = 0.2, .crouch_height = 0.45};
+  const roam::Box place{{1.0, -1.0, 0.0}, {2.0, 1.0, 2.0}};
+  Lesson narrower, support;
+  narrower.region = {.bounds = place, .radius = -1.0};
+  // The radius of this profile, 0.3 m, is none for a body 0.5 m high.
+  support.kind = Lesson::Kind::support;
+  support.support_radius = 0.5;
+  for (const Lesson& lesson : {narrower, support}) {
+    Profile profile = known(person(0.3));
+    profile.regions.push_back({.bounds = place, .radius = 0.2});
+    SizeLearner learner(profile);
+    Walker walker(world, low, Mode::walk, {1.0, 0.0, 0.26});
+    const Vec3 before = walker.position();
+    EXPECT_THROW(learner.take(walker, lesson), roam::Error);
+    EXPECT_EQ(learner.profile().regions.size(), 1U);
+    EXPECT_EQ(learner.profile().regions[0].support_radius, 0.0);
+    EXPECT_EQ(learner.profile().support_radius, 0.0);
+    EXPECT_FALSE(learner.changed());
+    EXPECT_TRUE(walker.regions().empty());
+    EXPECT_EQ(walker.settings().support_radius, low.support_radius);
+    EXPECT_EQ(walker.position(), before);
+  }
+}
+
 }  // namespace
