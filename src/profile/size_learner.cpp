@@ -104,7 +104,9 @@ bool wishes(const Vec3& wish) { return glm::dot(wish, wish) > 0.0; }
 
 SizeLearner::SizeLearner(Profile known) : profile_(std::move(known)) {
   const DefaultFloatingPoint guard;
-  check(apply(profile_, WalkerSettings()));
+  const WalkerSettings body = apply(profile_, WalkerSettings());
+  check(body);
+  check(profile_.regions, body);
 }
 
 std::optional<Lesson> SizeLearner::watch(const Walker& walker, const Vec3& wish, double seconds) {

@@ -243,6 +243,10 @@ TEST(SizeLearner, RefusesAProfileOutOfRange) {
     bad.radius = wrong;
     EXPECT_THROW(SizeLearner{bad}, roam::Error);
   }
+  profile.regions.push_back({.bounds = {{0.0, 0.0, 0.0}, {1.0, 1.0, 1.0}}, .radius = 0.2});
+  EXPECT_NO_THROW(SizeLearner{profile});
+  profile.regions[0].radius = -1.0;
+  EXPECT_THROW(SizeLearner{profile}, roam::Error);
 }
 
 TEST(SizeLearner, ALessonThatIsRefusedChangesNothing) {
