@@ -80,7 +80,7 @@ class Patchwork final : public LiveSpace {
   /// unknown box came or went. Throws roam::Error, and takes nothing, for a body or position that no query takes.
   /// After std::bad_alloc patches may be missing. Then all space is unknown, and every update() throws roam::Error.
   bool update(const Body& body, const Vec3& place);
-  bool update(const Body& body, const Vec3& place, const Vec3& /*velocity*/) override { return update(body, place); }
+  bool update(const Body& body, const Vec3& place, const Vec3& velocity) override;
   bool update();                                    ///< the same without a body
   [[nodiscard]] SpaceFacts facts() const override;  ///< the largest error is error_limit
   /// A triangle's number is its patch times 2^32 plus that in the patch's world: stable while the patch is in use, and

@@ -4,8 +4,10 @@
 #include <cmath>
 
 #include "math/finite.h"
+#include "math/floating_point.h"
 #include "math/mix.h"
 #include "world/data.h"
+#include "world/query.h"
 
 namespace roam {
 
@@ -49,6 +51,8 @@ void Filtered::ignore_beyond(std::span<const HalfSpace> half_spaces) {
 bool Filtered::ignores(ObjectId object) const { return ObjectFilter{ignored_, nullptr}.ignores(object); }
 
 bool Filtered::update(const Body& body, const Vec3& place, const Vec3& velocity) {
+  const DefaultFloatingPoint guard;
+  query::check_update(body, place, velocity);
   return live_ != nullptr && live_->update(body, place, velocity);
 }
 

@@ -249,6 +249,8 @@ std::vector<ObjectId> Instances::instances() const {
 bool Instances::has(ObjectId instance) const { return state_->known.contains(instance); }
 
 bool Instances::update(const Body& body, const Vec3& place, const Vec3& velocity) {
+  const DefaultFloatingPoint guard;
+  query::check_update(body, place, velocity);
   return state_->live != nullptr && state_->live->update(body, place, velocity);
 }
 

@@ -285,6 +285,12 @@ void Patchwork::forget(PatchId patch) {
 
 bool Patchwork::update(const Body& body, const Vec3& place) { return state_->update(*this, &body, place); }
 
+bool Patchwork::update(const Body& body, const Vec3& place, const Vec3& velocity) {
+  const DefaultFloatingPoint guard;
+  query::check_update(body, place, velocity);
+  return update(body, place);
+}
+
 bool Patchwork::update() { return state_->update(*this, nullptr, Vec3(0.0)); }
 
 FirstImpact Patchwork::find_first(const Query& query, Vicinity* /*vicinity*/) const {

@@ -19,6 +19,8 @@ struct Part {
 
 /// Throws roam::Error if a value is not finite or is beyond the limits in space.h.
 void check(const Query& query);
+/// Throws roam::Error for what no LiveSpace::update() takes.
+void check_update(const Body& body, const Vec3& place, const Vec3& velocity);
 
 /// Metres. A triangle that is hit is at most this near; the search for the deepest contact has the same reach.
 inline constexpr double hit_reach = 2e-3;

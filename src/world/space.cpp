@@ -9,6 +9,7 @@
 #include <string>
 
 #include "index/margin.h"
+#include "math/finite.h"
 #include "math/floating_point.h"
 #include "math/largest.h"
 #include "math/parallel_floating_point.h"
@@ -93,6 +94,11 @@ void query::check(const Query& query) {
     refuse("the motion is not finite");
   }
   check_length(largest(motion), Space::motion_limit, "the motion's largest component");
+}
+
+void query::check_update(const Body& body, const Vec3& place, const Vec3& velocity) {
+  check({body, place});
+  if (!is_finite(velocity)) throw Error("cannot update a space: the velocity is not finite");
 }
 
 /// Completes a hit with its contact. Inlined, because every sweep makes it.

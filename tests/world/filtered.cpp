@@ -148,6 +148,20 @@ TEST(Filtered, OfAFilteredIgnoresBoth) {
   }
 }
 
+TEST(Filtered, RefusesAnUpdateThatAnyLiveSpaceRefuses) {
+  const World world = World::build(clutter_of(2));
+  Filtered filtered(world);
+  roam::Instances instances(world);
+  const roam::Body ball{0.3, 0.0};
+  const double nan = std::numeric_limits<double>::quiet_NaN(), infinite = std::numeric_limits<double>::infinity();
+  for (roam::LiveSpace* space : {static_cast<roam::LiveSpace*>(&filtered), static_cast<roam::LiveSpace*>(&instances)}) {
+    EXPECT_FALSE(space->update(ball, {1.0, 2.0, 3.0}, {4.0, 0.0, 0.0}));
+    EXPECT_THROW(space->update({-1.0, 0.0}, {1.0, 2.0, 3.0}, {4.0, 0.0, 0.0}), roam::Error);
+    EXPECT_THROW(space->update(ball, {1.0, nan, 3.0}, {4.0, 0.0, 0.0}), roam::Error);
+    EXPECT_THROW(space->update(ball, {1.0, 2.0, 3.0}, {0.0, 0.0, infinite}), roam::Error);
+  }
+}
+
 TEST(Filtered, IgnoresAndStopsIgnoring) {
   const World world = World::build(clutter_of(3));
   Filtered some(world);

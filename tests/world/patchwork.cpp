@@ -131,6 +131,7 @@ TEST(Patchwork, AnUpdateThatIsRefusedLosesNothing) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   EXPECT_THROW(space.update(ball, {nan, 0.0, 0.0}), roam::Error);
   EXPECT_THROW(space.update({-1.0, 0.0}, {0.5, 0.5, 3.0}), roam::Error);
+  EXPECT_THROW(space.update(ball, {0.5, 0.5, 3.0}, {0.0, nan, 0.0}), roam::Error);
   EXPECT_TRUE(space.update(ball, {0.5, 0.5, 3.0}));
   EXPECT_NEAR(stopped_at(space, 0.5), 0.5, stored);
   EXPECT_THROW(space.update(ball, {nan, 0.0, 0.0}), roam::Error) << "whether or not there is anything to take";

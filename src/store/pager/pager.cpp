@@ -4,7 +4,6 @@
 #include <sys/mman.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstring>
 #include <limits>
 #include <new>
@@ -243,10 +242,7 @@ Pager::~Pager() = default;
 
 bool Pager::update(const Body& body, const Vec3& place, const Vec3& velocity) {
   const DefaultFloatingPoint guard;
-  query::check({body, place});
-  if (!std::isfinite(velocity.x + velocity.y + velocity.z)) {
-    throw Error("cannot update a pager: the velocity is not finite");
-  }
+  query::check_update(body, place, velocity);
   State& s = *state_;
   const TrackedBody tracked(body, place, velocity);
   double latency = s.speed_limiter.latency();
