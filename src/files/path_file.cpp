@@ -77,7 +77,8 @@ Numbers parse(std::string_view text, const std::string& name, int line) {
     text.remove_prefix(begin);
     const std::string_view word = text.substr(0, text.find_first_of(blanks));
     // from_chars takes no leading plus, which printf-like writers leave before numbers.
-    const std::string_view digits = word.front() == '+' ? word.substr(1) : word;
+    const bool has_plus = word.front() == '+' && !word.starts_with("+-");
+    const std::string_view digits = has_plus ? word.substr(1) : word;
     double value = 0.0;
     const auto [end, status] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
     if (status == std::errc::invalid_argument || end != digits.data() + digits.size()) {

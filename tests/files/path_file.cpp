@@ -57,6 +57,10 @@ TEST(PathFile, NamesTheLineAndTheWordThatAreWrong) {
   EXPECT_EQ(message("0 0 0\n1 zero 0\n"),
             "walk.path:2: 'zero' is no number; a line is 'x y z' or 't x y z qx qy qz qw', '#' begins a comment");
   EXPECT_EQ(message("0 0 0\n1,5 0 0\n").substr(0, 31), "walk.path:2: '1,5' is no number");
+  for (const char* word : {"+", "++5", "+-5", "-+5"}) {
+    EXPECT_EQ(message(std::string("0 0 0\n") + word + " 0 0\n").substr(0, 30),
+              ("walk.path:2: '" + std::string(word) + "' is no number; a line").substr(0, 30));
+  }
   EXPECT_EQ(message("0 0 0\n\n1 2\n").substr(0, 30), "walk.path:3: found 2 numbers; ");
   EXPECT_EQ(message("0 0 0\n1 2 3 4 5 6 7 8 9\n").substr(0, 28), "walk.path:2: found 9 numbers");
 }
