@@ -21,7 +21,7 @@
 namespace roam {
 
 struct BuildOptions {
-  int threads = 0;        ///< at most one per core; 0: one per core
+  int threads = 0;        ///< >= 0; at most one per core; 0: one per core
   bool lossless = false;  ///< 1e-5 m instead of 2 mm, except triangles over 16 km; 6 to 9 more bytes a triangle
   /// Called with the fraction done, in [0, 1], by one thread at a time. Return false to make build() throw Cancelled.
   std::function<bool(double)> progress = {};
@@ -45,8 +45,8 @@ class World final : public Space {
   World(World&&) noexcept;
   World& operator=(World&&) noexcept;
 
-  /// Indexes the triangles of `meshes`, which are not kept. Throws roam::Error for an index out of range or a used
-  /// vertex that is not finite or beyond coordinate_limit, naming mesh and triangle, and for 2^32 triangles or more.
+  /// Indexes the triangles of `meshes`, which are not kept. Throws roam::Error for an option or index out of range, a
+  /// used vertex not finite or beyond coordinate_limit, naming mesh and triangle, and for 2^32 triangles or more.
   [[nodiscard]] static World build(std::span<const Mesh> meshes, const BuildOptions& options = {});
   [[nodiscard]] SpaceFacts facts() const override;  ///< no two worlds of a process have the same revision
   [[nodiscard]] Object object(TriangleId triangle) const override;

@@ -45,9 +45,6 @@ Survey Survey::build(std::vector<Mesh> meshes, const BuildOptions& options, doub
   if (!(slope_degrees >= 0.0 && slope_degrees <= steepest))
     throw Error(
         fmt::format("the slope limit of a survey is {:g} degrees; it must be from 0 to {:g}", slope_degrees, steepest));
-  if (options.threads < 0)
-    throw Error(fmt::format("the number of threads of a survey is {}; it must be at least 1, or 0 for one per core",
-                            options.threads));
   // Most of the work is the whole scene; the floors are a part of it.
   constexpr double whole_share = 0.8;
   const auto part = [&](double begin, double share) {

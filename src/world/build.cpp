@@ -6,6 +6,7 @@
 #include <atomic>
 #include <cstring>
 #include <mutex>
+#include <string>
 
 #include "index/collapse.h"
 #include "index/partition.h"
@@ -121,6 +122,10 @@ void assemble(WorldData& data, std::vector<BuiltTile>& built) {
 
 World World::build(std::span<const Mesh> meshes, const BuildOptions& options) {
   const DefaultFloatingPoint guard;
+  if (options.threads < 0) {
+    throw Error("cannot build a world: the number of threads is " + std::to_string(options.threads) +
+                "; it must be at least 1, or 0 for one per core");
+  }
   auto data = std::make_unique<WorldData>();
   const index::Soup soup(meshes);
   data->lossless = options.lossless;

@@ -206,6 +206,8 @@ TEST(WorldBuild, RefusesWhatItCannotHold) {
     mesh.vertices[1].y = bad;
     EXPECT_NE(refusal([&] { (void)build(mesh); }).find("vertex 1 of mesh 0 (\"floor\")"), std::string::npos) << bad;
   }
+  EXPECT_EQ(refusal([] { (void)World::build({}, {.threads = -5}); }),
+            "cannot build a world: the number of threads is -5; it must be at least 1, or 0 for one per core");
 }
 
 TEST(World, IsFreeWhenEmpty) {
