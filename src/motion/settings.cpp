@@ -5,6 +5,7 @@
 
 #include "math/finite.h"
 #include "math/floating_point.h"
+#include "math/largest.h"
 #include "motion/demand.h"
 #include "motion/sizes.h"
 #include "roam/error.h"
@@ -100,10 +101,11 @@ void check(std::span<const SizeRegion> regions, const WalkerSettings& settings) 
 
 Vec3 wish_velocity(const WalkerSettings& settings, const Vec3& direction, bool fast) {
   const DefaultFloatingPoint guard;
-  const double length = glm::length(direction);
-  if (!std::isfinite(length)) throw Error("the wished direction is not a finite vector");
+  if (!is_finite(direction)) throw Error("the wished direction is not a finite vector");
+  const Vec3 push = direction / std::max(1.0, largest(direction));  // whose length does not overflow
+  const double length = glm::length(push);
   const double speed = settings.speed * (fast ? settings.fast_factor : 1.0);
-  return direction * (length > 1.0 ? speed / length : speed);
+  return push * (length > 1.0 ? speed / length : speed);
 }
 
 const char* to_string(Mode mode) { return name_in({"fly", "walk", "ghost"}, mode); }

@@ -349,6 +349,12 @@ TEST(Walker, WishesAreAtMostOneAndFiveTimesAsFastInAHurry) {
   EXPECT_EQ(roam::wish_velocity(s, {0.5, 0.0, 0.0}, false).x, 0.7);
   EXPECT_EQ(roam::wish_velocity(s, {3.0, 0.0, 0.0}, false).x, 1.4);
   EXPECT_EQ(roam::wish_velocity(s, {1.0, 0.0, 0.0}, true).x, 7.0);
+  EXPECT_EQ(roam::wish_velocity(s, {0.0, -1e200, 0.0}, false), roam::Vec3(0.0, -1.4, 0.0));
+  constexpr double largest = std::numeric_limits<double>::max();
+  const roam::Vec3 wish = roam::wish_velocity(s, {largest, largest, 0.0}, false);
+  EXPECT_NEAR(wish.x, 1.4 * std::sqrt(0.5), 1e-15);
+  EXPECT_EQ(wish.y, wish.x);
+  EXPECT_THROW((void)roam::wish_velocity(s, {0.0, std::numeric_limits<double>::infinity(), 0.0}, false), roam::Error);
 }
 
 }  // namespace
