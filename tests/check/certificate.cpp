@@ -79,7 +79,9 @@ TEST(Certificate, IsRefusedForEachForgery) {
            {"1 2 0 1 0.3 0.6 0.4", "1 2 0 1 0.2 0.6 0.4", size},         // a radius made smaller
            {"1 2 0 1 0.3 0.6 0.4", "1 2 0 1 0.3 0.25 0.4", ""},          // the crouch begins earlier: true
            {"4 0 0.65 0.3 0.25", "4 0 0.65 0.3 0.6", "moves sideways"},  // stands up where it may not
-           {"1 2 0 1 0.3", "1 2 0.1 1 0.3", joint},                      // a corner moved
+           {"4 0 1 0.3 0.6", "4.1 0 1 0.3 0.6", "5: the body has another size than before, and moves sideways"},
+           {"4 0 1 0.3 0.6", "4 0.1 1 0.3 0.6", "5: the body has another size than before, and moves sideways"},
+           {"1 2 0 1 0.3", "1 2 0.1 1 0.3", joint},  // a corner moved
            {"0.4\nsegment 2", "0.41\nsegment 2", "1: triangle 0 of the scene is nearer than it says"},
            {"0.39\n", "0.41\n", "3: triangle 0 of the scene is nearer"},  // bounds raised
            {"0.3999999999\n", "0.4000001\n", "6: triangle 0 of the scene is nearer"},
@@ -125,9 +127,16 @@ TEST(Certificate, NamesTheNumberOfASegmentThatWasLeftOutAndCovered) {
 }
 
 TEST(Certificate, HoldsForItsSceneAlone) {
-  std::vector<Triangle> moved = scene;
-  moved[2][1].y += 1e-9;
-  EXPECT_TRUE(contains(forged(good, moved), "0: the scene, or its frame, is not that of the certificate"));
+  const std::string certificate = with_head(good);
+  // Worked out in Python from docs/format.md.
+  EXPECT_TRUE(contains(certificate, "\nscene 3 bf8153c3565b119b\n")) << certificate;
+  for (int i = 0; i < 27; ++i) {
+    std::vector<Triangle> moved = scene;
+    moved[i / 9][i / 3 % 3][i % 3] += 1e-10;
+    EXPECT_TRUE(contains(refusal(certificate + checksum_line(certificate), moved),
+                         "0: the scene, or its frame, is not that of the certificate"))
+        << i;
+  }
   std::vector<Triangle> fewer(scene.begin(), scene.end() - 1);
   EXPECT_TRUE(contains(forged(good, fewer), "0: the scene"));
   std::vector<Triangle> another_order(scene.rbegin(), scene.rend());

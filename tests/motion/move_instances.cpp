@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
+#include "motion/instance_motion.h"
 #include "moving_stage.h"
 #include "roam/filtered.h"
 
@@ -243,6 +244,27 @@ TEST(MoveInstances, NeverLetsAnythingTouchInARandomScene) {
   }
   EXPECT_GT(stops, 10);
   EXPECT_GT(carried, 100);
+}
+
+TEST(MoveInstances, BoundTheArcOfWhatTurnsAndMovesAtOnce) {
+  clutter::Random random(33);
+  for (int i = 0; i < 2000; ++i) {
+    const auto some = [&](double least, double most) {
+      return least * std::pow(most / least, random.unit()) * random.direction();
+    };
+    roam::walking::InstanceMotion shift;
+    shift.from = {some(0.1, 10.0), random.between(-3.0, 3.0)};
+    shift.to = {shift.from.position + some(1e-3, 10.0), shift.from.heading + random.between(-1.0, 1.0)};
+    const Vec3 point = shift.from.position + some(1e-2, 10.0), way = some(1e-3, 10.0);
+    const Vec3 begin = shift.from.to_instance(point), end = shift.to.to_instance(point + way);
+    const double bulge = shift.bulge(point, way);
+    for (double t = 0.0; t <= 1.0; t += 0.125) {
+      const Pose pose{shift.from.position + t * (shift.to.position - shift.from.position),
+                      shift.from.heading + t * (shift.to.heading - shift.from.heading)};
+      const Vec3 chord = begin + t * (end - begin);
+      ASSERT_LE(glm::length(pose.to_instance(point + t * way) - chord), bulge + 1e-12) << i << " at " << t;
+    }
+  }
 }
 
 TEST(MoveInstances, FreesAHeldBodyWhenWhatHoldsItGoes) {

@@ -238,15 +238,20 @@ TEST(Instances, StandInWhatIsNotKnownYet) {
 
 TEST(Instances, AllocateNothingInQueries) {
   const auto scene = posed::clutter_scene(13, false);
+  roam::Filtered some(scene->space);
+  some.ignore(scene->ids[0]);
   std::array<Contact, 16> contacts;
   const std::vector<Query> queries = first_impacts::queries(14, 5.0, 200);
   const long before = allocations;
-  for (const Query& q : queries) {
-    (void)scene->space.sweep(q);
-    (void)scene->space.gap_bound(q, 1.0);
-    (void)scene->space.clearance(q, 1.0);
-    (void)scene->space.contacts(q, 1.0, contacts);
-    (void)scene->space.floor_clearance(q.body, q.from, 1.0, {});
+  for (const roam::Space* space :
+       {static_cast<const roam::Space*>(&scene->space), static_cast<const roam::Space*>(&some)}) {
+    for (const Query& q : queries) {
+      (void)space->sweep(q);
+      (void)space->gap_bound(q, 1.0);
+      (void)space->clearance(q, 1.0);
+      (void)space->contacts(q, 1.0, contacts);
+      (void)space->floor_clearance(q.body, q.from, 1.0, {});
+    }
   }
   EXPECT_EQ(allocations, before);
 }

@@ -2,6 +2,7 @@
 
 #include <limits>
 
+#include "clutter.h"
 #include "patchwork_boards.h"
 
 namespace {
@@ -188,17 +189,28 @@ TEST(Patchwork, WhatIsForgottenIsUnknownAndMayComeAgain) {
 }
 
 TEST(Patchwork, ForgetsNothingThatTheBodyIsIn) {
-  Patchwork space;
-  const PatchId patch = space.expect(unit);
-  space.deliver(patch, board(0.25));
-  space.update();
-  space.forget(patch);
-  EXPECT_FALSE(space.update(ball, {0.5, 0.5, 0.6}));
-  EXPECT_FALSE(space.update(ball, {0.5, 0.5, 1.0 + ball.radius}));
-  EXPECT_NEAR(stopped_at(space, 0.5), 0.25, stored);
-  EXPECT_TRUE(space.update(ball, {0.5, 0.5, 1.0 + ball.radius + 3.0 * Patchwork::margin}));
-  EXPECT_NEAR(stopped_at(space, 0.5), 1.0, stored);
-  EXPECT_TRUE(space.fits(ball, {0.5, 0.5, 1.0 + ball.radius + 3.0 * Patchwork::margin}));
+  clutter::Random random(46);
+  for (int i = 0; i < 300; ++i) {
+    const Body body{random.between(0.01, 1.0), i % 4 == 0 ? 0.0 : random.between(0.0, 2.0)};
+    SCOPED_TRACE(testing::Message() << i << ": " << body.radius << ", " << body.half_height);
+    Patchwork space;
+    const PatchId patch = space.expect(unit);
+    space.deliver(patch, board(0.25));
+    space.update();
+    space.forget(patch);
+    // In it, at one of its six sides, and away from there.
+    Vec3 place(random.unit(), random.unit(), random.unit());
+    EXPECT_FALSE(space.update(body, place));
+    const int axis = i % 3;
+    const double away = random.unit() < 0.5 ? -1.0 : 1.0;
+    place[axis] = 0.5 + away * (0.5 + body.radius + (axis == 2 ? body.half_height : 0.0));
+    EXPECT_FALSE(space.update(body, place));
+    EXPECT_NEAR(stopped_at(space, 0.5), 0.25, stored);
+    place[axis] += away * 3.0 * Patchwork::margin;
+    EXPECT_TRUE(space.update(body, place));
+    EXPECT_NEAR(stopped_at(space, 0.5), 1.0, stored);
+    EXPECT_TRUE(space.fits(body, place));
+  }
 }
 
 TEST(Patchwork, WhatIsDeliveredAgainBeforeItIsForgottenTakesItsPlace) {
