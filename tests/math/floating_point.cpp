@@ -4,6 +4,7 @@
 #include <tbb/parallel_for.h>
 
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -11,11 +12,15 @@
 #include <vector>
 
 #include "clutter.h"
+#include "motion/carrying.h"
 #include "roam/instances.h"
+#include "roam/move_instances.h"
+#include "roam/opening.h"
 #include "roam/patchwork.h"
 #include "roam/route.h"
 #include "roam/standing.h"
 #include "roam/walker.h"
+#include "roam/wander.h"
 #include "roam/world.h"
 #include "same_bits.h"
 #include "world/nearby.h"
@@ -70,7 +75,9 @@ void ask(const roam::Space& space, const std::vector<Query>& queries, double rea
     bits(space.clearance(q.body, q.from, reach));
     bits(space.floor_clearance(q.body, q.from, reach, {.slope_degrees = 40.0}));
     bits(space.gap_bound(q.body, q.from, q.motion, reach));
-    bits(space.first_impact(q.body, q.from, q.motion).time);
+    const roam::FirstImpact first = space.first_impact(q.body, q.from, q.motion);
+    bits(first.time);
+    bits(space.completed({q.body, q.from, q.motion}, first));
     bits(roam::Nearby::sweep(space, vicinity, {q.body, q.from, q.motion}));
     bits(roam::Nearby::gap_bound(space, vicinity, {q.body, q.from, q.motion}, reach));
   }
@@ -87,6 +94,7 @@ TEST(FloatingPoint, SweepsOfOneTriangle) {
       bits(swept.time);
       bits(swept.point);
       bits(swept.distance);
+      bits(roam::sweep(queries[i].body, queries[i].from, queries[i].motion, triangles[i], 0.7).time);
       bits(roam::proximity(queries[i].body, queries[i].from, triangles[i]));
     }
   });
@@ -106,18 +114,28 @@ TEST(FloatingPoint, QueriesOfAWorld) {
 
 TEST(FloatingPoint, RefusesWhatIsNotFinite) {
   const roam::World world;
-  const Vec3 nowhere(std::numeric_limits<double>::quiet_NaN(), 0.0, 0.0);
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const Vec3 nowhere(nan, 0.0, 0.0);
+  const roam::WalkerSettings wrong{.radius = nan};
+  const roam::SizeRegion region{{nowhere, nowhere}, 0.2, 0.0, "nowhere"};
+  const std::vector<std::function<void()>> calls{
+      [&] { static_cast<void>(world.sweep({0.3}, nowhere, Vec3(1.0))); },
+      [&] { static_cast<void>(world.sweep({-0.3}, Vec3(0.0), Vec3(1.0))); },
+      [&] { roam::check(wrong); },
+      [&] {
+        roam::check({&region, 1}, {});
+      },
+      [&] { roam::check(roam::WalkerSettings::sphere(nan)); },
+      [&] { roam::check(roam::WalkerSettings::person(nan, 1.7)); },
+  };
   expect_same([&](Bits& bits) {
     std::uint64_t refused = 0;
-    try {
-      static_cast<void>(world.sweep({0.3}, nowhere, Vec3(1.0)));
-    } catch (const roam::Error&) {
-      ++refused;
-    }
-    try {
-      static_cast<void>(world.sweep({-0.3}, Vec3(0.0), Vec3(1.0)));
-    } catch (const roam::Error&) {
-      ++refused;
+    for (const auto& call : calls) {
+      try {
+        call();
+      } catch (const roam::Error&) {
+        ++refused;
+      }
     }
     bits(refused);
   });
@@ -184,8 +202,9 @@ TEST(FloatingPoint, StepsOfWalkers) {
     mesh.triangles.push_back({first, first + 1, first + 2});
     const roam::World world = roam::World::build({&mesh, 1});
     clutter::Random random(9);
-    std::vector<Vec3> wishes;
-    for (int i = 0; i < 150; ++i) wishes.push_back(1.7 * random.direction());
+    std::vector<Vec3> ways, wishes;
+    for (int i = 0; i < 150; ++i) ways.push_back(random.direction());
+    for (const Vec3& way : ways) wishes.push_back(1.7 * way);
     const std::vector<Vec3> starts{c.centre + Vec3(0.3, 0.4, 1.7), c.centre + Vec3(-1.3, 0.9, 2.7), c.centre};
     const roam::SizeRegion narrow{{c.centre - Vec3(1.0), c.centre + Vec3(1.0)}, 0.2, 0.0, "narrow"};
     constexpr double dt = 1.0 / 60.0;
@@ -195,9 +214,12 @@ TEST(FloatingPoint, StepsOfWalkers) {
           roam::Walker walker(world, {}, mode, start);
           bits(walker.report());
           walker.set_regions({&narrow, 1});
-          for (const Vec3& wish : wishes) {
+          for (std::size_t i = 0; i < wishes.size(); ++i) {
+            const Vec3& wish = wishes[i];
             bits(walker.step({.velocity = wish, .jump = wish.z > 1.0, .crouch = wish.z < -1.0}, dt));
             bits(walker.velocity());
+            bits(walker.pace());
+            if (const auto opening = roam::measure_opening(walker, ways[i])) bits(opening->width);
             bits(walker.feet());
             bits(walker.eye());
             bits(walker.body().half_height);
@@ -207,10 +229,14 @@ TEST(FloatingPoint, StepsOfWalkers) {
           static_cast<void>(walker.resize(0.25, 0.4));
           bits(walker.report());
           bits(walker.place_feet(start));
+          bits(walker.place(start));
           bits(walker.set_mode(roam::Mode::walk));
         }
       }
       bits(roam::wish_velocity({}, starts[0], true));
+      bits(roam::WalkerSettings::person(0.31, 1.7).eye);
+      bits(static_cast<std::uint64_t>(
+          roam::carrying(world, {starts[0]}, {.radius = 0.4, .slope_degrees = 45.0}, starts[0])));
     });
   }
 }
@@ -232,6 +258,12 @@ TEST(FloatingPoint, PosesOfInstances) {
       bits(roam::Velocity{{0.1, 0.2, 0.3}, 0.7}.at(pose, {1.1, 1.2, 1.3}));
       bits(space.sweep({.radius = 0.2}, {-6.0, -6.0, 1.0}, {12.0, 11.0, 0.3}).time);
     }
+    roam::Walker walker(space, roam::WalkerSettings::sphere(0.2), roam::Mode::fly, {0.7, 0.6, 9.3});
+    roam::Walker* const met[] = {&walker};
+    space.set_pose(id, {{0.1, 0.2, 0.3}, 0.1});
+    space.set_velocity(id, {{0.3, 0.2, 7.1}, 0.7});
+    bits(static_cast<std::uint64_t>(roam::move_instances(space, met, 0.9).size()));
+    bits(walker.report());
   });
 }
 
@@ -249,6 +281,16 @@ TEST(FloatingPoint, Routes) {
     const roam::WalkerSettings person;
     for (const Vec3& place : roam::standing(way, person)) bits(place);
     if (const auto place = roam::place_to_stand(world, person, way[1], 2.0)) bits(*place);
+    const std::vector<Vec3> floors = roam::floor_samples({&mesh, 1});
+    for (const Vec3& floor : floors) bits(floor);
+    if (const auto start = roam::wander_start(world, person, roam::Mode::walk, floors, 3)) bits(start->room);
+    bits(roam::open_direction(world, way[0], 9.3).yaw);
+    roam::Wander wander(walker, {.seconds = 0.7});
+    while (!wander.done()) {
+      wander.look();
+      bits(wander.advance());
+    }
+    bits(wander.result().length);
   });
 }
 
