@@ -6,6 +6,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <numbers>
+#include <optional>
 
 #include "math/slope.h"
 #include "roam/space.h"
@@ -13,9 +14,10 @@
 
 namespace roam::wandering {
 
-constexpr double stride = 0.5;        // m of one probe
-constexpr double least_piece = 0.05;  // m, of a stride on foot; after less the body is before a kerb or a slope
-constexpr int most_pieces = 4;        // of a stride: up a slope of 60 degrees it has three
+constexpr double stride = 0.5;       // m of one probe
+constexpr double least_piece = 0.1;  // m, of a stride up the steepest slope without a step
+constexpr int most_pieces = 8;       // of a stride on foot
+constexpr double rounding = 1e-9;    // m, of the sum of its pieces
 // m above the ground: a level sweep must not touch it, so more than the tolerance of a hit, 2 mm.
 constexpr double rest = 2.5e-3;
 constexpr double fly_height = 2.0;  // m above the floor, where there is no ceiling to stay under
@@ -42,23 +44,34 @@ struct Prober {
   [[nodiscard]] double free_part(const Vec3& place, const Vec3& way) const {
     return space.first_impact(body, place, way).time * glm::length(way);
   }
-  /// Moves `place` on by at most `left` metres over the ground, level or, if that is blocked, up by a step. Returns the
+  /// The position over the ground under `place`, which lies up to `raised` metres above it after a piece of `length`.
+  /// None if there is no ground, or if it is too steep.
+  [[nodiscard]] std::optional<Vec3> on_ground(const Vec3& place, double raised, double length) const {
+    const double down = raised + settings.step + slope() * length;
+    const Impact ground = space.sweep(body, place, {0, 0, -down});
+    const bool is_steep = ground.feature == Feature::face && ground.normal.z < least_upright(settings.slope_degrees);
+    if (!ground.hit || is_steep) return std::nullopt;
+    return place - Vec3(0, 0, ground.time * down - rest);
+  }
+  /// Moves `place` on by at most `left` metres over the ground, level, or higher if that leads farther. Returns the
   /// metres: 0 at a wall, and where the ground ends or is too steep.
   [[nodiscard]] double go_on_foot(Vec3& place, const Vec3& direction, double left) const {
-    const double slope = std::tan(settings.slope_degrees * std::numbers::pi / 180.0);
-    double raised = 0.0, length = free_part(place, left * direction);
-    if (length < least_piece) {
-      raised = std::max(0.0, free_part(place, {0, 0, settings.step + rest}) - rest);
-      length = free_part(place + Vec3(0, 0, raised), left * direction);
+    const double level = free_part(place, left * direction);
+    if (level < left) {
+      const double height = std::max(settings.step, slope() * least_piece);
+      const double raised = std::max(0.0, free_part(place, {0, 0, height + rest}) - rest);
+      const Vec3 high = place + Vec3(0, 0, raised);
+      const double farther = free_part(high, left * direction);
+      const auto there = farther > level ? on_ground(high + farther * direction, raised, farther) : std::nullopt;
+      if (there) return place = *there, farther;
     }
-    const Vec3 high = place + Vec3(0, 0, raised) + length * direction;
-    const double down = raised + settings.step + slope * length;
-    const Impact ground = space.sweep(body, high, {0, 0, -down});
-    const bool is_steep = ground.feature == Feature::face && ground.normal.z < least_upright(settings.slope_degrees);
-    if (!ground.hit || is_steep) return 0.0;
-    place = high - Vec3(0, 0, ground.time * down - rest);
-    return length;
+    const auto there = on_ground(place + level * direction, 0.0, level);
+    if (!there) return 0.0;
+    return place = *there, level;
   }
+
+ private:
+  [[nodiscard]] double slope() const { return std::tan(settings.slope_degrees * std::numbers::pi / 180.0); }
 };
 
 /// Strides from `place` in a direction: where each leads to is handed to `visit`, with its length seen from above (or,
@@ -71,8 +84,10 @@ void stride_ahead(const Prober& prober, Vec3 place, const Vec3& direction, int c
   for (int i = 0; i < count; ++i) {
     double length = 0.0;
     if (on_foot) {
-      for (int piece = 0; piece < most_pieces && length < stride; ++piece) {
-        length += prober.go_on_foot(place, direction, stride - length);
+      for (int piece = 0; piece < most_pieces && length < stride - rounding; ++piece) {
+        const double part = prober.go_on_foot(place, direction, stride - length);
+        if (part == 0.0) break;
+        length += part;
       }
     } else {
       length = prober.free_part(place, stride * direction);

@@ -123,6 +123,33 @@ TEST(Wander, LooksElsewhereWhereItGetsStuckAgainAndAgain) {
   EXPECT_GT(beside, 3.0);
 }
 
+TEST(Wander, GoesUpAGentleRampToAnUpperRoom) {
+  for (const double slope : {0.045, 0.2}) {
+    const double top = 8 * slope;
+    Mesh mesh;
+    scenes::add_floor(mesh, 0, 0, 6, 6, 0);
+    scenes::add_quad(mesh, {6, 2, 0}, {14, 2, top}, {14, 4, top}, {6, 4, 0});
+    scenes::add_floor(mesh, 14, 0, 20, 6, top);
+    for (const double side : {0.0, 6.0}) scenes::add_wall(mesh, 0, side, 20, side, 0, 5);
+    for (const double end : {0.0, 20.0}) scenes::add_wall(mesh, end, 0, end, 6, 0, 5);
+    for (const double side : {2.0, 4.0}) scenes::add_wall(mesh, 6, side, 14, side, 0, 5);
+    for (const double end : {6.0, 14.0}) {
+      scenes::add_wall(mesh, end, 0, end, 2, 0, 5);
+      scenes::add_wall(mesh, end, 4, end, 6, 0, 5);
+    }
+    const World world = World::build({&mesh, 1});
+    WalkerSettings stepless = person;
+    stepless.step = 0.0;
+    for (const WalkerSettings& settings : {person, stepless}) {
+      Walker walker(world, settings, Mode::walk, {3, 3, 0.95});
+      Wander wander(walker, {.seconds = 120.0});
+      double farthest = 0.0;
+      while (!wander.done()) farthest = std::max(farthest, wander.advance().to.x);
+      EXPECT_GT(farthest, 15.0) << slope << ", step " << settings.step;
+    }
+  }
+}
+
 TEST(Wander, MayFlyInFromOutside) {
   const World world = two_rooms();
   Walker walker(world, person, Mode::fly, {3, 3, 60});
@@ -191,11 +218,12 @@ TEST(WanderStart, IsInAHouseOfSmallRoomsRatherThanInItsGarden) {
 }
 
 /// Where ten strides lead to, from the floor at `feet`.
-std::vector<Vec3> strides(const World& world, const Vec3& feet, const Vec3& direction) {
+std::vector<Vec3> strides(const World& world, const Vec3& feet, const Vec3& direction,
+                          const WalkerSettings& settings = person) {
   std::vector<Vec3> places;
-  const Body body = Body::capsule(person.radius, person.height);
-  wandering::stride_ahead({world, person, Mode::walk, body}, feet + Vec3(0, 0, 0.5 * person.height + 1e-3), direction,
-                          10, [&](const Vec3& place, double length) {
+  const Body body = Body::capsule(settings.radius, settings.height);
+  wandering::stride_ahead({world, settings, Mode::walk, body}, feet + Vec3(0, 0, 0.5 * settings.height + 1e-3),
+                          direction, 10, [&](const Vec3& place, double length) {
                             EXPECT_NEAR(length, 0.5, 1e-9);
                             return places.push_back(place), true;
                           });
@@ -203,17 +231,25 @@ std::vector<Vec3> strides(const World& world, const Vec3& feet, const Vec3& dire
 }
 
 TEST(StrideAhead, GoesUpAndDownASlopeOnTheGround) {
-  Mesh mesh;
-  scenes::add_quad(mesh, {-10, -2, -4}, {10, -2, 4}, {10, 2, 4}, {-10, 2, -4});
-  const World world = World::build({&mesh, 1});
-  // On a slope of 2 in 5.
-  const double above = person.radius * (std::sqrt(1.16) - 1.0);
-  for (const double way : {-1.0, 1.0}) {
-    const std::vector<Vec3> places = strides(world, {0, 0, above}, {way, 0, 0});
-    EXPECT_EQ(places.size(), 10U);
-    for (std::size_t i = 0; i < places.size(); ++i) {
-      EXPECT_NEAR(places[i].x, 0.5 * way * double(i + 1), 1e-9);
-      EXPECT_NEAR(places[i].z, 0.4 * places[i].x + above + 0.5 * person.height, 4e-3);
+  WalkerSettings stepless = person;
+  stepless.step = 0.0;
+  for (const double percent : {0.5, 1.0, 2.0, 3.0, 4.0, 4.5, 4.9, 5.5, 8.0, 20.0, 40.0, 70.0, 99.0}) {
+    const double slope = percent / 100.0;
+    Mesh mesh;
+    scenes::add_quad(mesh, {-10, -2, -10 * slope}, {10, -2, 10 * slope}, {10, 2, 10 * slope}, {-10, 2, -10 * slope});
+    const World world = World::build({&mesh, 1});
+    const double steepness = std::sqrt(1.0 + slope * slope), above = person.radius * (steepness - 1.0);
+    for (const WalkerSettings& settings : {person, stepless}) {
+      for (const double way : {-1.0, 1.0}) {
+        SCOPED_TRACE(testing::Message() << percent << " % " << (way > 0.0 ? "up" : "down") << ", step "
+                                        << settings.step);
+        const std::vector<Vec3> places = strides(world, {0, 0, above + 1e-4}, {way, 0, 0}, settings);
+        EXPECT_EQ(places.size(), 10U);
+        for (std::size_t i = 0; i < places.size(); ++i) {
+          EXPECT_NEAR(places[i].x, 0.5 * way * double(i + 1), 1e-9);
+          EXPECT_NEAR(places[i].z, slope * places[i].x + above + 0.5 * person.height, 4e-3 * steepness);
+        }
+      }
     }
   }
 }
