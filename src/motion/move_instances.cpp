@@ -7,6 +7,7 @@
 
 #include "math/floating_point.h"
 #include "math/largest.h"
+#include "math/slope.h"
 #include "motion/state.h"
 #include "roam/filtered.h"
 #include "text/number.h"
@@ -105,7 +106,11 @@ std::optional<walking::Response> Walker::State::response(const Space& rest, cons
     const walking::Advance part = move.probe(wish);
     const Vec3 first = wish * part.fraction;
     if (!part.touched) return along(first);
-    const Vec3 left = wish - first, &normal = part.contact.normal;
+    const Vec3& normal = part.contact.normal;
+    const bool is_floor = gait_.grounded() && normal.z >= slope_cosine_ - cosine_rounding;
+    Vec3 left = wish - first;
+    // A body that is let down onto floor stays there.
+    if (is_floor && stands) left.z = std::max(left.z, 0.0);
     const auto aside = [&](const Vec3& slide) {
       walking::Move there = move;
       there.place += first;
@@ -114,7 +119,7 @@ std::optional<walking::Response> Walker::State::response(const Space& rest, cons
     const Vec3 level(normal.x, normal.y, 0.0);
     const double towards_it = glm::dot(left, level);
     // To a body that stands, a wall is vertical.
-    if (gait_.grounded() && towards_it < 0.0) {
+    if (gait_.grounded() && !is_floor && towards_it < 0.0) {
       if (const auto to = aside(left - level * (towards_it / glm::dot(level, level)))) return to;
     }
     const Vec3 slide = left - normal * glm::dot(left, normal);

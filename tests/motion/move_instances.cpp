@@ -70,6 +70,22 @@ TEST(MoveInstances, CarriesABodyAlongAWallIntoACorner) {
   }
 }
 
+TEST(MoveInstances, LetsABodyDownOntoASlopeOnWhichItStands) {
+  for (const double degrees : {10.0, 20.0, 40.0}) {
+    const double rise = 50.0 * std::tan(degrees * std::numbers::pi / 180.0);
+    Mesh m;
+    scenes::add_quad(m, {-50.0, -50.0, -rise}, {50.0, -50.0, rise}, {50.0, 50.0, rise}, {-50.0, 50.0, -rise});
+    Stage stage(m);
+    const ObjectId lift = stage.scene.add(plate(), {{0.0, 0.0, 1.5}});
+    Walker& walker = stage.add({}, Mode::walk, {0.0, 0.0, 1.5});
+    stage.scene.space.set_velocity(lift, {{0.0, 0.0, -1.5}});
+    stage.run(2.0);
+    EXPECT_TRUE(walker.grounded());
+    EXPECT_LT(walker.feet().z, 0.2) << degrees;
+    EXPECT_NEAR(walker.position().x, 0.0, 1e-3) << degrees;
+  }
+}
+
 TEST(MoveInstances, LetsABodyWalkOnWhatMoves) {
   Stage stage(ground());
   const ObjectId id = stage.scene.add(plate(), {{0.0, 0.0, 0.25}});
