@@ -71,6 +71,8 @@ class Wander::State {
   double way_left_ = 0.0;         ///< metres to go along heading_
   double window_seconds_ = 0.0;   ///< since getting on was last judged
   double window_length_ = 0.0;    ///< metres moved since
+  double window_wish_ = 0.0;      ///< metres of free motion since, in a space that slows the body down
+  bool hindered_ = false;         ///< since then, unknown space or an overlap has stopped it: that may pass
   std::uint64_t vain_steps_ = 0;  ///< see is_vain_again
   bool stuck_ = false;
   Vec3 leg_start_{0.0};
@@ -183,18 +185,21 @@ const StepReport& Wander::State::advance() {
   if (done) throw Error("the wandering has ended: call done() before each step");
   look();
   if (done) return walker_->report();
+  const double speed = std::min(options_.speed, walker_->space().facts().speed_limit);
   const StepReport& report = walker_->step({.velocity = options_.speed * heading_}, options_.dt);
   result.add_step(report);
   const double moved = report.length();
   way_left_ -= moved;
   window_length_ += moved;
+  window_wish_ += speed * report.elapsed;
   window_seconds_ += report.elapsed;
+  hindered_ = hindered_ || report.met_unknown || report.held;
   const bool is_vain = is_vain_again(report, vain_steps_);
   if (window_seconds_ >= stuck_seconds) {
-    stuck_ = window_length_ < stuck_share * options_.speed * window_seconds_;
-    window_length_ = window_seconds_ = 0.0;
-    // Unknown space may soon be free.
-    if (stuck_ && !report.met_unknown) give_up(vain_, report.to);
+    stuck_ = window_length_ < stuck_share * window_wish_;
+    if (stuck_ && !hindered_) give_up(vain_, report.to);
+    window_length_ = window_wish_ = window_seconds_ = 0.0;
+    hindered_ = false;
   }
   note(report);
   if (is_vain && !done) {

@@ -11,6 +11,7 @@
 #include <tuple>
 #include <vector>
 
+#include "changing_room.h"
 #include "messages.h"
 #include "motion/look_ahead.h"
 #include "roam/world.h"
@@ -148,6 +149,17 @@ TEST(Wander, GoesUpAGentleRampToAnUpperRoom) {
       EXPECT_GT(farthest, 15.0) << slope << ", step " << settings.step;
     }
   }
+}
+
+TEST(Wander, IsNotStuckInASpaceThatSlowsItDown) {
+  Mesh corridor;
+  scenes::add_box(corridor, {-30, -1, 0}, {30, 1, 3});
+  scenes::ChangingRoom room(corridor, true);
+  room.limit = 0.25;
+  Walker walker(room, person, Mode::walk, {0, 0, 0.95});
+  Wander wander(walker, {.speed = 1.4, .seconds = 40.0});
+  while (!wander.done()) wander.advance();
+  EXPECT_GT(std::abs(walker.position().x), 8.0);
 }
 
 TEST(Wander, MayFlyInFromOutside) {
