@@ -143,7 +143,8 @@ struct SpaceFacts {
   Box bounds = {};             ///< of everything, known or unknown; empty for an empty space
   double largest_error = 0.0;  ///< largest distance of a stored vertex from the caller's; never grows
   /// Changes whenever something came or went. A held body then tries again. While it stays the same, Walker reuses
-  /// results of gap_bound(). None: the space may change without notice.
+  /// results of gap_bound(). None: the space may change without notice. Then each step of a body that is held in
+  /// something known searches the way out again, which may take 600 queries.
   std::optional<std::uint64_t> revision = {};
   /// m/s: up to this speed, space ahead is loaded in time. Walker slows down to it; a faster body stops at the unknown.
   double speed_limit = std::numeric_limits<double>::infinity();

@@ -48,8 +48,9 @@ class Walker {
   ///     walls: a small sphere about the centre meets nothing on the straight line there;
   ///   - in walk mode, it crouches with the same centre;
   ///   - it is held: it stays, and each step reports `held`, until place() or ghost mode. After a change of its size or
-  ///     of the space's revision, the next step puts it there again; in a space without revision, each step does. In
-  ///     unknown space it also reports `met_unknown`, and is put again once that is known.
+  ///     of the space's revision, the next step puts it there again; in a space without revision, each step does
+  ///     (see SpaceFacts::revision). In unknown space it also reports `met_unknown`, and is put again once that is
+  ///     known, or after such a change.
   const StepReport& place(const Vec3& centre);
   const StepReport& place_feet(const Vec3& feet);  ///< the same for the lowest point, which may lie on the floor
 
