@@ -63,6 +63,7 @@ class Planner {
     std::vector<std::string> former;
     std::set<std::string> needed;
     for (const std::string& file : files_in(work_.store, "scratch/shards")) {
+      work_.tick();
       if (!is_named_by_hash(file, ".json")) continue;
       if (!planned.contains(file)) {
         former.push_back(file);
@@ -77,9 +78,20 @@ class Planner {
       return;  // the packs of a manifest that cannot be read are not known
     }
     for (const std::string& file : former) {
-      const auto shard = built_shard(work_, std::filesystem::path(file).stem().string());
-      if (shard && !needed.contains(pack_file(shard->pack))) remove_file(work_.store, pack_file(shard->pack));
+      work_.tick();
+      const std::string pack = pack_of_former(file);
+      if (!pack.empty() && !needed.contains(pack)) remove_file(work_.store, pack);
       remove_file(work_.store, file);
+    }
+  }
+  /// The pack that the file of a former shard names. Empty if the file is damaged: then the end of a build removes the
+  /// pack.
+  [[nodiscard]] std::string pack_of_former(const std::string& file) const {
+    try {
+      const auto shard = built_shard(work_, std::filesystem::path(file).stem().string());
+      return shard ? pack_file(shard->pack) : "";
+    } catch (const Error&) {
+      return "";
     }
   }
   [[nodiscard]] bool is_there(const ShardInfo& shard) const {

@@ -337,7 +337,7 @@ void Planner::appraise(const TrackedBody& tracked) {
 // --- items that were read
 
 void Planner::done(const Work& work, const Outcome& outcome) {
-  changed_ = changed_ || work.item.is_page() || outcome.why;
+  changed_ = changed_ || full_ || work.item.is_page() || outcome.why;  // what came may be evicted for something nearer
   const auto request = std::find_if(requests_.begin(), requests_.end(), [&](const Request& r) {
     return r.state == Request::State::reading && r.item == work.item;
   });

@@ -12,12 +12,15 @@
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
+#include <fstream>
 #include <functional>
+#include <iterator>
 #include <thread>
 #include <utility>
 
 #include "clutter.h"
 #include "killed_builds.h"
+#include "store/build/layout.h"
 #include "store/build/output_folder.h"
 #include "store/files.h"
 
@@ -407,6 +410,51 @@ TEST(StoreBuildResume, KeepsNoShardsOfAnEarlierStateOfTheScene) {
   roam::build_store(o);
   roam::build_store(options({folder.file("a.ply"), folder.file("b.ply")}, folder.file("fresh")));
   expect_same(folder.file("fresh"), folder.file("s"));
+}
+
+/// Writes a record of a shard that no plan names.
+void write_former_shard(const std::string& store, const std::string& text) {
+  std::ofstream(store + "/" + roam::store::shard_file(std::string(64, 'a'))) << text;
+}
+
+TEST(StoreBuildResume, RemovesDamagedShardsOfAnEarlierStateOfTheScene) {
+  const TestFolder folder;
+  const std::string scene = write_ply(folder.file("a.ply"), field(50, 0.5, {0.0, 0.0, 0.0}));
+  const auto o = options({scene}, folder.file("s"));
+  ASSERT_FALSE(o.key) << "with a key it does not count as a shard";
+  roam::StoreBuildReport report;
+  ASSERT_EQ(roam::plan_store(o, report), 1U);
+  roam::build_task(o, 0, report);
+  for (const char* text : {"", "{}", "no JSON"}) {
+    write_former_shard(o.output, text);
+    EXPECT_EQ(refusal([&] { EXPECT_EQ(roam::plan_store(o, report), 1U); }), "") << text;
+    EXPECT_EQ(roam::store::files_in(o.output, "scratch/shards").size(), 1U) << text;
+  }
+  roam::build_store(o);
+  roam::build_store(options({scene}, folder.file("fresh")));
+  expect_same(folder.file("fresh"), folder.file("s"));
+}
+
+TEST(StoreBuildResume, KeepsAPackThatAShardOfAnEarlierStateSharesWithThePlan) {
+  const TestFolder folder;
+  const std::string scene = write_ply(folder.file("a.ply"), field(50, 0.5, {0.0, 0.0, 0.0}));
+  const auto o = options({scene}, folder.file("s"));
+  roam::StoreBuildReport report;
+  ASSERT_EQ(roam::plan_store(o, report), 1U);
+  roam::build_task(o, 0, report);
+  const auto shards = roam::store::files_in(o.output, "scratch/shards"),
+             packs = roam::store::files_in(o.output, "packs");
+  ASSERT_EQ(shards.size(), 1U);
+  ASSERT_EQ(packs.size(), 1U);
+  std::ifstream in(o.output + "/" + shards[0]);
+  std::string text{std::istreambuf_iterator<char>(in), {}};
+  const std::string key = fs::path(shards[0]).stem();
+  ASSERT_NE(text.find(key), std::string::npos);
+  write_former_shard(o.output, text.replace(text.find(key), key.size(), std::string(64, 'a')));
+  ASSERT_EQ(roam::plan_store(o, report), 1U);
+  EXPECT_EQ(roam::store::files_in(o.output, "scratch/shards"), shards);
+  EXPECT_EQ(roam::store::files_in(o.output, "packs"), packs);
+  EXPECT_EQ(roam::build_store(o).shards_built, 0U);
 }
 
 TEST(StoreBuildResume, StopsWhenTheCallerSaysSoAndGoesOnLater) {
