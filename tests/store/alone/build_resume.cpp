@@ -446,7 +446,7 @@ TEST(StoreBuildResume, KeepsAPackThatAShardOfAnEarlierStateSharesWithThePlan) {
              packs = roam::store::files_in(o.output, "packs");
   ASSERT_EQ(shards.size(), 1U);
   ASSERT_EQ(packs.size(), 1U);
-  std::ifstream in(o.output + "/" + shards[0]);
+  std::ifstream in(o.output / shards[0]);
   std::string text{std::istreambuf_iterator<char>(in), {}};
   const std::string key = fs::path(shards[0]).stem();
   ASSERT_NE(text.find(key), std::string::npos);
