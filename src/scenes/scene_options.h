@@ -21,6 +21,11 @@ class App;
 
 namespace roam::app {
 
+/// Limit for a store's manifest where not all must keep within the memory of its collision.
+[[nodiscard]] inline std::uint64_t manifest_memory(std::uint64_t store_memory) {
+  return std::max(Store::usual_memory, store_memory);
+}
+
 struct SceneOptions {
   std::vector<std::filesystem::path> scenes;
   std::string up, unit;  ///< as in --up and --unit; empty: not given
@@ -38,8 +43,7 @@ struct SceneOptions {
   /// Default of `memory` for a store's collision, in bytes.
   static constexpr std::uint64_t usual_store_memory = 64ull << 20;
   [[nodiscard]] std::uint64_t store_memory() const { return memory.value_or(usual_store_memory); }
-  /// Limit for a store's manifest where not all must keep within `memory`.
-  [[nodiscard]] std::uint64_t manifest_memory() const { return std::max(Store::usual_memory, store_memory()); }
+  [[nodiscard]] std::uint64_t manifest_memory() const { return app::manifest_memory(store_memory()); }
 
   /// Adds SCENE..., --up, --unit, --ignore, --allow, --no-profile, --lossless, --threads and --memory.
   void add_to(CLI::App& verb);

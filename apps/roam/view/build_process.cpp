@@ -111,8 +111,8 @@ void BuildProcess::load() {
                                     return build();
                                   }).get();
   loading_.tell(LoadState::Phase::looking, 0.0, report.triangles);
-  std::shared_ptr<const Store> store = what_.store.empty() ? open_store_beside(output_, what_.manifest_memory)
-                                                           : Store::open(output_, what_.manifest_memory);
+  std::shared_ptr<const Store> store = what_.store.empty() ? open_store_beside(output_, what_.manifest_memory())
+                                                           : Store::open(output_, what_.manifest_memory());
   if (store->info().hash != report.store.hash) {
     throw Error::at(output_.string(),
                     fmt::format("{} is not what was built just now: another store has taken its place; build again",

@@ -69,7 +69,7 @@ std::string not_yours(const Store& store, const UserKey& user) {
 }  // namespace
 
 SceneAndStore scene_and_store(const SceneOptions& scene, const std::filesystem::path& store) {
-  SceneAndStore what{scene, store, false, scene.store_memory(), scene.manifest_memory()};
+  SceneAndStore what{scene, store, false, scene.store_memory()};
   if (!store.empty() && !Store::is_store(store)) {
     throw UsageError(
         fmt::format("--store {}", store.string()),
@@ -90,7 +90,7 @@ SceneAndStore scene_and_store(const SceneOptions& scene, const std::filesystem::
   what.scene.scenes = {shown};
   what.scene.memory.reset();
   what.scene.through_link = false;
-  read_as(what.scene, *Store::open(what.store, what.manifest_memory, what.scene.web));
+  read_as(what.scene, *Store::open(what.store, what.manifest_memory(), what.scene.web));
   return what;
 }
 
@@ -112,7 +112,7 @@ StoreChoice choose_store(const SceneAndStore& what, const std::function<bool()>&
   const UserKey user = user_key();
   const std::filesystem::path place = store_place(what);
   if (!what.store.empty()) {
-    choice.store = Store::open(what.store, what.manifest_memory, what.scene.web);
+    choice.store = Store::open(what.store, what.manifest_memory(), what.scene.web);
     const std::string difference =
         what.store_only ? std::string() : compare(*choice.store, what.scene, user.key, goes_on);
     choice.stale = !difference.empty();
@@ -130,7 +130,7 @@ StoreChoice choose_store(const SceneAndStore& what, const std::function<bool()>&
   if (!Store::is_store(place)) return choice;
   std::string problem, remedy = "`roam build` brings it up to date";
   try {
-    std::shared_ptr<const Store> store = open_store_beside(place, what.manifest_memory);
+    std::shared_ptr<const Store> store = open_store_beside(place, what.manifest_memory());
     problem = not_yours(*store, user);
     if (!problem.empty()) {
       remedy =

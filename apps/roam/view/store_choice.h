@@ -19,7 +19,9 @@ struct SceneAndStore {
   std::filesystem::path store;                                    ///< named store; empty: search beside the scene
   bool store_only = false;                                        ///< there is no scene to show
   std::uint64_t store_memory = SceneOptions::usual_store_memory;  ///< bytes, for the store only
-  std::uint64_t manifest_memory = Store::usual_memory;            ///< SceneOptions::manifest_memory
+
+  /// Limit for the store's manifest.
+  [[nodiscard]] std::uint64_t manifest_memory() const { return app::manifest_memory(store_memory); }
 };
 
 /// The meaning of the command line; `store` is the value of --store. If `scene` names a store, the body collides with
