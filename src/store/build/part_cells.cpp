@@ -29,6 +29,7 @@ std::vector<PartCell> PartCells::operator()(std::uint32_t part, const CurveCell&
 
 /// The cells in `cell` that the part's file has; nothing if they are not narrower.
 std::optional<std::vector<PartCell>> PartCells::in_file(std::uint32_t part, const CurveCell& cell) {
+  if (cell_bits_[part] >= cell.bits) return {};
   const std::string file = part_file(parts_[part].info.file);
   int bits = 0;
   bool passed = false;
@@ -62,6 +63,7 @@ std::optional<std::vector<PartCell>> PartCells::in_file(std::uint32_t part, cons
         return static_cast<std::size_t>(got);
       },
       size_of(work_.store, file).value_or(0), file, visitor);
+  cell_bits_[part] = bits;
   if (bits >= cell.bits) return {};
   return cells;
 }

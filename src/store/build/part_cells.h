@@ -16,7 +16,7 @@ namespace roam::store {
 /// See Refine. The cells are those of the part's file, or narrower ones that are counted in the part's runs.
 class PartCells {
  public:
-  PartCells(Work& work, const std::vector<PartRecord>& parts) : work_(work), parts_(parts) {}
+  PartCells(Work& work, const std::vector<PartRecord>& parts) : work_(work), parts_(parts), cell_bits_(parts.size()) {}
 
   /// Throws roam::Error for files that cannot be read, and if the parts that were counted as a whole have more
   /// triangles than any scene.
@@ -30,6 +30,7 @@ class PartCells {
 
   Work& work_;
   const std::vector<PartRecord>& parts_;
+  std::vector<int> cell_bits_;  ///< of each part's file, once it was read; else 0
   std::set<std::size_t> unread_;
   std::uint64_t triangles_ = 0;  ///< of the parts that were counted as a whole
 };
