@@ -1,6 +1,5 @@
 #include "files/mark.h"
 
-#include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -118,11 +117,6 @@ void add_mark(WholeFile& film) {
     film.write_at(size, bytes_of(webp_chunk));
     film.write_at(4, little_endian);
   }
-}
-
-bool is_marked(const std::filesystem::path& file) {
-  const Descriptor opened(again([&] { return ::open(file.c_str(), O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC); }));
-  return has_mark(opened.number());
 }
 
 FileKind marked(const std::string& noun) { return {noun + " made by roam", has_mark}; }

@@ -2,7 +2,6 @@
 /// \file
 /// The mark of roam in meshes, pictures and films that it makes: it replaces no others.
 
-#include <filesystem>
 #include <string>
 #include <string_view>
 
@@ -21,9 +20,7 @@ void add_mark(std::string& picture);
 /// Adds the mark to a complete film that is not committed yet: GIF or WebP. Others stay as they are. Throws FileError.
 void add_mark(WholeFile& film);
 
-/// Whether a file has the mark at the place of its format, or is empty. False for one that cannot be read.
-[[nodiscard]] bool is_marked(const std::filesystem::path& file);
-/// Meshes, pictures and films with the mark, and empty files.
+/// Meshes, pictures and films with the mark at the place of their format, and empty files. None that cannot be read.
 [[nodiscard]] FileKind marked(const std::string& noun);
 
 }  // namespace roam::files

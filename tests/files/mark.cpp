@@ -1,13 +1,17 @@
 // The mark by which roam knows what it made.
 #include "files/mark.h"
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
 
 #include "program.h"
 
 namespace {
 
-using roam::files::is_marked;
+bool is_marked(const std::string& file) {
+  const roam::files::Descriptor opened(::open(file.c_str(), O_RDONLY | O_CLOEXEC));
+  return roam::files::marked("").has(opened.number());
+}
 
 TEST(Mark, CountsOnlyAtThePlaceOfTheFormat) {
   using namespace std::string_literals;
