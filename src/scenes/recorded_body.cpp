@@ -88,7 +88,7 @@ void add_to(std::optional<SceneFrame>& frame, const std::string& line, const std
   frame = read;
 }
 
-/// What the marked lines of a path file say of its body or its frame, line by line. The first problem stays.
+/// Collects the body, or the frame, from the marked lines of a path file. Keeps the first problem.
 template <class Said>
 class Marked {
  public:

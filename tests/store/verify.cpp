@@ -82,7 +82,7 @@ TEST(VerifyStore, DecodesAPackOnceWhateverNamesItHas) {
   const StoreVerification found = verify_store(folder.path());
   EXPECT_EQ(found.tiles, 1U);
   EXPECT_GE(found.damage.size(), 3U);
-  // Of a pack without its right name once, too, to tell what of it is usable.
+  // A pack whose name is wrong is decoded once, too: that shows which of its tiles are usable.
   std::filesystem::remove(folder.path() / store::pack_file(shard.pack));
   m.shards.erase(m.shards.begin());
   m.parts[0].triangles -= shard.triangles;

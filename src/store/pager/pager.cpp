@@ -133,7 +133,7 @@ struct Pager::State {
   [[nodiscard]] bool exchange(const TrackedBody& tracked, double& latency);
   /// Handover::told
   [[nodiscard]] std::uint64_t told() const;
-  /// Whether memory was full, and nothing on its way, at a body that was told after this number.
+  /// Whether memory was full, with nothing on its way, for a body that update() has set since told() was this.
   [[nodiscard]] bool holds_no_more(std::uint64_t told_before) const;
   /// The scene for a query of `reach` (m).
   [[nodiscard]] PagedScene scene(const Query& query, double reach, Vicinity* vicinity) const;
