@@ -107,7 +107,7 @@ PROMISES = [
      "static_cast<void>(end_after_exception);"),
     ("cli", "MemoryRunsOut.*", "src/cli/command_line.cpp", "    std::_Exit(failed);", "    std::abort();"),
     ("files", "PathAllocations.*", "src/files/whole_file.cpp",
-     "::unlinkat(folder_.number(), temporary_.c_str(), 0);\n    throw;",
+     "::unlinkat(folder(), temporary_.c_str(), 0);\n    throw;",
      "throw;"),
     ("cli", "FullDisk.*", "src/files/whole_file.cpp",
      "if (write_fully(file_.number(), bytes) < bytes.size()) fail_to_write(errno);",
