@@ -82,8 +82,8 @@ bool Walker::State::is_concerned(const walking::InstanceMotion& shift) const {
 }
 
 std::optional<walking::Response> Walker::State::response(const Space& rest, const walking::InstanceMotion& shift) {
-  // A part may need two segments: one of rest and one of motion.
-  const bool has_room = !shifted_ || report_.segments.size() + 2 <= decltype(report_.segments)::capacity;
+  // A part may need two segments: one of rest and one of motion. Another rest may follow.
+  const bool has_room = !shifted_ || report_.segments.size() + 3 <= decltype(report_.segments)::capacity;
   const double reach = settings_.clearance_reach;
   const auto along = [&](const Vec3& way) -> std::optional<walking::Response> {
     const auto to_instance = walking::gap_to_instance(shift, body(), at_.place, way, reach);
@@ -202,6 +202,13 @@ void Walker::State::end_shifts(const Vec3& ground_velocity, double dt) {
   if (fitted_) looked_at_ = revision();
   if (!shifted_) return;
   report_.elapsed = dt;
+  if (rested_ < std::numeric_limits<double>::infinity()) {
+    walking::Move m = under_way();
+    m.measure();
+    at_ = m;
+    const double clearance = std::min(rested_, at_.known.clearance);
+    report_.segments.push({at_.place, at_.height, settings_.radius, dt, clearance, false});
+  }
   finish();
 }
 

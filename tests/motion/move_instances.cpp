@@ -262,6 +262,36 @@ TEST(MoveInstances, NeverLetsAnythingTouchInARandomScene) {
   EXPECT_GT(carried, 100);
 }
 
+TEST(MoveInstances, MeetBodiesOfAnySizeFromAnyDistance) {
+  long moved = 0, stops = 0;
+  for (int seed = 0; seed < 3000; ++seed) {
+    clutter::Random random(11000 + seed);
+    const auto some = [&](double least, double most) { return least * std::pow(most / least, random.unit()); };
+    const double radius = some(0.05, 3.0), away = some(0.1, 100.0), half = some(0.05, 2.0);
+    Stage stage(Mesh{});
+    Walker& walker = stage.add(WalkerSettings::person(radius, radius * random.between(2.0, 6.0)), Mode::fly, Vec3(0.0));
+    Mesh block;
+    const Vec3 at(away, 0.0, 0.0);
+    scenes::add_box(block, at - Vec3(half), at + Vec3(half));
+    const double heading = random.between(-3.0, 3.0);
+    const Vec3 beside = walker.position() + random.between(1.0, 3.0) * (radius + half) * random.direction();
+    const Pose pose{beside - Pose{Vec3(0.0), heading}.to_scene(at), heading};
+    const ObjectId id = stage.scene.add(block, pose);
+    stage.scene.space.set_velocity(id, {some(0.01, 3.0) * (radius + half) * random.direction(),
+                                        random.between(-3.0, 3.0) * (radius + half) / (away + half)});
+    if (!stage.scene.space.fits(walker.body(), walker.position())) continue;
+    for (int frame = 0; frame < 8; ++frame) {
+      const Vec3 before = walker.position();
+      stops += static_cast<long>(stage.advance(0.15).size());
+      moved += walker.position() != before ? 1 : 0;
+      if (HasFailure())
+        FAIL() << "seed " << seed << " frame " << frame << " radius " << radius << ", " << away << " m away";
+    }
+  }
+  EXPECT_GT(moved, 1000);
+  EXPECT_GT(stops, 20);
+}
+
 TEST(MoveInstances, BoundTheArcOfWhatTurnsAndMovesAtOnce) {
   clutter::Random random(33);
   for (int i = 0; i < 2000; ++i) {
