@@ -113,6 +113,7 @@ std::vector<ProbedSize> sizes_of(const ProbeOptions& o) {
     sizes = matrix_sizes(*o.matrix, o.sphere);
   }
   for (const ProbedSize& size : sizes) {
+    if (o.step && !o.sphere) demand_possible_step(*o.step, size.height);
     try {
       static_cast<void>(probed_body(o.question, size, o.slope_degrees()));
     } catch (const Error& error) {
@@ -371,7 +372,7 @@ void add_probe(CLI::App& program, Run& run) {
   verb->add_option("--mode", o.mode, "walk: on the ground; fly: through the air (default: walk)")
       ->check(one_of({"walk", "fly"}))
       ->type_name("MODE");
-  verb->add_option("--step", o.step, "Highest step (stair, kerb) that the body climbs (default: 0.3)")
+  verb->add_option("--step", o.step, "Highest step (stair, kerb) that the body climbs, at most H / 2 (default: 0.3)")
       ->check(from_to(0.0, 1000.0))
       ->type_name("M");
   verb->add_option("--slope", o.slope, "Slope that the body climbs, in degrees (default: 45)")

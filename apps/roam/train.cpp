@@ -19,6 +19,7 @@
 #include "cli/values.h"
 #include "draw/picture_file.h"
 #include "files/whole_file.h"
+#include "math/step_limit.h"
 #include "profile/write_profile.h"
 #include "roam/error.h"
 #include "scenes/body_options.h"
@@ -37,7 +38,7 @@ struct TrainVerbOptions {
   std::string mode = "walk", method = "interval";
   double slope = 45.0;
   std::optional<std::filesystem::path> picture, profile;
-  std::optional<double> height, radius_min, radius_max;
+  std::optional<double> height, radius_min, radius_max, step;
   bool sphere = false;
   bool json = false;
   bool stats = false;
@@ -107,15 +108,18 @@ void write_profile(const TrainVerbOptions& o, const std::filesystem::path& file,
 void describe_body(TrainVerbOptions& o) {
   if (o.train.mode == Mode::fly && !o.sphere) throw UsageError("--mode fly", flight_is_for_spheres);
   o.train.radius_min = o.radius_min.value_or(o.train.radius_min);
+  o.train.step = o.step.value_or(o.train.step);
   if (o.sphere) {
     o.train.radius_max = o.radius_max.value_or(o.train.radius_max);
     return;
   }
   o.train.height = o.height.value_or(default_height(o.train.radius_min, false));
+  if (o.step) demand_possible_step(*o.step, o.train.height);
   constexpr double least_above_knee = 0.1;  // m
-  if (o.train.height <= o.train.step + least_above_knee)
-    throw UsageError(fmt::format("--height {:g} with --step {:g}", o.train.height, o.train.step),
-                     "nothing is left above the knee; take a smaller step, or --sphere");
+  const double step = std::min(o.train.step, step_limit(o.train.height));
+  if (o.train.height <= step + least_above_knee)
+    throw UsageError(fmt::format("--height {:g} with a step of {:g} m", o.train.height, step),
+                     "nothing is left above the knee; take a smaller --step, or --sphere");
   const double widest = 0.5 * o.train.height;
   if (o.radius_max && *o.radius_max > widest)
     throw UsageError(fmt::format("--radius-max {:g}", *o.radius_max),
@@ -227,7 +231,7 @@ void add_train(CLI::App& program, Run& run) {
   verb->add_option("--mode", o.mode, "walk: on the ground; fly: through the air (default: walk)")
       ->check(one_of({"walk", "fly"}))
       ->type_name("MODE");
-  verb->add_option("--step", o.train.step, "Highest step (stair, kerb) that the body climbs (default: 0.3)")
+  verb->add_option("--step", o.step, "Highest step (stair, kerb) that the body climbs, at most H / 2 (default: 0.3)")
       ->check(from_to(0.0, 100.0))
       ->type_name("M");
   verb->add_option("--slope", o.slope, "Slope that the body climbs, in degrees (default: 45)")

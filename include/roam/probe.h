@@ -49,8 +49,8 @@ struct ProbedSize {
   double height = 0.6;  ///< >= 2 * radius; flying == 2 * radius, a sphere; 1.8 for a person
 };
 
-/// The step that a body of that size climbs: a capsule at most height - 2 * radius; a sphere, or one < 5 mm higher, its
-/// radius.
+/// The step that a body of that size climbs: a capsule at most half its height, and at most height - 2 * radius; a
+/// sphere, or one < 5 mm higher, its radius.
 [[nodiscard]] double climbed(const ProbeQuestion& question, const ProbedSize& size);
 
 /// Settings of the walker that goes the way. Throws Error if a Walker refuses the size.

@@ -55,7 +55,7 @@ struct TrainOptions {
   double radius_max = 1.0;   ///< largest radius searched for
   double support_max = 1.0;  ///< largest radius of a support disc; a wider crack is an open drop
   double height = 0.0;       ///< of a walking body: 1.8 for a person; 0: a sphere
-  double step = 0.3;         ///< see WalkerSettings
+  double step = 0.3;         ///< see WalkerSettings; at most half of `height` is used
   double spacing = 0.2;      ///< see PassageOptions
   double speed = 1.4;        ///< of the trials, m/s
   int threads = 0;           ///< >= 0; 0: one per core

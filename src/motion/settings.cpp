@@ -6,6 +6,7 @@
 #include "math/finite.h"
 #include "math/floating_point.h"
 #include "math/largest.h"
+#include "math/step_limit.h"
 #include "motion/demand.h"
 #include "motion/sizes.h"
 #include "roam/error.h"
@@ -49,7 +50,7 @@ WalkerSettings WalkerSettings::person(double radius, double height) {
   s.height = height;
   s.eye *= scale;
   s.crouch_height *= scale;
-  s.step = std::min(s.step, 0.5 * height);
+  s.step = std::min(s.step, step_limit(height));
   return s;
 }
 
@@ -72,7 +73,7 @@ void check(const WalkerSettings& s) {
          "a body is at least two radii high, and then a sphere");
   demand(whose, "eye height", s.eye, "m", {0.0, s.height, false},
          "the eye is in the body; set it with the height, as WalkerSettings::person does");
-  demand(whose, "step height", s.step, "m", {0.0, 0.5 * s.height, false},
+  demand(whose, "step height", s.step, "m", {0.0, step_limit(s.height), false},
          "what is higher is climbed, not stepped on; WalkerSettings::person fits it to the height");
   demand(whose, "slope limit", s.slope_degrees, "degrees", {0.0, slope_limit, false});
   demand(whose, "speed", s.speed, "m/s", {0.0, speed_limit, true});

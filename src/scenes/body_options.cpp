@@ -1,7 +1,12 @@
 #include "scenes/body_options.h"
 
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
 #include <algorithm>
+
+#include "cli/exit_status.h"
+#include "math/step_limit.h"
 
 namespace roam::app {
 
@@ -21,6 +26,13 @@ BodySizes sizes_of(const RecordedBody& recorded) {
 
 BodySizes sizes_of(const Profile& profile) {
   return {profile.radius, profile.height, std::nullopt, profile.step, profile.slope_degrees, profile.support_radius};
+}
+
+void demand_possible_step(double step, double height) {
+  if (step <= step_limit(height)) return;
+  throw UsageError(fmt::format("--step {:g}", step),
+                   fmt::format("a body {:g} m high steps up at most {:g} m; take a smaller step or a higher body",
+                               height, step_limit(height)));
 }
 
 void add_sphere_to(CLI::App& verb, bool& sphere) {
@@ -52,7 +64,7 @@ WalkerSettings body_of(const BodyOptions& options, const BodySizes& known) {
   s.height = options.height.value_or(body.height.value_or(default_height(s.radius, options.sphere)));
   const auto fitted = [&](double value, double most) { return options.height ? std::min(value, most) : value; };
   s.eye = options.eye.value_or(body.eye ? fitted(*body.eye, s.height) : default_eye(s.radius, s.height));
-  const double highest = 0.5 * s.height;
+  const double highest = step_limit(s.height);
   s.step = options.step.value_or(body.step ? fitted(*body.step, highest) : std::min(s.step, highest));
   s.slope_degrees = options.slope.value_or(body.slope.value_or(s.slope_degrees));
   s.support_radius = options.support_radius.value_or(body.support_radius.value_or(s.support_radius));

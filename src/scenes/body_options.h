@@ -21,6 +21,9 @@ namespace roam::app {
 /// surface.
 [[nodiscard]] double default_eye(double radius, double height);
 
+/// Throws UsageError if no body of that height steps as high, both in m.
+void demand_possible_step(double step, double height);
+
 /// The reason why `--mode fly` of a search demands --sphere.
 inline constexpr const char* flight_is_for_spheres = "ways through the air are found for spheres; add --sphere";
 

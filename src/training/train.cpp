@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "math/parallel_floating_point.h"
+#include "math/step_limit.h"
 #include "training/confirm.h"
 #include "training/interval.h"
 #include "training/layout.h"
@@ -46,11 +47,12 @@ void check(const TrainOptions& options) {
   in("number of paths", options.paths, 0, 10'000);
   if (options.mode == Mode::walk && options.height != 0.0) {
     in("height", options.height, 0.1, most_metres);
-    if (options.height <= options.step + 2.0 * smallest_radius)
+    const double step = std::min(options.step, step_limit(options.height));
+    if (options.height <= step + 2.0 * smallest_radius)
       throw Error(
           fmt::format("training: a body {:g} m high that steps up {:g} m has nothing left above its knee; "
                       "take a smaller step or height 0, a sphere",
-                      options.height, options.step));
+                      options.height, step));
   }
 }
 
@@ -117,6 +119,12 @@ void find_interval(const Survey& survey, const TrainOptions& options, const ways
 
 bool rolls(const TrainOptions& options) { return options.mode == Mode::walk && options.height == 0.0; }
 
+/// With a step that a body of the height climbs.
+TrainOptions with_possible_step(TrainOptions options) {
+  if (options.mode == Mode::walk && !rolls(options)) options.step = std::min(options.step, step_limit(options.height));
+  return options;
+}
+
 /// Options for the first layout: a sphere climbs at most its radius.
 TrainOptions first_laid_out(TrainOptions options) {
   if (options.method == Method::paper && options.paths == 0) options.paths = usual_paths;
@@ -176,8 +184,9 @@ void follow_paper(const Survey& survey, const TrainOptions& options, const ways:
   training.paper = result;
 }
 
-Training trained(const Survey& survey, const TrainOptions& options) {
-  check(options);
+Training trained(const Survey& survey, const TrainOptions& given) {
+  check(given);
+  const TrainOptions options = with_possible_step(given);
   const auto start = std::chrono::steady_clock::now();
   Stages stages(options.progress);
   Training training;
@@ -224,7 +233,7 @@ Profile profile_of(const Training& training, const SceneIdentity& scene) {
   static_cast<FittingBody&>(profile) = training;
   profile.scene = scene;
   // For a flying body, any step was accepted.
-  profile.step = std::min(training.step, 0.5 * training.height);
+  profile.step = std::min(training.step, step_limit(training.height));
   profile.method = to_string(training.method);
   return profile;
 }

@@ -243,6 +243,7 @@ TEST(ProbeVerb, RefusesWhatCannotBeMeant) {
   refused({"--radius", "0.3", "--height", "inf"}, "--height");
   refused({"--radius", "0.3", "--step", "nan"}, "--step");
   refused({"--radius", "0.3", "--step", "-1"}, "--step");
+  refused({"--radius", "0.3", "--step", "0.91"}, "--step 0.91: a body 1.8 m high steps up at most 0.9 m");
   refused({"--radius", "0.3", "--slope", "nan"}, "--slope");
   refused({"--radius", "0.3", "--slope", "90"}, "--slope");
   refused({"--radius", "0.3", "--spacing", "1e-9"}, "--spacing");

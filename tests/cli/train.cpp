@@ -106,7 +106,10 @@ TEST(TrainVerb, RefusesWhatCannotBeMeant) {
   EXPECT_EQ(Train({}, {"--seed", "-1"}).result.status, 2);
   const Train step({}, {"--height", "1.8", "--step", "1.75"});
   EXPECT_EQ(step.result.status, 2);
-  EXPECT_TRUE(contains(step.result.err, "above the knee")) << step.result.err;
+  EXPECT_TRUE(contains(step.result.err, "--step 1.75: a body 1.8 m high steps up at most 0.9 m")) << step.result.err;
+  const Train low({}, {"--height", "0.15", "--radius-min", "0.05"});
+  EXPECT_EQ(low.result.status, 2);
+  EXPECT_TRUE(contains(low.result.err, "above the knee")) << low.result.err;
   const Train paths({}, {"--paths", "x"});
   EXPECT_EQ(paths.result.status, 2);
   EXPECT_TRUE(contains(paths.result.err, "'x' is not a whole number from 1 to 10000")) << paths.result.err;

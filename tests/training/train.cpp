@@ -89,6 +89,7 @@ TEST(Training, BecomesAProfileThatHoldsAllOfTheBodyAndIsOfTheScene) {
     EXPECT_EQ(p.largest, t.largest);
     EXPECT_TRUE(p.complete);
   }
+  EXPECT_EQ(roam::train(survey, {.paths = 1, .height = 1.8, .step = 1.6}).step, 0.9) << "half the height";
   const Training ended = roam::train(survey, {.progress = [](roam::TrainStage, double) { return false; }});
   EXPECT_FALSE(roam::profile_of(ended, survey).complete);
 }

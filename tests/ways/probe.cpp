@@ -179,6 +179,15 @@ Mesh stairs(const std::vector<double>& risers, double tread) {
   return m;
 }
 
+TEST(Probe, StepsUpAtMostHalfTheHeight) {
+  for (const auto& [rise, climbs] : {std::pair{0.85, true}, std::pair{1.1, false}}) {
+    const ProbeQuestion question{.from = {1.0, 0.0, 0.2}, .to = {9.0, 0.0, rise + 0.2}, .step = 1.15};
+    const ProbeAnswer answer = probe(survey_of(stairs({rise}, 1.0)), question, {.radius = 0.3, .height = 1.8});
+    EXPECT_EQ(answer.passable, climbs) << rise;
+    EXPECT_TRUE(answer.drops.empty()) << rise;
+  }
+}
+
 TEST(Probe, NamesTheHighestStepAmongStepsOfSeveralHeights) {
   for (const double tread : {0.28, 1.0}) {
     for (const auto& [risers, highest] :

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "math/boxes.h"
+#include "math/step_limit.h"
 #include "ways/lattice/walk_place.h"
 #include "ways/probe/parts.h"
 #include "ways/refine/refine.h"
@@ -227,7 +228,7 @@ ProbeLimit highest_step(const ProbeSearch& search, const std::vector<Vec3>& way,
 std::optional<StepUp> step_up(const ProbeSearch& search, double radius) {
   const PassageOptions& o = search.options;
   if (o.mode != Mode::walk || o.height == 0.0) return std::nullopt;
-  double low = o.step, high = std::min(0.5 * o.height, o.height - 2.0 * radius);
+  double low = o.step, high = std::min(step_limit(o.height), o.height - 2.0 * radius);
   if (low >= high) return std::nullopt;
   ProbeSearch higher = search;
   std::optional<StepUp> best;

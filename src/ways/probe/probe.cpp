@@ -14,6 +14,7 @@
 #include "math/floating_point.h"
 #include "math/level_distance.h"
 #include "math/parallel_floating_point.h"
+#include "math/step_limit.h"
 #include "motion/carrying.h"
 #include "roam/standing.h"
 #include "text/names.h"
@@ -235,7 +236,8 @@ const char* to_string(ProbeLimit::Kind kind) {
 double climbed(const ProbeQuestion& question, const ProbedSize& size) {
   const DefaultFloatingPoint guard;
   // Rounded down, so that the body itself still fits above its knee.
-  return std::min(question.step, rolls(size) ? size.radius : std::nextafter(size.height - 2.0 * size.radius, 0.0));
+  const double above_knee = rolls(size) ? size.radius : std::nextafter(size.height - 2.0 * size.radius, 0.0);
+  return std::min({question.step, step_limit(size.height), above_knee});
 }
 
 WalkerSettings probed_body(const ProbeQuestion& question, const ProbedSize& size, double slope_degrees) {
@@ -244,7 +246,7 @@ WalkerSettings probed_body(const ProbeQuestion& question, const ProbedSize& size
   settings.radius = size.radius;
   settings.height = size.height;
   settings.eye = is_sphere(size) ? size.radius : std::min(settings.eye, settings.height);
-  settings.step = std::min(question.step, 0.5 * settings.height);
+  settings.step = std::min(question.step, step_limit(settings.height));
   settings.slope_degrees = slope_degrees;
   settings.support_radius = question.support_radius;
   check(settings);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "math/boxes.h"
+#include "math/step_limit.h"
 
 namespace roam::ways {
 
@@ -66,7 +67,7 @@ WalkerSettings settings_of(const BodyKind& kind, double radius, double support_r
     settings.height = kind.height;
     settings.eye = kind.height;
   }
-  settings.step = std::min(kind.step, 0.5 * settings.height);
+  settings.step = std::min(kind.step, step_limit(settings.height));
   settings.slope_degrees = kind.slope_degrees;
   settings.crouch_height = settings.height;
   settings.clearance_reach = 0.0;
