@@ -23,9 +23,10 @@ class Unfinished {
   /// then.
   void begin(int folder, std::string name) {
     end();
-    file_ = {folder, std::move(name)};
+    File file{folder, std::move(name)};
     const std::lock_guard lock(all().mutex);
-    all().files.insert(file_);
+    all().files.insert(file);
+    file_ = std::move(file);
   }
   void end() {
     if (file_.second.empty()) return;

@@ -1,9 +1,13 @@
 // Where memory runs out, a path is read or written whole, or the call throws. Instrumented builds have an operator new
 // of their own.
 #include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
+#include <new>
 #include <sstream>
 
+#include "counted_allocations.h"
 #include "fallible_calls.h"
 #include "import_files.h"
 #include "roam/path_file.h"
@@ -37,6 +41,36 @@ TEST(PathAllocations, AFileIsWholeOrAsItWasWhereverOneFails) {
                  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 1);
                  roam::save_path(file, before);
                }}});
+}
+
+// What a process keeps for all its files is made with the first one, so each try has a process of its own.
+TEST(PathAllocations, TheFirstFileOfAProcessIsWholeOrNotThereWhereverOneFails) {
+  const roam::test::TemporaryFolder folder;
+  const std::filesystem::path file = folder.path() / "a.path";
+  for (long at = 1;; ++at) {
+    const pid_t child = ::fork();
+    ASSERT_GE(child, 0);
+    if (child == 0) {
+      failing_on = true;
+      failing_allocation = allocations + at;
+      int status = 0;
+      try {
+        roam::save_path(file, std::vector<roam::Vec3>{{1, 2, 3}, {4, 5, 6}});
+      } catch (const std::bad_alloc&) {
+        status = 1;
+      }
+      ::_exit(status);
+    }
+    int ended = 0;
+    ASSERT_EQ(::waitpid(child, &ended, 0), child);
+    ASSERT_TRUE(WIFEXITED(ended)) << at << ": " << WTERMSIG(ended);
+    const bool saved = WEXITSTATUS(ended) == 0;
+    EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), saved ? 1 : 0) << at;
+    if (!saved) continue;
+    EXPECT_GT(at, 10);
+    EXPECT_EQ(roam::load_path(file).size(), 2U);
+    break;
+  }
 }
 
 }  // namespace

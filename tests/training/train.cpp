@@ -326,7 +326,7 @@ TEST(Training, RefusesOptionsThatNobodyCanMean) {
   const Survey survey = corridor({});
   EXPECT_THROW((void)roam::train(survey, {.mode = Mode::ghost}), roam::Error);
   EXPECT_THROW((void)roam::train(survey, {.radius_max = 0.0}), roam::Error);
-  EXPECT_THROW((void)roam::train(survey, {.height = 0.3}), roam::Error);
+  EXPECT_THROW((void)roam::train(survey, {.height = 0.15}), roam::Error);
   EXPECT_THROW((void)roam::train(survey, {.spacing = -1.0}), roam::Error);
   EXPECT_THROW((void)roam::train(survey, {.paths = -1}), roam::Error);
 }
