@@ -338,6 +338,21 @@ TEST(ImportGltf, RefusesDamagedFilesWithASentence) {
   EXPECT_TRUE(contains(import_error(folder.write("deep.glb", made.glb())), "nested more than 2000 deep"));
 }
 
+TEST(ImportGltf, CountsOnlyBracketsOutsideStringsAsNesting) {
+  const TemporaryFolder folder;
+  for (const bool deep : {false, true}) {
+    MadeGltf made = MadeGrid(2).gltf();
+    made.json["asset"]["copyright"] = "\"\\" + std::string(5000, '[') + "\\\"" + std::string(5000, '{');
+    if (deep) made.json["extras"] = Json::parse(std::string(5000, '[') + std::string(5000, ']'));
+    const std::string file = folder.write("named.glb", made.glb());
+    if (deep) {
+      EXPECT_TRUE(contains(import_error(file), "its JSON is nested more than")) << import_error(file);
+    } else {
+      EXPECT_GT(import_scene(file).meshes.size(), 0U);
+    }
+  }
+}
+
 TEST(ImportGltf, ReadsWhatGltfpackWrites) {
   ROAM_NEEDS_TEST_DATA();
   const TemporaryFolder folder;

@@ -73,8 +73,13 @@ for mode in fly walk; do
     before=(strace -f -qqq -o /dev/null -e trace=openat -e "inject=openat:$inject")
     walk "$work/whole" "${options[@]}"
     status=$?
-    # The reader of the scene, which judges, opens files too: it may refuse.
-    ((status == 1)) && grep -q . "$work/said" || walked $status "$mode, openat $inject"
+    if ((status != 1)); then
+      walked $status "$mode, openat $inject"
+      continue
+    fi
+    # The reader of the scene, which judges, opens files too: it may refuse. The walk itself goes on.
+    grep -q . "$work/said" || complain "$mode, openat $inject: refused without a word"
+    ((unchecked == 0 || unchecked == 3)) || complain "$mode, openat $inject: unchecked, status $unchecked"
   done
   echo "$mode: $reached reached, $stopped stopped, $failures with failures; $wrong wrong; $SECONDS s"
 done

@@ -51,6 +51,7 @@ for threads in 1 2; do
   done
 done
 echo "random moments: killed $killed times, $early times it was done before; $wrong wrong; $SECONDS s"
+((killed >= kills / 2)) || complain "killed only $killed times"
 
 steps=0
 for threads in 1 2; do

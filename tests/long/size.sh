@@ -61,6 +61,7 @@ walked() {
   walks=$((walks + 1))
   if [[ " $* " == *" --against "* ]]; then
     pieces=$((pieces + $(number pieces "$report"))) violations=$((violations + $(number violations "$report")))
+    (($(number pieces "$report") > 0)) || complain "$what: no move was checked"
   else
     (($(cat "$work/peak") <= most)) || most=$(cat "$work/peak")
     (($(cat "$work/peak") <= 64 + more)) || complain "$what: takes more than $more MiB more than it may keep"
@@ -69,6 +70,7 @@ walked() {
   [[ $(number violations "$report") == 0 || $(number violations "$report") == null ]] || complain "$what: violations"
   grep -q '"overstated_clearances": [1-9]' "$report" && complain "$what: overstates a clearance"
   [[ $(number failures "$report") == 0 ]] || complain "$what: $(number last_failure "$report")"
+  grep -qE '"length_m": [0-9.]*[1-9]' "$report" || complain "$what: it walks no way"
   [[ $(number outcome "$report") == reached ]] || complain "$what: $(number why "$report")"
 }
 

@@ -35,21 +35,37 @@ std::string reason_of(std::string what) {
   return what.substr(0, what.find("; last read: "));
 }
 
+/// Whether brackets are nested deeper. The parser's own callback would tell too, in the square of a list's length.
+bool is_nested_deeper(std::string_view text, int most_depth) {
+  int depth = 0;
+  bool in_string = false;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    if (c == '"') {
+      in_string = !in_string;
+    } else if (in_string) {
+      if (c == '\\') ++i;
+    } else if (c == '[' || c == '{') {
+      if (++depth > most_depth) return true;
+    } else if (c == ']' || c == '}') {
+      --depth;
+    }
+  }
+  return false;
+}
+
 }  // namespace
 
 Json parse_json(std::string_view text, const std::string& place, int most_depth) {
-  const auto limit = [&](int depth, Json::parse_event_t, Json&) {
-    if (depth > most_depth) {
-      throw Error(place, fmt::format("its JSON is nested more than {} deep; the file is damaged.", most_depth));
-    }
-    return true;
-  };
+  if (is_nested_deeper(text, most_depth)) {
+    throw Error(place, fmt::format("its JSON is nested more than {} deep; the file is damaged.", most_depth));
+  }
   try {
-    return Json::parse(text, limit);
+    return Json::parse(text);
   } catch (const Json::exception& error) {
     // A number beyond doubles is such a fault, too. Some exporters write names in other encodings.
     try {
-      return Json::parse(as_utf8(text), limit);
+      return Json::parse(as_utf8(text));
     } catch (const Json::exception&) {
       throw Error(place, fmt::format("it is no JSON ({}); the file is damaged.", printable(reason_of(error.what()))));
     }
