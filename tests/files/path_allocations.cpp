@@ -15,35 +15,8 @@
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 namespace {
 
-TEST(PathAllocations, APathIsReadWholeOrNotWhereverOneFails) {
-  const std::string text = "0 0 0\n1 2 3\n4 5 6\n7 8 9\n1 1 1 # a comment\n2 2 x";
-  const auto read = [](const std::string& some) {
-    std::istringstream in(some);
-    return roam::read_path(in, "a name that is too long for no allocation").size();
-  };
-  fail_calls({
-      {"read_path", [&] { return std::string(Bits() << read(text.substr(0, text.rfind('\n')))); }},
-      {"read_path of a wrong line", [&] { return refusal_of([&] { static_cast<void>(read(text)); }); }},
-  });
-}
-
-TEST(PathAllocations, AFileIsWholeOrAsItWasWhereverOneFails) {
-  const roam::test::TemporaryFolder folder;
-  const std::filesystem::path file = folder.write("a.path", "1 2 3\n4 5 6\n");
-  const std::vector<roam::Vec3> before{{1, 2, 3}, {4, 5, 6}}, wanted{{7, 8, 9}, {0, 0, 0}, {1, 1, 1}};
-  fail_calls({{"save_path",
-               [&] {
-                 roam::save_path(file, wanted);
-                 return std::string("saved");
-               },
-               [&](bool failed) {
-                 EXPECT_EQ(roam::positions(roam::load_path(file)), failed ? before : wanted);
-                 EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 1);
-                 roam::save_path(file, before);
-               }}});
-}
-
-// What a process keeps for all its files is made with the first one, so each try has a process of its own.
+// What a process keeps for all its files is made with the first one, so each try has a process of its own, and this
+// test is the first.
 TEST(PathAllocations, TheFirstFileOfAProcessIsWholeOrNotThereWhereverOneFails) {
   const roam::test::TemporaryFolder folder;
   const std::filesystem::path file = folder.path() / "a.path";
@@ -71,6 +44,34 @@ TEST(PathAllocations, TheFirstFileOfAProcessIsWholeOrNotThereWhereverOneFails) {
     EXPECT_EQ(roam::load_path(file).size(), 2U);
     break;
   }
+}
+
+TEST(PathAllocations, APathIsReadWholeOrNotWhereverOneFails) {
+  const std::string text = "0 0 0\n1 2 3\n4 5 6\n7 8 9\n1 1 1 # a comment\n2 2 x";
+  const auto read = [](const std::string& some) {
+    std::istringstream in(some);
+    return roam::read_path(in, "a name that is too long for no allocation").size();
+  };
+  fail_calls({
+      {"read_path", [&] { return std::string(Bits() << read(text.substr(0, text.rfind('\n')))); }},
+      {"read_path of a wrong line", [&] { return refusal_of([&] { static_cast<void>(read(text)); }); }},
+  });
+}
+
+TEST(PathAllocations, AFileIsWholeOrAsItWasWhereverOneFails) {
+  const roam::test::TemporaryFolder folder;
+  const std::filesystem::path file = folder.write("a.path", "1 2 3\n4 5 6\n");
+  const std::vector<roam::Vec3> before{{1, 2, 3}, {4, 5, 6}}, wanted{{7, 8, 9}, {0, 0, 0}, {1, 1, 1}};
+  fail_calls({{"save_path",
+               [&] {
+                 roam::save_path(file, wanted);
+                 return std::string("saved");
+               },
+               [&](bool failed) {
+                 EXPECT_EQ(roam::positions(roam::load_path(file)), failed ? before : wanted);
+                 EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 1);
+                 roam::save_path(file, before);
+               }}});
 }
 
 }  // namespace
