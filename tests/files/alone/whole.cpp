@@ -24,6 +24,10 @@ std::atomic<int> calls{0}, failing_call{0}, failure{0};
 std::atomic<int> umasks{0};
 /// Whether the file system knows RENAME_NOREPLACE; over a network it does not.
 std::atomic<bool> renames_without_replacing{false};
+/// Whether closing says that the disk is full, as some network file systems do only then.
+std::atomic<bool> closing_fails{false};
+/// What was done to files, in order: w(rite), s(ync), n(ame), S(ync of a folder).
+std::string order;
 
 template <class Call, class Short>
 auto counted(Call&& call, Short&& cut_short) {
@@ -41,6 +45,7 @@ auto counted(Call&& call) {
 
 // These take the place of the C library's in this program.
 extern "C" ssize_t write(int fd, const void* bytes, std::size_t size) {
+  order += 'w';
   const auto call = [&](std::size_t n) { return static_cast<ssize_t>(::syscall(SYS_write, fd, bytes, n)); };
   return counted([&] { return call(size); }, [&] { return call((size + 1) / 2); });
 }
@@ -49,20 +54,31 @@ extern "C" ssize_t pwrite(int fd, const void* bytes, std::size_t size, off_t off
   return counted([&] { return call(size); }, [&] { return call((size + 1) / 2); });
 }
 extern "C" int fsync(int fd) {
+  struct stat status {};
+  order += ::fstat(fd, &status) == 0 && S_ISDIR(status.st_mode) ? 'S' : 's';
   return counted([&] { return static_cast<int>(::syscall(SYS_fsync, fd)); });
 }
+extern "C" int close(int fd) {
+  const auto closed = static_cast<int>(::syscall(SYS_close, fd));
+  if (!closing_fails) return closed;
+  errno = ENOSPC;
+  return -1;
+}
 extern "C" int renameat(int from_folder, const char* from, int to_folder, const char* to) noexcept {
+  order += 'n';
   return counted([&] { return static_cast<int>(::syscall(SYS_renameat, from_folder, from, to_folder, to)); });
 }
 extern "C" int renameat2(int from_folder, const char* from, int to_folder, const char* to,
                          unsigned int flags) noexcept {
   if (renames_without_replacing) {
+    order += 'n';
     return static_cast<int>(::syscall(SYS_renameat2, from_folder, from, to_folder, to, flags));
   }
   errno = EINVAL;
   return -1;
 }
 extern "C" int linkat(int from_folder, const char* from, int to_folder, const char* to, int flags) noexcept {
+  order += 'n';
   return counted([&] { return static_cast<int>(::syscall(SYS_linkat, from_folder, from, to_folder, to, flags)); });
 }
 extern "C" mode_t umask(mode_t mask) noexcept {
@@ -141,7 +157,37 @@ TEST(WholeFile, GoesOnAfterInterruptedAndShortWrites) {
   }
 }
 
-TEST(WholeFile, SyncsBeforeItRenamesAndTakesFileSystemsThatSyncNoFolder) {
+TEST(WholeFile, SyncsItsTextBeforeItGetsItsNameAndItsFolderAfterwards) {
+  for (const bool at_once : {false, true}) {
+    renames_without_replacing = at_once;
+    for (const Naming naming : {Naming::exact, Naming::beside, Naming::numbered, Naming::unclaimed}) {
+      const TestFolder folder;
+      order.clear();
+      write_whole(folder.file("a.txt"), "text", naming);
+      EXPECT_EQ(order, "wsnS") << static_cast<int>(naming) << at_once;
+    }
+  }
+  renames_without_replacing = false;
+}
+
+TEST(WholeFile, IsAsItWasIfClosingSaysThatTheDiskIsFull) {
+  for (const Naming naming : {Naming::exact, Naming::beside, Naming::numbered, Naming::unclaimed}) {
+    const TestFolder folder;
+    folder.write("a.txt", "old");
+    const std::string said = complaint([&] {
+      WholeFile out(folder.file("a.txt"), naming);
+      out.write(bytes_of("new"));
+      closing_fails = true;
+      out.commit();
+    });
+    closing_fails = false;
+    EXPECT_NE(said.find(std::strerror(ENOSPC)), std::string::npos) << said;
+    EXPECT_EQ(folder.read("a.txt"), "old");
+    EXPECT_EQ(files_in(folder), 1U);
+  }
+}
+
+TEST(WholeFile, TakesFileSystemsThatSyncNoFolder) {
   const TestFolder folder;
   calls = 0;
   write_in_pieces(folder.file("a.txt"));
