@@ -50,6 +50,18 @@ TEST(Support, LetsABodyFallWhereTheDiscIsTooSmallAtAnySpeed) {
   }
 }
 
+TEST(Support, IsLookedForBelowAnEdgeThatIsLeftAtAnySpeed) {
+  Mesh m;
+  add_floor(m, -1.0, -1.0, 1.0, 1.0, 0.0);
+  add_floor(m, -1e4, -1e4, 1e4, 1e4, -100.0);
+  for (const double speed : {1e4, 3e4, 1e5, 1e7}) {
+    for (const double dt : {1.0 / 30.0, 1.0 / 60.0}) {
+      Walk w(m, person(0.5), Mode::walk, {0.0, 0.0, 0.91});
+      for (int i = 0; i < 3; ++i) w.step({speed, 0.0, 0.0}, dt);
+    }
+  }
+}
+
 TEST(Support, OfLessThanTheBodyIsThatOfTheBody) {
   // The crack is too narrow for the body to fall in and too wide for its rims to carry it: without a foot it is caught.
   const Mesh m = split(0.58);
