@@ -13,7 +13,11 @@ constexpr double leaving = 0.05;
 void narrow(Move& m, const Sizes& sizes, double radius) {
   const double by = m.settings.radius - radius, before = m.settings.height;
   sizes.present = sized(sizes.given, {radius, m.settings.support_radius});
-  m.known.clearance = std::max(m.known.clearance - by, radius - world_tolerance);
+  if (m.known.measured == Measured::place) {
+    m.known.clearance = std::max(m.known.clearance - by, radius - world_tolerance);
+  } else {
+    m.known.forget_place();  // the way there may have been much narrower
+  }
   const double height = m.height < before ? m.height : m.settings.height;
   m.resize(height, m.place - Vec3(0.0, 0.0, 0.5 * (m.height - height)));
   m.note(EventKind::narrowed);

@@ -301,6 +301,20 @@ TEST(Resize, IsSmallerAtOnceAndLargerWhenItFits) {
   EXPECT_GE(margin(r.judge, r.walker.report()), 0.0);
 }
 
+TEST(Resize, HasTheClearanceOfItsPlaceAndNotOfTheWayThere) {
+  Mesh m;
+  add_wall(m, 0.0, -50.0, 0.0, 50.0, -50.0, 50.0);
+  const World world = build(m);
+  Walker walker(world, WalkerSettings::sphere(0.5), Mode::fly, {0.5011, 0.0, 0.0});
+  walker.step({.velocity = {0.4, 0.0, 0.0}}, 1.0);
+  ASSERT_NEAR(walker.report().axis_clearance, 0.5011, 1e-3);
+  const StepReport& r = walker.resize(0.1, 0.0);
+  const double gap = 0.8011;
+  EXPECT_GE(r.axis_clearance - 0.1, 0.75 * gap - 2.0 * walker.skin() - 2e-3);
+  EXPECT_LE(r.axis_clearance - 0.1, gap + 1e-6);
+  EXPECT_EQ(r.segments.back().axis_clearance, r.axis_clearance);
+}
+
 TEST(Resize, OfAGhostIsHadWhenItIsABodyAgain) {
   const Mesh m = floor_mesh();
   Roam r(m, WalkerSettings::sphere(0.3), Mode::walk, {0.0, 0.0, 0.35}, {});
