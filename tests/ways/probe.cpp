@@ -179,6 +179,22 @@ Mesh stairs(const std::vector<double>& risers, double tread) {
   return m;
 }
 
+TEST(Probe, ClimbsWhatTheWalkerOfItsPathClimbs) {
+  for (const ProbedSize& size :
+       {ProbedSize{0.3, 0.6}, {0.3, 0.604}, {0.3, 0.65}, {0.3, 0.8}, {0.3, 1.8}, {0.1, 0.21}}) {
+    EXPECT_EQ(probed_body(across, size).step, climbed(across, size)) << size.height;
+  }
+  for (const double rise : {0.03, 0.1, 0.2}) {
+    const ProbeQuestion question{.from = {1.0, 0.0, 0.2}, .to = {9.0, 0.0, rise + 0.2}};
+    const Survey survey = survey_of(stairs({rise}, 1.0));
+    const ProbeAnswer answer = probe(survey, question, {.radius = 0.3, .height = 0.65});
+    const WalkerSettings body = probed_body(question, answer.size);
+    const std::vector<Vec3> straight = standing(std::vector<Vec3>{answer.start, answer.target}, body);
+    Walker walker(survey.world(), body, Mode::walk, straight.front());
+    EXPECT_EQ(follow(walker, straight).outcome == Outcome::reached, answer.passable) << rise;
+  }
+}
+
 TEST(Probe, StepsUpAtMostHalfTheHeight) {
   for (const auto& [rise, climbs] : {std::pair{0.85, true}, std::pair{1.1, false}}) {
     const ProbeQuestion question{.from = {1.0, 0.0, 0.2}, .to = {9.0, 0.0, rise + 0.2}, .step = 1.15};

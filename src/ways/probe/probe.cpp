@@ -246,7 +246,7 @@ WalkerSettings probed_body(const ProbeQuestion& question, const ProbedSize& size
   settings.radius = size.radius;
   settings.height = size.height;
   settings.eye = is_sphere(size) ? size.radius : std::min(settings.eye, settings.height);
-  settings.step = std::min(question.step, step_limit(settings.height));
+  settings.step = climbed(question, size);
   settings.slope_degrees = slope_degrees;
   settings.support_radius = question.support_radius;
   check(settings);
