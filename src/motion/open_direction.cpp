@@ -21,7 +21,7 @@ OpenDirection open_direction(const Space& space, const Vec3& eye, double reach) 
   std::array<double, directions> way{};
   for (int i = 0; i < directions; ++i) {
     const Vec3 direction = wandering::level(i, directions);
-    double length = reach;
+    double length = std::min(reach, Space::motion_limit);
     for (int k = 0; k < 2; ++k) {
       if (direction[k] == 0.0) continue;
       const double border = direction[k] > 0.0 ? box.upper[k] : box.lower[k];

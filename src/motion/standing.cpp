@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "math/floating_point.h"
+#include "math/largest.h"
 #include "roam/error.h"
 #include "roam/walker.h"
 #include "text/number.h"
@@ -23,7 +24,9 @@ constexpr double below_floor = 1e-3;
 
 /// The position where a body put down on `floor` comes to stand.
 std::optional<Vec3> stands_at(const Space& space, const WalkerSettings& settings, const Vec3& floor) {
-  Walker walker(space, settings, Mode::fly, floor + Vec3(0.0, 0.0, 0.5 * settings.height));
+  const Vec3 centre = floor + Vec3(0.0, 0.0, 0.5 * settings.height);
+  if (largest(centre) > coordinate_limit) return std::nullopt;
+  Walker walker(space, settings, Mode::fly, centre);
   if (walker.held() || walker.set_mode(Mode::walk).met_unknown) return std::nullopt;
   if (!walker.stance().firm() || walker.crouched()) return std::nullopt;
   return walker.position();

@@ -64,6 +64,12 @@ TEST(PlaceToStand, IsNoneOnWhatIsTooSteepAndWhereNothingIs) {
   EXPECT_FALSE(roam::place_to_stand(World(), {}, {0.0, 0.0, 1.0}, 2.0));
 }
 
+TEST(PlaceToStand, IsNoneOutsideAllSpace) {
+  Mesh m;
+  scenes::add_floor(m, -5.0, -5.0, 5.0, 5.0, 1e9 - 0.5);
+  EXPECT_FALSE(roam::place_to_stand(scenes::build(m), {}, {0.0, 0.0, 1e9 - 0.5}, 2.0));
+}
+
 TEST(PlaceToStand, RefusesWhatIsNoQuestion) {
   const World world = scenes::build(storeys());
   EXPECT_THROW((void)roam::place_to_stand(world, {}, {NAN, 0.0, 0.0}, 1.0), roam::Error);

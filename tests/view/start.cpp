@@ -200,6 +200,10 @@ TEST(OpenDirection, IsTheOneWithoutAnEndAndWithinReach) {
   EXPECT_NEAR(far.length, 80.0, 4.0) << "to the end of the land";
   EXPECT_NEAR(near.length, 13.0, 1.0);
   EXPECT_EQ(open_direction(World(), {0, 0, 1.6}, 15.0).length, 0.0) << "an empty scene";
+  Mesh wide;
+  wide.vertices = {{-4e6, -4e6, 0}, {4e6, -4e6, 0}, {0, 4e6, 0}};
+  wide.triangles = {{0, 1, 2}};
+  EXPECT_GT(open_direction(World::build({&wide, 1}), {0, 0, 1.6}, 1e300).length, 9e5);
 }
 
 }  // namespace
