@@ -32,7 +32,8 @@ struct Stopped {
 /// A stopped instance tries again at the next call. Pass all bodies: an instance runs over any that is left out. Make
 /// things that move together one instance, or add the front one first; see docs/walking.md, "What moves". The promises
 /// of walker.h hold meanwhile, for the triangles of the moving instance too. A walker that was moved has this movement
-/// as its report() until its next step(); any other keeps its old report.
+/// as its report() until its next step(); any other keeps its old report. The report's clearances also hold for
+/// instances that only pass; they may then be lower than Segment promises, by the bend of a turning instance's way.
 ///
 /// `walkers` must move in `instances` or in a Filtered of them; null is skipped. Throws roam::Error, and moves nothing,
 /// for any other walker, a walker that is listed twice, a `dt` that is negative or not finite, and an instance that

@@ -84,8 +84,8 @@ class Walker {
   /// Cannot move: cannot be freed (see place()), or would fall out of the scene again, until the mode or space changes.
   [[nodiscard]] bool held() const;
   [[nodiscard]] double rise_speed() const;  ///< in the air, positive upwards; 0 on the ground and outside walk mode
-  /// For LiveSpace::update(): the average over the last call and the move_instances() before it, without teleports,
-  /// m/s. It includes the motion of the ground; pace() does not.
+  /// For LiveSpace::update(): the average over the last call, plus that over the move_instances() before it, without
+  /// teleports, m/s. It includes the motion of the ground; pace() does not.
   [[nodiscard]] Vec3 velocity() const;
   /// The velocity from which limits of acceleration start: at the end of the last step, along the surface that the body
   /// slid on, relative to moving ground, horizontal in walk mode. 0 if the body was stopped, held or put.

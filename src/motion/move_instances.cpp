@@ -55,14 +55,14 @@ std::optional<double> gap_to_instance(const InstanceMotion& shift, const Body& b
 /// A body squeezed out between an instance and the rest moves at most this many times as fast as the instance.
 constexpr double steepest_squeeze = 4.0;
 
-/// Whether the instance stays out of the body's reach. It stays in a ball about its origin that moves with it.
-bool is_far(const InstanceMotion& shift, const Body& body, const Vec3& place) {
+/// Whether the instance stays farther from the body. It stays in a ball about its origin that moves with it.
+bool is_farther(const InstanceMotion& shift, const Body& body, const Vec3& place, double reach) {
   const Box bounds = shift.world->bounds();
   if (bounds.empty()) return true;
   const double ball = glm::length(glm::max(glm::abs(bounds.lower), glm::abs(bounds.upper)));
   const double gone = glm::length(shift.to.position - shift.from.position);
   // One metre is far more than rounding and storage errors.
-  return glm::length(place - shift.from.position) > ball + gone + body.radius + body.half_height + 1.0;
+  return glm::length(place - shift.from.position) > ball + gone + body.radius + body.half_height + reach + 1.0;
 }
 
 }  // namespace
@@ -74,11 +74,14 @@ void Walker::State::begin_shifts() {
   fitted_ = !held() && looked_at_ == revision();
 }
 
-bool Walker::State::is_concerned(const walking::InstanceMotion& shift) const {
+bool Walker::State::meets(const walking::InstanceMotion& shift) {
   if (mode_ == Mode::ghost || held()) return false;
   if (gait_.object == shift.instance && (gait_.grounded() || gait_.ground_velocity != Vec3(0.0))) return true;
-  if (walking::is_far(shift, body(), at_.place)) return false;
-  return !walking::gap_to_instance(shift, body(), at_.place, Vec3(0.0), 0.0);
+  const double reach = settings_.clearance_reach;
+  if (walking::is_farther(shift, body(), at_.place, reach)) return false;
+  const auto passing = walking::gap_to_instance(shift, body(), at_.place, Vec3(0.0), reach);
+  if (passing) rested_ = std::min(rested_, settings_.radius + *passing);
+  return !passing;
 }
 
 std::optional<walking::Response> Walker::State::response(const Space& rest, const walking::InstanceMotion& shift) {
@@ -200,6 +203,7 @@ void Walker::State::append(const walking::InstanceMotion& shift, const walking::
 void Walker::State::end_shifts(const Vec3& ground_velocity, double dt) {
   if (gait_.grounded()) gait_.ground_velocity = ground_velocity;
   if (fitted_) looked_at_ = revision();
+  ridden_seconds_ += dt;
   if (!shifted_) return;
   report_.elapsed = dt;
   if (rested_ < std::numeric_limits<double>::infinity()) {
@@ -257,7 +261,7 @@ class Movement {
     for (std::size_t i = 0; i < walkers.size(); ++i) {
       bool seen = true;
       if (walkers[i] == nullptr || !moves_in(walkers[i]->space(), instances, instance, seen) || !seen) continue;
-      if (!walkers[i]->state().is_concerned(whole)) continue;
+      if (!walkers[i]->state().meets(whole)) continue;
       met_.push_back({i, &walkers[i]->state(), Filtered(walkers[i]->space()), {}});
       met_.back().rest.ignore(instance);
       arm = std::max(arm, glm::length(walkers[i]->position() - begin_.position));

@@ -92,7 +92,7 @@ Vec3 Walker::State::moved() const {
   return way;
 }
 
-Vec3 Walker::State::velocity() const { return report_.elapsed > 0.0 ? (moved() + rode_) / report_.elapsed : Vec3(0.0); }
+Vec3 Walker::State::velocity() const { return report_.elapsed > 0.0 ? moved() / report_.elapsed + riding_ : Vec3(0.0); }
 
 Vec3 Walker::State::pace() const {
   if (held() || report_.put_back) return Vec3(0.0);

@@ -69,7 +69,7 @@ void Walker::State::begin() {
   at_.known.touching = !report_.contacts.empty();
   at_.known.fit = walking::Fit::known;
   known_at_ = revision.value_or(0);
-  rode_ = Vec3(0.0);
+  riding_ = Vec3(0.0);
   report_.segments.clear();
   report_.contacts.clear();
   report_.events.clear();
@@ -249,7 +249,9 @@ const StepReport& Walker::State::step(const WalkerInput& wish, double dt) {
     throw Error("the ghost would leave the space that a body may be in: 1e9 m from the origin in each axis");
   }
   begin();
-  rode_ = std::exchange(ridden_, Vec3(0.0));
+  if (ridden_seconds_ > 0.0) riding_ = ridden_ / ridden_seconds_;
+  ridden_ = Vec3(0.0);
+  ridden_seconds_ = 0.0;
   bool is_whole = true;
   if (mode_ == Mode::ghost) {
     at_.place += ghost_way;
@@ -393,6 +395,7 @@ const StepReport& Walker::State::place(const Vec3& at, double lift) {
   take_size_here();
   gait_ = {};
   ridden_ = Vec3(0.0);
+  ridden_seconds_ = 0.0;
   at_.known = {};
   vicinity_.forget();
   was_blocked_ = false;

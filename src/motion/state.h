@@ -47,8 +47,9 @@ class Walker::State {
 
   /// Begins a report of motion caused from outside.
   void begin_shifts();
-  /// Whether the body moves with the instance or is in its way. False for a ghost and for a held body.
-  [[nodiscard]] bool is_concerned(const walking::InstanceMotion& shift) const;
+  /// Whether the body moves with the instance or is in its way. False for a ghost and for a held body. The gap to an
+  /// instance that only passes counts for the body's rest.
+  [[nodiscard]] bool meets(const walking::InstanceMotion& shift);
   /// The response of the body while an instance is shifted; nothing if it has nowhere to go. `rest`: the space without
   /// that instance.
   [[nodiscard]] std::optional<walking::Response> response(const Space& rest, const walking::InstanceMotion& shift);
@@ -124,10 +125,11 @@ class Walker::State {
   walking::Refuge safe_;    ///< last position where the body stood; until it has stood, where it fitted
   walking::Refuge ground_;  ///< last position with something below: for the ghost, and for walking before another mode
   walking::Hold hold_ = walking::Hold::none;
-  bool was_blocked_ = false;   ///< at the end of the last step, and it has not been put elsewhere since
-  bool was_put_back_ = false;  ///< and it has not been put elsewhere since
-  Vec3 ridden_{0.0};           ///< metres by which move_instances() has moved it since the last step
-  Vec3 rode_{0.0};             ///< the same before the last call, if that was a step
+  bool was_blocked_ = false;     ///< at the end of the last step, and it has not been put elsewhere since
+  bool was_put_back_ = false;    ///< and it has not been put elsewhere since
+  Vec3 ridden_{0.0};             ///< metres by which move_instances() has moved it since the last step
+  double ridden_seconds_ = 0.0;  ///< simulated by move_instances() since the last step
+  Vec3 riding_{0.0};             ///< m/s: their ratio before the last call, if that was a step
   /// Metres. Certified clearance of the rest since the last segment of a shift, to the instance alone; infinite if
   /// there was no rest.
   double rested_ = std::numeric_limits<double>::infinity();

@@ -94,6 +94,55 @@ TEST(MoveReports, TellTheVelocityInTheSceneAndThePaceOnTheGround) {
   EXPECT_NEAR(glm::length(walker.velocity()), 0.0, 1e-6);
 }
 
+TEST(MoveReports, TellTheVelocityOverAllMovementsSinceTheLastStep) {
+  for (const int calls : {1, 2, 3}) {
+    Stage stage(ground());
+    const ObjectId id = stage.scene.add(plate(), {{0.0, 0.0, 0.5}});
+    Walker& walker = stage.add({}, Mode::walk, {0.0, 0.0, 0.5});
+    stage.scene.space.set_velocity(id, {{6.0, 0.0, 0.0}});
+    stage.step(walker);
+    for (int i = 0; i < calls; ++i) stage.advance();
+    stage.step(walker);
+    EXPECT_NEAR(glm::length(walker.velocity() - Vec3(6.0, 0.0, 0.0)), 0.0, 1e-6) << calls;
+  }
+}
+
+TEST(MoveReports, HoldTheGapToWhatOnlyPassesABodyThatIsMoved) {
+  constexpr double beside = 0.35;  // m, of the passing face from the axis
+  for (const bool first : {false, true}) {
+    for (const bool stays : {false, true}) {
+      Stage stage(ground());
+      Mesh wall;
+      scenes::add_box(wall, {-0.5, -0.01, -1.0}, {0.5, 0.01, 1.0});
+      const auto add_wall = [&] { return stage.scene.add(wall, {{0.0, 20.0, 1.0}}); };
+      ObjectId passing = first ? add_wall() : 0;
+      const ObjectId lift = stage.scene.add(plate(), {{0.0, 0.0, 0.5}});
+      if (!first) passing = add_wall();
+      Walker& walker = stage.add({.radius = 0.3}, Mode::walk, {0.0, 0.0, 0.5});
+      stage.scene.space.set_velocity(lift, {{1.0, 0.0, 0.0}});
+      stage.advance();
+      stage.step(walker, {.jump = true});
+      for (int i = 0; i < 12; ++i) {
+        stage.advance();
+        stage.step(walker);
+      }
+      const Vec3 place = walker.position() + Vec3(dt, 0.0, 0.0);
+      const double face = beside + 0.01;
+      stage.scene.space.set_pose(passing, {place + (stays ? Vec3(0.0, face + 1.5, 0.0) : Vec3(-2.0, face, 0.0))});
+      stage.scene.space.set_velocity(passing, {stays ? Vec3(0.0, -1.5 / dt, 0.0) : Vec3(4.0 / dt, 0.0, 0.0)});
+      stage.step(walker, {}, 0.0);
+      ASSERT_TRUE(roam::move_instances(stage.scene.space, stage.list, dt).empty());
+      const roam::StepReport& r = walker.report();
+      ASSERT_GT(r.to.x, r.from.x);
+      EXPECT_NEAR(r.least_axis_clearance, beside, 2.5e-3 + 0.25 * 0.05) << first << stays;
+      EXPECT_LE(r.least_gap, beside - 0.3 + 1e-6) << first << stays;
+      double least = r.axis_clearance;
+      for (const roam::Segment& s : r.segments) least = std::min(least, s.axis_clearance);
+      EXPECT_EQ(r.least_axis_clearance, least);
+    }
+  }
+}
+
 TEST(MoveReports, KeepAReportWithinItsRoom) {
   Stage stage(ground());
   const ObjectId id = stage.scene.add(plate(), {{0.0, 0.0, 0.5}});
