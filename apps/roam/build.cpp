@@ -312,7 +312,7 @@ void take(const Given& given, BuildVerb& verb) {
 constexpr const char* build_help =
     R"(A store is a folder that `roam walk`, `view`, `sweep` and `info` take like a scene. You walk in it at
 full detail, in little memory. A build may be stopped or killed at any moment: the same command continues it, and the
-result is the same to the last byte. After a change of the scene only the changed parts are built again.
+manifest, packs and parts are the same to the last byte. After a change of the scene only the changed parts are built again.
 
 An existing store is updated if you built it; a key in $XDG_DATA_HOME/roam or ~/.local/share/roam proves that. Any
 other store may lack a wall, and is refused unless --adopt says that you trust it.
@@ -354,7 +354,7 @@ void add_build(CLI::App& program, Run& run) {
   const auto given = std::make_shared<Given>();
   CLI::Option* plan =
       verb->add_option("--plan", given->plan,
-                       "Only read changed parts, and plan N tasks (default: as many as are equally long, at most 1000)")
+                       "Only read changed parts, and plan N tasks (default: the most tasks of about equal length, at most 1000)")
           ->expected(0, 1)
           ->type_name("N");
   CLI::Option* shard =

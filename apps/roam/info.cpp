@@ -253,7 +253,7 @@ Examples:
 }  // namespace
 
 void add_info(CLI::App& program, Run& run) {
-  CLI::App* verb = program.add_subcommand("info", "Report the contents of a scene and the memory of its index");
+  CLI::App* verb = program.add_subcommand("info", "Report the contents of a scene");
   verb->footer(info_help);
   struct Options {
     SceneOptions scene;

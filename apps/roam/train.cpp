@@ -188,9 +188,9 @@ ExitStatus train(TrainVerbOptions o) {
 constexpr const char* train_help =
     R"(Training plans paths between the scene's rooms. The narrowest opening on them gives the largest
 radius; the widest crack gives the smallest radius. Bodies of these sizes then walk the paths as proof. The result is
-saved beside the scene, in SCENE.roam.json, for `roam walk` and `roam view`. Exit status 0 if one body serves all
-paths, 3 if none does; the report then says why, where, and which body to use. Ctrl-C ends training with the best result
-so far.
+saved beside the scene, in SCENE.roam.json, for `roam walk` and `roam view`. Exit status 0 if one body without a
+support disc serves all paths, else 3; the report then says why, where, and which body to use. Ctrl-C ends training with
+the best result so far.
 
 --method paper is that of Xie and Niu: bodies roam the paths in turn. The radius shrinks where a body cannot enter and
 grows where it falls. Theirs are spheres.

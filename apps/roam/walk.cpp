@@ -371,7 +371,7 @@ Ctrl-C, report and trace of the way so far are still written, and the picture if
 
 A path file has one waypoint `x y z` in each line, or the lines `t x y z qx qy qz qw` that osgViewer records. Times and
 rotations are ignored: --speed and --dt set the pace. Positions are of the body's centre. A waypoint is reached if
-it is in the body; on foot also if it is at most the step height above or below it. A path that `roam view` recorded
+it is in the body; on foot also at most the step height above or below it, or in sight at most 2 m above its feet. A path that `roam view` recorded
 names its body and mode; --radius, --sphere and --mode override them.
 
 The body is a person of radius 0.3 m and height 1.8 m, or the one that `roam train` saved beside the scene, in

@@ -5,9 +5,9 @@
 ///     const roam::Passage p = roam::widest_way(survey, {0, 0, 1}, {40, 3, 1}, {.height = 1.9});
 ///     if (p.found) std::cout << "passable up to a radius of " << p.radius << " m\n";
 ///
-/// The walking clearance of a position on a floor at height z is the largest radius of a vertical capsule from z + step
-/// to z + height that is free, and stays free when it is lowered to the floor or onto an obstacle at most a step high:
-/// such obstacles are stepped over. Floor steeper than the slope limit is a wall. A body of height 0 is a sphere: it
+/// The walking clearance of a position on a floor at height z is the largest radius of a free vertical capsule from
+/// z + step to z + height. It must stay free when lowered to the floor, or to an obstacle at most a step high: such
+/// obstacles are stepped over. Floor steeper than the slope limit is a wall. A body of height 0 is a sphere: it
 /// must be free when it is lifted off the floor by at most the step and its radius, and when it is lowered again. The
 /// flying clearance is the distance of the centre from everything. A body of radius r passes a way if the clearance is
 /// at least r all along it.
@@ -15,7 +15,7 @@
 /// A way leads in both directions: no step down is higher than `step`. probe() searches ways with higher ones, too.
 ///
 /// The way is certified: sweeps with `radius` - 0.5 mm - 2 * Space::largest_error() meet nothing along it. `bound` and
-/// `proven` tell how wide another way could be. probe.h tests one size of a body, and names its obstacle.
+/// `proven` say how wide another way could be. probe.h tests one size of a body, and names its obstacle.
 ///
 /// Metres, up is +z. The same input gives the same bits on every machine and for any number of threads. Thread-safe.
 /// Target roam::ways.

@@ -38,9 +38,9 @@
  *
  * Threads. Calls that take a handle as pointer to const may run at the same time in any threads. Calls that take it
  * otherwise need it alone. In a store, roam_space_update(), roam_space_load() and roam_route_follow() change it, all
- * spaces made from it and the walkers in these: meanwhile no other call may take one of them, but roam_object_name()
- * and those to free. roam_filtered_ignore_only() does so to its space, what was made from that, and the walkers in it.
- * The library keeps no global state but the text of roam_error(), which each thread has.
+ * spaces made from it and the walkers in these. roam_filtered_ignore_only() changes its space, all spaces made from that
+ * and their walkers. Meanwhile only roam_object_name() and the functions _free may take one of these.
+ * The library keeps no global state that a caller can see, but the text of roam_error(), which each thread has.
  * It has threads of its own, so dlclose() does not unload it. A child of fork() lacks them: it must not use or free its
  * parent's stores, nor what was made in them.
  *
@@ -115,7 +115,7 @@ typedef struct roam_mesh {
 typedef struct roam_world_options {
   size_t size;
   int32_t threads;  /**< at most one a core; 0: one a core */
-  int32_t lossless; /**< 1: bodies stop up to 0.01 mm before a wall instead of 2 mm, for more memory */
+  int32_t lossless; /**< 1: a sweep stops up to 0.01 mm before a wall instead of 2 mm, for more memory */
   const char* up;   /**< of a file: "x", "y", "z", "-x", "-y", "-z"; NULL: y for glTF, else z */
   const char* unit; /**< of a file: "m", "cm", "mm", "ft", "in"; NULL: "m" */
   roam_progress progress;
@@ -182,8 +182,8 @@ ROAM_API roam_status roam_space_get_facts(const roam_space* space, roam_space_fa
 
 /**
  * The name of the object of a triangle, as snprintf: writes at most `capacity` bytes with the final 0, and returns the
- * length of the whole name. 0: no name, or no memory for it. A thread of a store reads its names. It is 0 until then:
- * call again some milliseconds later. For unknown space the name is the reason: "not loaded yet", or why it cannot be
+ * length of the whole name. 0: no name, or no memory for it. A thread of a store reads its names. The length is 0
+ * until then: call again some milliseconds later. For unknown space the name is the reason: "not loaded yet", or why it cannot be
  * used.
  */
 ROAM_API size_t roam_object_name(const roam_space* space, uint64_t triangle, char* name, size_t capacity);
@@ -206,7 +206,7 @@ enum { ROAM_FACE = 0, ROAM_EDGE = 1, ROAM_VERTEX = 2 };
 /** The first impact of a motion. A miss has time 1, and 0 or no number in the rest. */
 typedef struct roam_impact {
   size_t size;
-  double time;      /**< fraction of the motion that is certified free, in [0, 1]; 0: starts in touch */
+  double time;      /**< fraction of the motion that is certified free, in [0, 1]; 0: starts in touch, or within 2 mm */
   double gap;       /**< certified lower bound at `time`; negative: the body starts that deep in the triangle */
   roam_vec3 point;  /**< on the triangle */
   roam_vec3 normal; /**< unit vector from `point` towards the body's axis */
@@ -413,7 +413,7 @@ ROAM_API roam_status roam_walker_get_state(const roam_walker* walker, roam_walke
 ROAM_API roam_status roam_walker_get_settings(const roam_walker* walker, roam_walker_settings* settings);
 /**
  * The contacts of the last call, each once, in the order in which they were last touched: the last one stops a blocked
- * body. Of more than 8, the first 7 and the last. `gap` is to the plane of the contact where the body stopped.
+ * body. If there are more than 8: the first 7 and the last. `gap` is to the plane of the contact where the body stopped.
  */
 ROAM_API roam_status roam_walker_get_contacts(const roam_walker* walker, roam_contact* contacts, size_t capacity,
                                               size_t* count);

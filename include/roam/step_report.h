@@ -86,8 +86,8 @@ struct Segment {
 /// Result of one step. Belongs to the Walker; valid until its next call.
 struct StepReport {
   InlineList<Segment, 64> segments;  ///< in order; empty if the body did not move. Pieces in one direction are merged
-  /// Each touched feature of a triangle once, in the order in which it was last touched. Of more than 8 features, the
-  /// first 7 and the last. `distance` is the gap to the plane of the contact where the body stopped.
+  /// Each touched feature of a triangle once, in the order in which it was last touched. If there are more than 8:
+  /// the first 7 and the last. `distance` is the gap to the plane of the contact where the body stopped.
   InlineList<Contact, 8> contacts;
   /// In order. A very long step may leave out slides and steps, never the events that end it.
   InlineList<Event, 24> events;

@@ -109,9 +109,8 @@ void read_share(const StoreBuildOptions& options, std::uint64_t i, StoreBuildRep
 /// Reads changed parts, and those that share a shard with them, divides the scene into shards, and shares those that
 /// must be built out among tasks, about equally long. Returns the number of tasks; 0 if `unchanged`. Planning again
 /// gives the same plan, and keeps shards that are built; another number of tasks only shares them out anew. Throws
-/// roam::Error if the scene cannot be read, the folder is neither empty nor a store, another build is at work on it
-/// (the message names its process), or memory or disk are too small, or the store in `output` has no code of the key;
-/// roam::Cancelled.
+/// roam::Error if the scene cannot be read, the folder is neither empty nor a store, another build works on it (named by
+/// its process), memory or disk are too small, or the store has no code of the key. Throws roam::Cancelled.
 std::uint64_t plan_store(const StoreBuildOptions& options, StoreBuildReport& report);
 
 /// Builds the shards of task `i` of the plan in `options.output`, 0 <= i < plan_store(). Uses `key`, `memory`,
@@ -144,7 +143,7 @@ struct StorePublication {
 /// one, each whole: every file is written under a temporary name, compared with its SHA-256 and renamed, CURRENT last.
 /// Files of the version before stay, for those who walk in it; older ones are removed. Files of the right size are not
 /// read again. `progress` gets bytes done and bytes in all; if it returns false, roam::Cancelled is thrown. Throws
-/// roam::Error if a file cannot be read, is damaged or cannot be written. What was copied stays then, and the next call
+/// roam::Error if a file cannot be read, is damaged or cannot be written. Copied files stay then, and the next call
 /// continues.
 StorePublication publish_store(const std::filesystem::path& store, const std::filesystem::path& folder,
                                const std::function<bool(std::uint64_t, std::uint64_t)>& progress = {},

@@ -16,14 +16,14 @@ namespace roam {
 enum class Mode : std::uint8_t { fly, walk, ghost };
 [[nodiscard]] const char* to_string(Mode mode);  ///< "fly", "walk" or "ghost"
 
-/// The body and what it can do; the defaults are an adult on foot. Lengths are metres, angles degrees. No height
-/// exceeds Space::reach_limit / 4, and no radius half of that.
+/// The body and what it can do; the defaults are an adult on foot. Lengths are metres, angles degrees. The
+/// height is at most Space::reach_limit / 4 = 250, the radius at most 125.
 struct WalkerSettings {
   double radius = 0.3;  ///< >= 0.001. Too large a body is kept out of rooms; too small a body falls into cracks
   /// >= 0: radius of the support disc, in walk mode; 0: none. The disc carries the body, at the height of the floor,
   /// over each crack that has no room for the disc. Its radius must exceed half the width of the widest crack by 2 mm.
   /// Walls do not stop it. A value between 0 and `radius` counts as `radius`. Unknown space carries it as floor does;
-  /// the report says `met_unknown`. docs/walking.md tells cracks from pits.
+  /// the report says `met_unknown`. docs/walking.md defines cracks and pits.
   double support_radius = 0.0;
   /// >= 2 * radius (equal: a sphere), in every mode: {.radius = 0.3} also flies as a capsule of 1.8 m. A lower body
   /// needs a lower eye and perhaps a lower step: see person() and sphere().

@@ -28,7 +28,7 @@ std::string headline(const Training& t) {
   if (!t.complete) return "INTERRUPTED: this is the best known so far.";
   if (t.paths.empty()) return "NO ROUTE: there is room to stand, but no way to go.";
   const bool has_disc = t.support_radius > t.radius;
-  const std::string all = t.paths.size() == 1 ? "the route" : fmt::format("all {}", counted(t.paths.size(), "route"));
+  const std::string all = t.paths.size() == 1 ? "the path" : fmt::format("all {}", counted(t.paths.size(), "path"));
   const std::string wider =
       t.largest && *t.largest > t.radius ? fmt::format(" Up to {:.2f} m wide would.", 2.0 * *t.largest) : std::string();
   if (t.paper || (!t.feasible && t.contradictions.empty() && has_disc && served(t) == t.paths.size())) {
@@ -37,7 +37,7 @@ std::string headline(const Training& t) {
   }
   if (t.feasible) return fmt::format("PASSES: {} passes {}.{}", body_of(t), all, wider);
   if (served(t) < t.paths.size())
-    return fmt::format("PASSES IN PART: {} passes {} of {}.", body_of(t), served(t), counted(t.paths.size(), "route"));
+    return fmt::format("PASSES IN PART: {} passes {} of {}.", body_of(t), served(t), counted(t.paths.size(), "path"));
   return fmt::format("DOES NOT PASS: {} did not come through on {}.", body_of(t), all);
 }
 
@@ -78,7 +78,7 @@ std::string tested(const Training& t) {
   }
   if (walks == 0) return {};
   std::string text =
-      fmt::format("{}, {} {}", counted(t.paths.size(), "route"), walks, t.mode == Mode::fly ? "flights" : "walks");
+      fmt::format("{}, {} {}", counted(t.paths.size(), "path"), walks, t.mode == Mode::fly ? "flights" : "walks");
   if (!t.contradictions.empty())
     return text + fmt::format("; {} ended otherwise than predicted: please report that", t.contradictions.size());
   if (t.paper) return text;
@@ -88,7 +88,7 @@ std::string tested(const Training& t) {
   return text;
 }
 
-/// Parts of the scene that no route leads through.
+/// Parts of the scene that no path leads through.
 std::string left_out(const Training& t) {
   double area = 0.0;
   std::size_t count = 0;
@@ -111,7 +111,7 @@ std::string separate(const Training& t) {
   if (t.separate <= 1) return {};
   const auto planned = static_cast<std::size_t>(
       std::count_if(t.parts.begin(), t.parts.end(), [](const ConnectedPart& part) { return part.trained; }));
-  return fmt::format("{} parts of the scene have no way between them; routes were planned in {}", t.separate,
+  return fmt::format("{} parts of the scene have no way between them; paths were planned in {}", t.separate,
                      planned == t.separate ? "each" : fmt::format("{} of them", planned));
 }
 
