@@ -353,8 +353,9 @@ void add_build(CLI::App& program, Run& run) {
   verb->option_defaults()->group("Many machines");
   const auto given = std::make_shared<Given>();
   CLI::Option* plan =
-      verb->add_option("--plan", given->plan,
-                       "Only read changed parts, and plan N tasks (default: the most tasks of about equal length, at most 1000)")
+      verb->add_option(
+              "--plan", given->plan,
+              "Only read changed parts, and plan N tasks (default: the most tasks of about equal length, at most 1000)")
           ->expected(0, 1)
           ->type_name("N");
   CLI::Option* shard =

@@ -10,7 +10,8 @@
 namespace roam {
 
 /// Unusable input: a setting out of range, an unreadable file, a coordinate that is not a number. what() is text for
-/// the user: what is wrong, where, and what to do. A function that throws it has changed nothing, unless its header says so.
+/// the user: what is wrong, where, and what to do. A function that throws it has changed nothing, unless its header
+/// says so.
 class Error : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

@@ -38,11 +38,11 @@
  *
  * Threads. Calls that take a handle as pointer to const may run at the same time in any threads. Calls that take it
  * otherwise need it alone. In a store, roam_space_update(), roam_space_load() and roam_route_follow() change it, all
- * spaces made from it and the walkers in these. roam_filtered_ignore_only() changes its space, all spaces made from that
- * and their walkers. Meanwhile only roam_object_name() and the functions _free may take one of these.
- * The library keeps no global state that a caller can see, but the text of roam_error(), which each thread has.
- * It has threads of its own, so dlclose() does not unload it. A child of fork() lacks them: it must not use or free its
- * parent's stores, nor what was made in them.
+ * spaces made from it and the walkers in these. roam_filtered_ignore_only() changes its space, all spaces made from
+ * that and their walkers. Meanwhile only roam_object_name() and the functions _free may take one of these. The library
+ * keeps no global state that a caller can see, but the text of roam_error(), which each thread has. It has threads of
+ * its own, so dlclose() does not unload it. A child of fork() lacks them: it must not use or free its parent's stores,
+ * nor what was made in them.
  *
  * Callbacks. A roam_progress is called by one thread at a time, not always the caller's, several times a second.
  * It returns 0 to go on, or another number to make the function return ROAM_CANCELLED soon. It must not throw.
@@ -183,8 +183,8 @@ ROAM_API roam_status roam_space_get_facts(const roam_space* space, roam_space_fa
 /**
  * The name of the object of a triangle, as snprintf: writes at most `capacity` bytes with the final 0, and returns the
  * length of the whole name. 0: no name, or no memory for it. A thread of a store reads its names. The length is 0
- * until then: call again some milliseconds later. For unknown space the name is the reason: "not loaded yet", or why it cannot be
- * used.
+ * until then: call again some milliseconds later. For unknown space the name is the reason: "not loaded yet", or why it
+ * cannot be used.
  */
 ROAM_API size_t roam_object_name(const roam_space* space, uint64_t triangle, char* name, size_t capacity);
 
@@ -413,7 +413,8 @@ ROAM_API roam_status roam_walker_get_state(const roam_walker* walker, roam_walke
 ROAM_API roam_status roam_walker_get_settings(const roam_walker* walker, roam_walker_settings* settings);
 /**
  * The contacts of the last call, each once, in the order in which they were last touched: the last one stops a blocked
- * body. If there are more than 8: the first 7 and the last. `gap` is to the plane of the contact where the body stopped.
+ * body. If there are more than 8: the first 7 and the last. `gap` is to the plane of the contact where the body
+ * stopped.
  */
 ROAM_API roam_status roam_walker_get_contacts(const roam_walker* walker, roam_contact* contacts, size_t capacity,
                                               size_t* count);

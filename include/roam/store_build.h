@@ -109,8 +109,8 @@ void read_share(const StoreBuildOptions& options, std::uint64_t i, StoreBuildRep
 /// Reads changed parts, and those that share a shard with them, divides the scene into shards, and shares those that
 /// must be built out among tasks, about equally long. Returns the number of tasks; 0 if `unchanged`. Planning again
 /// gives the same plan, and keeps shards that are built; another number of tasks only shares them out anew. Throws
-/// roam::Error if the scene cannot be read, the folder is neither empty nor a store, another build works on it (named by
-/// its process), memory or disk are too small, or the store has no code of the key. Throws roam::Cancelled.
+/// roam::Error if the scene cannot be read, the folder is neither empty nor a store, another build works on it (named
+/// by its process), memory or disk are too small, or the store has no code of the key. Throws roam::Cancelled.
 std::uint64_t plan_store(const StoreBuildOptions& options, StoreBuildReport& report);
 
 /// Builds the shards of task `i` of the plan in `options.output`, 0 <= i < plan_store(). Uses `key`, `memory`,

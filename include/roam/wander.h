@@ -10,8 +10,8 @@
 ///     while (!wander.done()) wander.advance();
 ///     std::cout << wander.result().length << " m\n";
 ///
-/// From time to time a Wander probes strides in all directions with the body itself, and heads for places where the body
-/// has been least. On the way the Walker moves the body, as along a Route. Nothing is random: the same scene and
+/// From time to time a Wander probes strides in all directions with the body itself, and heads for places where the
+/// body has been least. On the way the Walker moves the body, as along a Route. Nothing is random: the same scene and
 /// settings give the same walk.
 
 #include <cstddef>

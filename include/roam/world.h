@@ -7,8 +7,9 @@
 ///     if (s.hit) std::cout << world.object_name(s.triangle) << " at " << s.time << "\n";
 ///
 /// The promises of space.h are tested up to 6.4e6 m from the origin, and with triangles from 0.1 mm to 10 km in one
-/// world; in a lossless world they hold with 1e-5 m instead of 2 mm. The same input gives the same bits on every machine, instruction set,
-/// thread count and run. Queries never lock. Nothing is unknown. Do not move a World that a Walker uses.
+/// world; in a lossless world they hold with 1e-5 m instead of 2 mm. The same input gives the same bits on every
+/// machine, instruction set, thread count and run. Queries never lock. Nothing is unknown. Do not move a World that a
+/// Walker uses.
 
 #include <cstdint>
 #include <functional>

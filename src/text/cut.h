@@ -13,7 +13,8 @@ namespace roam {
   std::size_t end = most;
   // A byte 10xxxxxx continues a character of UTF-8, which has at most four.
   for (int k = 0; k < 3 && end > 0 && (static_cast<unsigned char>(text[end]) & 0xc0) == 0x80; ++k) --end;
-  return text.substr(0, end);
+  text.resize(end);
+  return text;
 }
 
 }  // namespace roam

@@ -46,6 +46,7 @@ class MemoryRunsOut : public testing::Test {
     given_.write("way.path", "# roam: mode walk radius 0.25 height 1.7 eye 1.5 step 0.3 slope 45\n2 2 1\n8 8 1\n");
     given_.write("sizes.txt", "0.2x1.8                          # so wide and high\n0.3x1.8\n");
     given_.write("queries.csv", "1,1,1,2,0,0,0.3\n");
+    given_.write("settings.json", R"({"quality": "full", "keys": {"jump": "j"}})");
     for (const char* const arguments :
          {"build room.obj -o room.roam", "walk room.obj --path way.path --certify walk.cert",
           "build room.obj -o hurt.roam"})
@@ -151,7 +152,8 @@ INSTANTIATE_TEST_SUITE_P(
                     VerbCase{"make", "make city --triangles 10000 -o new.ply"},
                     VerbCase{"build", "build room.obj -o new.roam"}, VerbCase{"verify", "verify room.roam"},
                     VerbCase{"repair", "verify hurt.roam --repair room.obj"},
-                    VerbCase{"check", "check walk.cert room.obj"}, VerbCase{"publish", "publish room.roam web"}),
+                    VerbCase{"check", "check walk.cert room.obj"}, VerbCase{"publish", "publish room.roam web"},
+                    VerbCase{"settings", "view --settings settings.json --keys"}),
     [](const auto& verb) { return verb.param.name; });
 
 }  // namespace

@@ -1,6 +1,6 @@
 #include "view/freeing.h"
 
-#include <system_error>
+#include <exception>
 
 namespace roam::app {
 
@@ -11,8 +11,8 @@ void Freeing::free(std::shared_ptr<const void> what) {
       what.reset();
       before = {};
     });
-  } catch (const std::system_error&) {
-    // There is no thread: it is freed by now, here.
+  } catch (const std::exception&) {
+    // There is no thread, or no memory for one: it is freed by now, here.
     return;
   }
 }

@@ -40,24 +40,29 @@ void Loading::tell(LoadState::Phase phase, double share, std::uint64_t triangles
   state_.seconds_left = is_known && share < 1.0 ? seconds * (1.0 - share) / done : -1.0;
 }
 
+void Loading::fail(const Error& error) {
+  const std::lock_guard lock(mutex_);
+  state_.error = error;
+  state_.phase = LoadState::Phase::failed;
+}
+
 void Loading::run() {
-  Error error("");
   try {
-    load_();
-    return;
-  } catch (const Cancelled&) {
-    error = Error("cancelled");
+    try {
+      load_();
+      return;
+    } catch (const Cancelled&) {
+      fail(Error("cancelled"));
+    } catch (const std::bad_alloc&) {
+      throw;
+    } catch (const Error& error) {
+      fail(error);
+    } catch (const std::exception& error) {
+      fail(Error(error.what()));
+    }
   } catch (const std::bad_alloc&) {
-    error = Error("out of memory; build a store of it, which takes little (roam build), or take a smaller scene");
-  } catch (const Error& e) {
-    error = e;
-  } catch (const std::exception& e) {
-    error = Error(e.what());
+    with_state([&](LoadState& state) { state.phase = LoadState::Phase::failed; });
   }
-  with_state([&](LoadState& state) {
-    state.phase = LoadState::Phase::failed;
-    state.error = error;
-  });
 }
 
 }  // namespace roam::app

@@ -41,6 +41,7 @@ class Loading {
 
  private:
   void run();
+  void fail(const Error& error);
 
   std::function<void()> load_;
   std::atomic<bool> cancelled_ = false;

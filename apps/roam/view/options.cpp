@@ -176,9 +176,10 @@ void ViewOptions::add_to(CLI::App& verb) {
       ->type_name("S");
   verb.option_defaults()->group("Body, in metres");
   body.add_to(verb);
-  verb.add_flag("--adapt", adapt,
-                "Learn on the way: a smaller body at an opening that stops it, a larger support disc everywhere after a fall; "
-                "SCENE.roam.json keeps them");
+  verb.add_flag(
+      "--adapt", adapt,
+      "Learn on the way: a smaller body at an opening that stops it, a larger support disc everywhere after a fall; "
+      "SCENE.roam.json keeps them");
   verb.option_defaults()->group("Window");
   verb.add_option("--size", size, "Size of the picture in pixels (default: 1280x720)")->type_name("WxH");
   verb.add_flag("--fullscreen", fullscreen, "Fill the screen");

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <exception>
 #include <limits>
+#include <new>
 #include <osg/Referenced>
 #include <utility>
 
@@ -185,7 +186,11 @@ PageSource::Result PageSource::readNode(const std::string& name, const osgDB::Op
     // The coarser page stays visible.
     const std::lock_guard lock(mutex_);
     pages_[name].missing = true;
-    if (missing_++ == 0) problem_ = problem.what();
+    try {
+      if (missing_++ == 0) problem_ = problem.what();
+    } catch (const std::bad_alloc&) {
+      // The report names no reason.
+    }
   }
   --under_way_;
   ++events_;

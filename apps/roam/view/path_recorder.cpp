@@ -28,7 +28,7 @@ PathRecorder::PathRecorder(const std::filesystem::path& file, const WalkerSettin
 PathRecorder::~PathRecorder() {
   try {
     if (!closed_) close();
-  } catch (const Error&) {  // the first error is the one to report
+  } catch (...) {  // the first error is the one to report
   }
 }
 

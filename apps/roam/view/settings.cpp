@@ -154,11 +154,11 @@ ViewSettings read_settings(const std::filesystem::path& file) {
     if (!settings.hud) all.fail("hud", "must be \"plain\", \"full\", \"minimal\" or \"off\"");
   }
   if (const auto quality = all.take("quality")) {
-    const auto named = [&](const char* name) { return *quality == name; };
-    if (std::none_of(quality_names.begin(), quality_names.end(), named)) {
+    const std::string name = quality->is_string() ? quality->get<std::string>() : "";
+    if (std::count(quality_names.begin(), quality_names.end(), name) == 0) {
       all.fail("quality", fmt::format("must be \"{}\"", fmt::join(quality_names, "\", \"")));
     }
-    settings.quality = quality->get<std::string>();
+    settings.quality = name;
   }
   settings.edges = all.flag("edges");
   settings.picture_scale = all.number("picture_scale", 1.0, largest_picture_scale);

@@ -26,7 +26,8 @@ struct LoadState {
   double share = 0.0;           ///< of this phase, in [0, 1]
   std::uint64_t triangles = 0;  ///< so far
   double seconds_left = -1.0;   ///< negative: not known yet
-  Error error{""};              ///< set if the phase is failed
+  /// Why, if the phase is failed. Without memory nothing else can be said, so it is said from the beginning.
+  Error error{"out of memory; build a store of it, which takes little (roam build), or take a smaller scene"};
 };
 
 [[nodiscard]] inline bool is_over(const LoadState& state) {

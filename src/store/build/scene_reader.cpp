@@ -181,7 +181,11 @@ bool SceneReader::read(const std::vector<std::size_t>& numbers) {
   };
   {
     std::vector<std::jthread> threads;
-    for (int t = 1; t < readers; ++t) threads.emplace_back(read_some);
+    try {
+      for (int t = 1; t < readers; ++t) threads.emplace_back(read_some);
+    } catch (const std::exception&) {
+      // Fewer threads read.
+    }
     read_some();
   }
   for (const std::exception_ptr& failure : failures) {
