@@ -308,11 +308,12 @@ TEST(Resize, HasTheClearanceOfItsPlaceAndNotOfTheWayThere) {
   Walker walker(world, WalkerSettings::sphere(0.5), Mode::fly, {0.5011, 0.0, 0.0});
   walker.step({.velocity = {0.4, 0.0, 0.0}}, 1.0);
   ASSERT_NEAR(walker.report().axis_clearance, 0.5011, 1e-3);
-  const StepReport& r = walker.resize(0.1, 0.0);
+  ASSERT_TRUE(walker.resize(0.1, 0.0));
+  const StepReport& r = walker.report();
   const double gap = 0.8011;
   EXPECT_GE(r.axis_clearance - 0.1, 0.75 * gap - 2.0 * walker.skin() - 2e-3);
   EXPECT_LE(r.axis_clearance - 0.1, gap + 1e-6);
-  EXPECT_EQ(r.segments.back().axis_clearance, r.axis_clearance);
+  EXPECT_NEAR(r.segments.back().axis_clearance, r.axis_clearance, 1e-5);
 }
 
 TEST(Resize, OfAGhostIsHadWhenItIsABodyAgain) {
