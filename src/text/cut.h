@@ -14,6 +14,7 @@ namespace roam {
   // A byte 10xxxxxx continues a character of UTF-8, which has at most four.
   for (int k = 0; k < 3 && end > 0 && (static_cast<unsigned char>(text[end]) & 0xc0) == 0x80; ++k) --end;
   text.resize(end);
+  text.shrink_to_fit();  // never throws, unlike a copy
   return text;
 }
 
