@@ -47,7 +47,7 @@ struct ProbeOptions {
   SceneOptions scene;
   ProbeQuestion question;
   std::vector<double> from, to;
-  std::string mode = "walk";
+  std::optional<Mode> mode;
   std::optional<double> radius, height, step, slope, support_radius, spacing;
   std::optional<std::string> matrix;  ///< sizes, or a file of sizes
   std::optional<std::filesystem::path> picture, path;
@@ -129,7 +129,7 @@ constexpr std::uint64_t bytes_a_place = 128;
 
 ProbeQuestion question_of(const ProbeOptions& o) {
   ProbeQuestion q;
-  q.mode = o.mode == "fly" ? Mode::fly : Mode::walk;
+  q.mode = o.mode.value_or(Mode::walk);
   const auto place = [](const char* option, const std::vector<double>& value) {
     for (const double v : value) {
       if (!(std::abs(v) <= coordinate_limit))
@@ -369,9 +369,7 @@ void add_probe(CLI::App& program, Run& run) {
       ->type_name("H");
   add_sphere_to(*verb, o.sphere);
   verb->add_option("--matrix", o.matrix, "Several sizes in one run: 0.3,0.4x1.9 or a file of them")->type_name("SIZES");
-  verb->add_option("--mode", o.mode, "walk: on the ground; fly: through the air (default: walk)")
-      ->check(one_of({"walk", "fly"}))
-      ->type_name("MODE");
+  add_mode_to(*verb, o.mode, {Mode::walk, Mode::fly}, "walk: on the ground; fly: through the air (default: walk)");
   verb->add_option("--step", o.step, "Highest step (stair, kerb) that the body climbs, at most H / 2 (default: 0.3)")
       ->check(from_to(0.0, 1000.0))
       ->type_name("M");

@@ -35,7 +35,8 @@ namespace {
 struct TrainVerbOptions {
   SceneOptions scene;
   TrainOptions train;
-  std::string mode = "walk", method = "interval";
+  std::optional<Mode> mode;
+  std::string method = "interval";
   double slope = 45.0;
   std::optional<std::filesystem::path> picture, profile;
   std::optional<double> height, radius_min, radius_max, step;
@@ -130,7 +131,7 @@ void describe_body(TrainVerbOptions& o) {
 }
 
 ExitStatus train(TrainVerbOptions o) {
-  o.train.mode = o.mode == "fly" ? Mode::fly : Mode::walk;
+  o.train.mode = o.mode.value_or(Mode::walk);
   o.train.method = o.method == "paper" ? Method::paper : Method::interval;
   o.train.threads = o.scene.threads;
   describe_body(o);
@@ -228,9 +229,7 @@ void add_train(CLI::App& program, Run& run) {
           "(default: 1)")
       ->check(from_to(0.1, 100.0))
       ->type_name("R");
-  verb->add_option("--mode", o.mode, "walk: on the ground; fly: through the air (default: walk)")
-      ->check(one_of({"walk", "fly"}))
-      ->type_name("MODE");
+  add_mode_to(*verb, o.mode, {Mode::walk, Mode::fly}, "walk: on the ground; fly: through the air (default: walk)");
   verb->add_option("--step", o.step, "Highest step (stair, kerb) that the body climbs, at most H / 2 (default: 0.3)")
       ->check(from_to(0.0, 100.0))
       ->type_name("M");

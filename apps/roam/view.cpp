@@ -52,12 +52,7 @@ std::string keys_of(const ViewSettings& settings) {
 /// The scene's profile, unless the options describe a body.
 std::optional<SceneProfile> profile_for(const ViewOptions& options, const std::optional<RecordedBody>& recorded) {
   if (options.scene.no_profile || options.body.describe_a_body()) return std::nullopt;
-  const std::string mode = options.mode.value_or(to_string(recorded ? recorded->mode : Mode::walk));
-  return find_scene_profile(options.scene,
-                            mode == "ghost" ? Mode::ghost
-                            : mode == "fly" ? Mode::fly
-                                            : Mode::walk,
-                            recorded);
+  return find_scene_profile(options.scene, options.mode.value_or(recorded ? recorded->mode : Mode::walk), recorded);
 }
 
 /// Verifies every move: against the scene as read, or the store as stored.

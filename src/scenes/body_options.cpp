@@ -4,8 +4,10 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <vector>
 
 #include "cli/exit_status.h"
+#include "cli/values.h"
 #include "math/step_limit.h"
 
 namespace roam::app {
@@ -26,6 +28,16 @@ BodySizes sizes_of(const RecordedBody& recorded) {
 
 BodySizes sizes_of(const Profile& profile) {
   return {profile.radius, profile.height, std::nullopt, profile.step, profile.slope_degrees, profile.support_radius};
+}
+
+void add_mode_to(CLI::App& verb, std::optional<Mode>& mode, std::initializer_list<Mode> modes,
+                 const std::string& description) {
+  std::vector<std::string> names;
+  for (const Mode one : modes) names.emplace_back(to_string(one));
+  verb.add_option_function<std::string>(
+          "--mode", [&mode](const std::string& name) { mode = mode_named(name); }, description)
+      ->check(one_of(names))
+      ->type_name("MODE");
 }
 
 void demand_possible_step(double step, double height) {

@@ -2,7 +2,9 @@
 /// \file
 /// The body of a verb: as its options describe it, else as a path or a profile states it, else a person.
 
+#include <initializer_list>
 #include <optional>
+#include <string>
 
 #include "roam/profile.h"
 #include "roam/walker_settings.h"
@@ -20,6 +22,10 @@ namespace roam::app {
 /// Height of the camera of a body without a given one, in m: a person's 1.6, but on the axis, a radius away from every
 /// surface.
 [[nodiscard]] double default_eye(double radius, double height);
+
+/// Adds --mode with the names of these modes. `mode` stays empty without it.
+void add_mode_to(CLI::App& verb, std::optional<Mode>& mode, std::initializer_list<Mode> modes,
+                 const std::string& description);
 
 /// Throws UsageError if no body of that height steps as high, both in m.
 void demand_possible_step(double step, double height);

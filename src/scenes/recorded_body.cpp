@@ -21,13 +21,6 @@ namespace {
 constexpr const char* mode_mark = "# roam: mode ";
 constexpr const char* frame_mark = "# roam: frame ";
 
-std::optional<Mode> parse_mode(const std::string& text) {
-  for (const Mode mode : {Mode::fly, Mode::walk, Mode::ghost}) {
-    if (text == to_string(mode)) return mode;
-  }
-  return std::nullopt;
-}
-
 std::string describe(double radius, double height) {
   return height > 2.0 * radius ? fmt::format("radius {:g} m, height {:g} m", radius, height)
                                : fmt::format("a sphere of radius {:g} m", radius);
@@ -38,7 +31,7 @@ void add_to(std::optional<RecordedBody>& body, const std::string& line, const st
   std::istringstream words = stream_of(after);
   std::string word;
   words >> word;
-  const std::optional<Mode> mode = parse_mode(word);
+  const std::optional<Mode> mode = mode_named(word);
   RecordedBody read;
   WalkerSettings& s = read.settings;
   bool good = mode.has_value();
@@ -116,6 +109,13 @@ class Marked {
 };
 
 }  // namespace
+
+std::optional<Mode> mode_named(std::string_view name) {
+  for (const Mode mode : {Mode::fly, Mode::walk, Mode::ghost}) {
+    if (name == to_string(mode)) return mode;
+  }
+  return std::nullopt;
+}
 
 std::string frame_line(const SceneFrame& frame) {
   return fmt::format("{}up {} unit {}", frame_mark, to_string(frame.up), to_string(frame.unit));

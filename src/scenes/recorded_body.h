@@ -13,6 +13,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "roam/error.h"
@@ -29,6 +30,9 @@ struct RecordedBody {
   /// Radius, height, eye, step, slope and support disc; the rest has its default.
   WalkerSettings settings{};
 };
+
+/// The mode of this name, as of to_string(), if there is one.
+[[nodiscard]] std::optional<Mode> mode_named(std::string_view name);
 
 /// A further line; the first is body_line() of path_file.h.
 [[nodiscard]] std::string mode_line(Mode mode);

@@ -244,7 +244,7 @@ class OverTiles : public DrivenSession {
  public:
   explicit OverTiles(const MadeQuadtree& made, std::uint64_t memory = 1ull << 30) {
     options.scene.scenes = {made.write(folder.file("tiles"))};
-    options.mode = "fly";
+    options.mode = Mode::fly;
     options.at = {20, -20, 3, 0, -20};
     options.page_memory = memory;
     begin();

@@ -202,7 +202,7 @@ TEST(ViewPlan, RefusesWhatCannotBeMeant) {
   idle.headless = true;
   EXPECT_TRUE(contains(error_of([&] { static_cast<void>(make_plan(idle, {})); }), "--screenshot"));
   ViewOptions ghost = of_a_scene();
-  ghost.mode = "ghost";
+  ghost.mode = Mode::ghost;
   ghost.path = "tour.path";
   EXPECT_THROW(static_cast<void>(make_plan(ghost, {})), UsageError);
 

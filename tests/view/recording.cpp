@@ -199,7 +199,7 @@ TEST(RecordedBody, IsTheBodyOfThePlanUnlessOptionsSayOtherwise) {
   EXPECT_EQ(same.mode, Mode::fly);
   EXPECT_EQ(same.note, "");
   options.body.radius = 0.4;
-  options.mode = "walk";
+  options.mode = Mode::walk;
   const ViewPlan other = make_plan(options, settings, body);
   EXPECT_EQ(other.walker.height, 1.8);
   EXPECT_EQ(other.walker.slope_degrees, 45.0);

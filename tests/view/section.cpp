@@ -373,7 +373,7 @@ Shot from_above(const std::vector<std::string>& section) {
   view_stores::Driven d;
   d.write_scene();
   d.options.at = {10, 0, 12, 0, -85};
-  d.options.mode = "ghost";
+  d.options.mode = Mode::ghost;
   d.options.size = "320x180";
   d.options.section = section;
   d.begin();

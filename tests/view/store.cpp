@@ -333,7 +333,7 @@ TEST(ViewStore, HoldsWhereATileIsDamagedAndNamesIt) {
   d.options.scene.scenes = {scene};
   const std::string store = d.build();
   damage_tile_at(store, 37.0, 37.0);
-  d.options.mode = "fly";
+  d.options.mode = Mode::fly;
   d.options.at = {37, 37, 3, 0};
   d.begin();
   d.press('q');

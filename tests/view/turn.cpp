@@ -209,7 +209,7 @@ TEST(Turn, KeepsTheModeOfTheCommandLine) {
   NextSession next;
   next.mode = Mode::fly;
   static_cast<void>(go_on(options, next, given));
-  EXPECT_EQ(options.mode, "fly") << "nothing has moved";
+  EXPECT_EQ(options.mode, Mode::fly) << "nothing has moved";
   next.frame = SceneFrame{.up = UpAxis::y};
   static_cast<void>(go_on(options, next, given));
   EXPECT_FALSE(options.mode);

@@ -161,9 +161,7 @@ void ViewOptions::add_to(CLI::App& verb) {
   verb.add_option("--bookmark", bookmark, "Start at a bookmark, a place that the key B kept")
       ->excludes(from)
       ->type_name("NAME");
-  verb.add_option("--mode", mode, "walk, fly or ghost (default: walk)")
-      ->check(one_of({"fly", "walk", "ghost"}))
-      ->type_name("MODE");
+  add_mode_to(verb, mode, {Mode::fly, Mode::walk, Mode::ghost}, "walk, fly or ghost (default: walk)");
   verb.option_defaults()->group("Path");
   auto* replay = verb.add_option("--path", path, "Follow this path file as `roam walk` does, with its body, and end")
                      ->excludes(from)
@@ -281,8 +279,7 @@ ViewPlan make_plan(const ViewOptions& options, const ViewSettings& settings,
     throw UsageError(
         Error::at(settings.file.string(), fmt::format("{} (with {})", error.what(), settings.file.string())));
   }
-  const std::string mode = options.mode.value_or(to_string(recorded ? recorded->mode : Mode::walk));
-  plan.mode = mode == "fly" ? Mode::fly : mode == "ghost" ? Mode::ghost : Mode::walk;
+  plan.mode = options.mode.value_or(recorded ? recorded->mode : Mode::walk);
   plan.fov = options.fov.value_or(settings.fov.value_or(plan.fov));
   plan.sensitivity = settings.sensitivity.value_or(plan.sensitivity);
   plan.invert_y = settings.invert_y.value_or(plan.invert_y);

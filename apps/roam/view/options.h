@@ -29,7 +29,7 @@ namespace roam::app {
 struct ViewOptions {
   SceneOptions scene;
   std::filesystem::path store;  ///< empty: search beside the scene
-  std::optional<std::string> mode;
+  std::optional<Mode> mode;
   BodyOptions body;
   std::optional<double> speed, fov, picture_scale;
   std::string size = "1280x720";

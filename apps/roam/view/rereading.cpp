@@ -32,7 +32,7 @@ std::string go_on(ViewOptions& options, const NextSession& next, const ViewOptio
   }
   const Vec3& place = next.at.position;
   options.at = {place.x, place.y, place.z, next.at.yaw, next.at.pitch};
-  options.mode = to_string(next.mode);
+  options.mode = next.mode;
   if (next.leave_out.empty()) {
     options.scene.ignore = given.scene.ignore;
     return "all objects are shown";

@@ -95,9 +95,8 @@ void WalkOptions::add_to(CLI::App& verb) {
       ->check(positive())
       ->type_name("S");
   verb.option_defaults()->group("Body, in metres");
-  verb.add_option("--mode", mode, "walk: on the ground; fly: without gravity; ghost: through walls (default: walk)")
-      ->check(one_of({"fly", "walk", "ghost"}))
-      ->type_name("MODE");
+  add_mode_to(verb, mode, {Mode::fly, Mode::walk, Mode::ghost},
+              "walk: on the ground; fly: without gravity; ghost: through walls (default: walk)");
   body.add_to(verb);
   verb.option_defaults()->group("Results");
   verb.add_option("--trace", trace, "Write every step to this CSV file (-: standard output)")->type_name("FILE");

@@ -25,7 +25,7 @@ struct WalkOptions {
   std::filesystem::path path;
   std::optional<double> wander;  ///< seconds
   std::vector<double> from;      ///< start of wandering: x, y, z; or empty
-  std::optional<std::string> mode;
+  std::optional<Mode> mode;
   BodyOptions body;
   WalkerSettings settings;               ///< see walker_settings()
   std::optional<RecordedBody> recorded;  ///< the body that recorded the path
@@ -43,10 +43,7 @@ struct WalkOptions {
   [[nodiscard]] bool checks() const { return verify || !against.scenes.empty(); }
   /// Whether every move is recorded, to be verified or certified.
   [[nodiscard]] bool keeps_moves() const { return checks() || !certify.empty(); }
-  [[nodiscard]] Mode walker_mode() const {
-    if (!mode) return recorded ? recorded->mode : Mode::walk;
-    return *mode == "fly" ? Mode::fly : *mode == "ghost" ? Mode::ghost : Mode::walk;
-  }
+  [[nodiscard]] Mode walker_mode() const { return mode.value_or(recorded ? recorded->mode : Mode::walk); }
 
   /// Adds all options to the verb.
   void add_to(CLI::App& verb);
