@@ -1,6 +1,7 @@
 // What is written to a disk that is full, or beyond a limit of the system: a sentence, a status, and no half of a file.
 #include <gtest/gtest.h>
 
+#include "cli_scenes.h"
 #include "messages.h"
 #include "program.h"
 
@@ -84,8 +85,9 @@ TEST_F(FullDisk, LeavesATraceOfBefore) {
 }
 
 TEST_F(FullDisk, IsSaidOfAWalkThatIsInterrupted) {
+  const std::string closed = folder_.write("closed.obj", room_obj());  // a walk leaves an open scene at last
   const ProgramResult result = run_program("/bin/sh",
-                                           {"-c", "ulimit -f 2; exec " ROAM_PROGRAM " walk " + scene_ +
+                                           {"-c", "ulimit -f 2; exec " ROAM_PROGRAM " walk " + closed +
                                                       " --wander 1e9 --picture " + folder_.file("disk/way.svg")},
                                            {.interrupt_after = 1});
   EXPECT_EQ(result.status, 130) << result.err;

@@ -238,6 +238,17 @@ TEST(Outputs, AreRefusedBeforeTheWorkIfThereIsNoFolderBehindALink) {
   EXPECT_TRUE(contains(probed.err, "there is no folder " + folder.file("absent"))) << probed.err;
 }
 
+TEST(Outputs, OfAWalkAreRefusedBeforeItsSceneIsRead) {
+  const TestFolder folder;
+  const std::string path = folder.write("way.path", "1 1 1\n2 2 1\n");
+  for (const char* const option : {"--trace", "--picture", "--certify"}) {
+    const ProgramResult walked = run_program(
+        ROAM_PROGRAM, {"walk", folder.file("absent.obj"), "--path", path, option, folder.file("none/way.svg")});
+    EXPECT_EQ(walked.status, 2) << option;
+    EXPECT_TRUE(contains(walked.err, "way.svg: there is no folder " + folder.file("none"))) << walked.err;
+  }
+}
+
 TEST(Outputs, ThatAreNotWrittenLeaveAnEarlierFileAndSaySo) {
   const TestFolder folder;
   const std::string scene = folder.write("scene.obj", room_obj()),

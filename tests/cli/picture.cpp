@@ -144,8 +144,8 @@ TEST(WalkPicture, DoesNotOverwriteWhatIsReadOrTheTrace) {
 TEST(WalkPicture, FailsEarlyWhereItCannotBeWritten) {
   Picture picture;
   picture.draw("no/such/folder/tour.svg");
-  EXPECT_EQ(picture.result.status, 1);
-  EXPECT_TRUE(contains(picture.result.err, "cannot write ")) << picture.result.err;
+  EXPECT_EQ(picture.result.status, 2);
+  EXPECT_TRUE(contains(picture.result.err, "there is no folder ")) << picture.result.err;
   EXPECT_TRUE(picture.result.out.empty());
 }
 

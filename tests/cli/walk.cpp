@@ -381,7 +381,7 @@ TEST(WalkVerb, TracesEveryStep) {
 
 TEST(WalkVerb, SaysThatTheTraceCannotBeWritten) {
   const Walk walk(room_obj(), "2 0 0.9\n3 0 0.9\n", {"--trace", "/no/such/folder/t.csv"});
-  EXPECT_EQ(walk.result.status, 1);
+  EXPECT_EQ(walk.result.status, 2);
   EXPECT_TRUE(contains(walk.result.err, "/no/such/folder/t.csv")) << walk.result.err;
 }
 

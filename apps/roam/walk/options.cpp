@@ -72,6 +72,8 @@ void check_outputs(const WalkOptions& options) {
                                {"--picture", options.picture},
                                {"--certify", options.certify, certificates()}};
   demand_no_overwriting(inputs, outputs);
+  if (!options.trace.empty() && !is_standard(options.trace)) check_output("--trace", options.trace);
+  if (!options.picture.empty()) check_output("--picture", options.picture);
   if (options.certify.empty()) return;
   check_output("--certify", options.certify);
   if (options.scene.name_a_store() && options.against.scenes.empty()) {
