@@ -113,8 +113,8 @@ std::vector<ProbedSize> sizes_of(const ProbeOptions& o) {
     sizes = matrix_sizes(*o.matrix, o.sphere);
   }
   for (const ProbedSize& size : sizes) {
-    if (o.step && !o.sphere) demand_possible_step(*o.step, size.height);
     try {
+      if (o.step && size.height > 2.0 * size.radius) demand_possible_step(*o.step, size.height);
       static_cast<void>(probed_body(o.question, size, o.slope_degrees()));
     } catch (const Error& error) {
       if (!o.matrix) throw UsageError(error);
@@ -272,6 +272,19 @@ Json report_of(const ProbeOptions& o, const Surveyed& scene, std::span<const Pro
   return json;
 }
 
+/// Tells of capsules so low that they are searched with lower steps than --step.
+void note_low_steps(const ProbeQuestion& question, std::span<const ProbedSize> sizes) {
+  constexpr double noted = 1e-3;  // m
+  for (const ProbedSize& size : sizes) {
+    const double climbs = climbed(question, size);
+    if (question.mode == Mode::fly || climbs > std::min(question.step, size.radius) - noted) continue;
+    tell(
+        fmt::format("note: bodies {:g} m high are searched with steps up to {:.2f} m, their height minus a diameter of "
+                    "{:g} m",
+                    size.height, climbs, 2.0 * size.radius));
+  }
+}
+
 ExitStatus probe(ProbeOptions o) {
   take_kept_frame(o.scene);
   o.question = question_of(o);
@@ -283,6 +296,7 @@ ExitStatus probe(ProbeOptions o) {
   inputs.push_back({"the profile", profile_path(o.scene.scenes)});
   const NamedFile outputs[] = {{"--path", o.path.value_or(""), paths()}, {"--picture", o.picture.value_or("")}};
   demand_no_overwriting(inputs, outputs);
+  note_low_steps(o.question, sizes);
   std::optional<tbb::global_control> limit;
   if (o.scene.threads > 0) {
     limit.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(o.scene.threads));
@@ -333,7 +347,7 @@ and the missing width. The widest way decides. It is certified, and a walker fol
 status 0 for yes; 3 for no, and if the walker does not get through; with --matrix, 0 if all sizes get through.
 
 Places are of a person's feet or eyes, and are moved down to the floor; in flight, of the centre. The body steps over
-anything lower than --step; a sphere climbs at most its radius. --path writes the way of the body's centre, with the
+anything lower than --step; a sphere climbs at most its radius, a capsule at most its height minus its diameter. --path writes the way of the body's centre, with the
 body, for `roam walk --path FILE --verify`. --matrix takes sizes R or RxH, separated by commas, or a file of them. R is
 a person of this radius, as with --radius; with --sphere it is a sphere. Ways through the air are found for spheres.
 

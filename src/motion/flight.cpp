@@ -50,7 +50,7 @@ double flight_seconds(const Move& move, const Gait& gait, const Vec3& velocity) 
   if (gait.rise_speed > 0.0 && move.settings.gravity > 0.0) {
     seconds = std::min(seconds, gait.rise_speed / move.settings.gravity);
   }
-  // What carries a falling body is looked for in all of its fall at once.
+  // No fall is longer than a query reaches: a support disc looks for floor along all of it.
   const double fastest = std::max(terminal_speed, std::abs(gait.rise_speed));
   seconds = std::min(seconds, Space::reach_limit / fastest);
   const double speed = glm::length(velocity);

@@ -17,7 +17,11 @@ const StepReport& Walker::State::set_mode(Mode mode) {
   const bool falls = hold_ == walking::Hold::no_ground || hold_ == walking::Hold::over_nothing;
   if (mode == Mode::ghost || (falls && mode != Mode::walk)) release();
   if (before == Mode::walk && mode != before && gait_.level.has_value()) ground_ = safe_;
-  if (mode != before) gait_ = {};
+  if (mode != before) {
+    gait_ = {};
+    ridden_ = Vec3(0.0);
+    ridden_seconds_ = 0.0;
+  }
   if (before == Mode::ghost && mode != Mode::ghost && !sizes().settled()) {
     const double lowest = feet().z;
     take_size_here();

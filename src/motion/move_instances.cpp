@@ -74,14 +74,19 @@ void Walker::State::begin_shifts() {
   fitted_ = !held() && looked_at_ == revision();
 }
 
-bool Walker::State::meets(const walking::InstanceMotion& shift) {
+bool Walker::State::meets(const walking::InstanceMotion& shift) const {
   if (mode_ == Mode::ghost || held()) return false;
   if (gait_.object == shift.instance && (gait_.grounded() || gait_.ground_velocity != Vec3(0.0))) return true;
+  if (walking::is_farther(shift, body(), at_.place, 0.0)) return false;
+  return !walking::gap_to_instance(shift, body(), at_.place, Vec3(0.0), 0.0);
+}
+
+void Walker::State::note_passing(const walking::InstanceMotion& shift) {
   const double reach = settings_.clearance_reach;
-  if (walking::is_farther(shift, body(), at_.place, reach)) return false;
-  const auto passing = walking::gap_to_instance(shift, body(), at_.place, Vec3(0.0), reach);
-  if (passing) rested_ = std::min(rested_, settings_.radius + *passing);
-  return !passing;
+  if (mode_ == Mode::ghost || held() || walking::is_farther(shift, body(), at_.place, reach)) return;
+  const auto gap = walking::gap_to_instance(shift, body(), at_.place, Vec3(0.0), reach);
+  // What turns far in one part may have no bound; it does not touch the body.
+  rested_ = std::min(rested_, settings_.radius + gap.value_or(0.0));
 }
 
 std::optional<walking::Response> Walker::State::response(const Space& rest, const walking::InstanceMotion& shift) {
@@ -261,7 +266,10 @@ class Movement {
     for (std::size_t i = 0; i < walkers.size(); ++i) {
       bool seen = true;
       if (walkers[i] == nullptr || !moves_in(walkers[i]->space(), instances, instance, seen) || !seen) continue;
-      if (!walkers[i]->state().meets(whole)) continue;
+      if (!walkers[i]->state().meets(whole)) {
+        walkers[i]->state().note_passing(whole);
+        continue;
+      }
       met_.push_back({i, &walkers[i]->state(), Filtered(walkers[i]->space()), {}});
       met_.back().rest.ignore(instance);
       arm = std::max(arm, glm::length(walkers[i]->position() - begin_.position));

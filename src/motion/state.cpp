@@ -249,9 +249,11 @@ const StepReport& Walker::State::step(const WalkerInput& wish, double dt) {
     throw Error("the ghost would leave the space that a body may be in: 1e9 m from the origin in each axis");
   }
   begin();
-  if (ridden_seconds_ > 0.0) riding_ = ridden_ / ridden_seconds_;
-  ridden_ = Vec3(0.0);
-  ridden_seconds_ = 0.0;
+  if (dt > 0.0) {
+    if (ridden_seconds_ > 0.0) riding_ = ridden_ / ridden_seconds_;
+    ridden_ = Vec3(0.0);
+    ridden_seconds_ = 0.0;
+  }
   bool is_whole = true;
   if (mode_ == Mode::ghost) {
     at_.place += ghost_way;

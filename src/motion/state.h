@@ -47,9 +47,10 @@ class Walker::State {
 
   /// Begins a report of motion caused from outside.
   void begin_shifts();
-  /// Whether the body moves with the instance or is in its way. False for a ghost and for a held body. The gap to an
-  /// instance that only passes counts for the body's rest.
-  [[nodiscard]] bool meets(const walking::InstanceMotion& shift);
+  /// Whether the body moves with the instance or is in its way. False for a ghost and for a held body.
+  [[nodiscard]] bool meets(const walking::InstanceMotion& shift) const;
+  /// Takes the gap to an instance that it does not meet into the clearance of its rest.
+  void note_passing(const walking::InstanceMotion& shift);
   /// The response of the body while an instance is shifted; nothing if it has nowhere to go. `rest`: the space without
   /// that instance.
   [[nodiscard]] std::optional<walking::Response> response(const Space& rest, const walking::InstanceMotion& shift);

@@ -26,7 +26,7 @@ std::size_t served(const Training& t) {
 std::string headline(const Training& t) {
   if (t.nowhere || t.places == 0) return "NO PLACE: no body can be anywhere in this scene.";
   if (!t.complete) return "INTERRUPTED: this is the best known so far.";
-  if (t.paths.empty()) return "NO ROUTE: there is room to stand, but no way to go.";
+  if (t.paths.empty()) return "NO PATH: there is room to stand, but no way to go.";
   const bool has_disc = t.support_radius > t.radius;
   const std::string all = t.paths.size() == 1 ? "the path" : fmt::format("all {}", counted(t.paths.size(), "path"));
   const std::string wider =

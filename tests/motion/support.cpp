@@ -58,6 +58,8 @@ TEST(Support, IsLookedForBelowAnEdgeThatIsLeftAtAnySpeed) {
     for (const double dt : {1.0 / 30.0, 1.0 / 60.0}) {
       Walk w(m, person(0.5), Mode::walk, {0.0, 0.0, 0.91});
       for (int i = 0; i < 3; ++i) w.step({speed, 0.0, 0.0}, dt);
+      EXPECT_LT(w.feet(), -0.5) << speed << " " << dt;
+      EXPECT_FALSE(w.walker.held());
     }
   }
 }

@@ -180,8 +180,13 @@ Mesh stairs(const std::vector<double>& risers, double tread) {
 }
 
 TEST(Probe, ClimbsWhatTheWalkerOfItsPathClimbs) {
-  for (const ProbedSize& size :
-       {ProbedSize{0.3, 0.6}, {0.3, 0.604}, {0.3, 0.65}, {0.3, 0.8}, {0.3, 1.8}, {0.1, 0.21}}) {
+  for (const auto& [size, step] : std::vector<std::pair<ProbedSize, double>>{{{0.3, 0.6}, 0.3},
+                                                                             {{0.3, 0.604}, 0.3},
+                                                                             {{0.3, 0.65}, 0.05},
+                                                                             {{0.3, 0.8}, 0.2},
+                                                                             {{0.3, 1.8}, 0.3},
+                                                                             {{0.1, 0.21}, 0.01}}) {
+    EXPECT_NEAR(climbed(across, size), step, 1e-9) << size.height;
     EXPECT_EQ(probed_body(across, size).step, climbed(across, size)) << size.height;
   }
   for (const double rise : {0.03, 0.1, 0.2}) {

@@ -10,6 +10,7 @@
 #include "cli/progress.h"
 #include "cli/tell.h"
 #include "math/level_distance.h"
+#include "math/step_limit.h"
 #include "scenes/frame.h"
 #include "words/measures.h"
 #include "words/training.h"
@@ -193,7 +194,7 @@ std::vector<draw::OpeningView> views_of(const TrainReport& report) {
     if (view.mode == Mode::fly) view.floor = d.point.z - t.radius;
     view.radius = t.radius;
     view.height = t.height;
-    view.step = std::min(t.step, 0.5 * view.height);
+    view.step = std::min(t.step, step_limit(view.height));
     view.support_radius = t.support_radius;
     view.fits = split ? std::max(t.radius, t.support_radius) > 0.5 * d.width : 2.0 * t.radius < d.width;
     views.push_back(std::move(view));

@@ -186,10 +186,11 @@ PageSource::Result PageSource::readNode(const std::string& name, const osgDB::Op
     // The coarser page stays visible.
     const std::lock_guard lock(mutex_);
     pages_[name].missing = true;
+    ++missing_;
     try {
-      if (missing_++ == 0) problem_ = problem.what();
+      if (problem_.empty()) problem_ = problem.what();
     } catch (const std::bad_alloc&) {
-      // The report names no reason.
+      // The next one may name its reason.
     }
   }
   --under_way_;

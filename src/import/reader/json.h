@@ -15,7 +15,7 @@ namespace roam::reader {
 using Json = nlohmann::json;
 
 /// Parses a text. Bytes that are no UTF-8 are replaced. Throws roam::Error at `place` for a text that is no JSON, that
-/// has a number beyond doubles, or whose values are nested deeper than `most_depth`.
+/// has a number beyond doubles, or whose brackets are nested deeper than `most_depth`.
 [[nodiscard]] Json parse_json(std::string_view text, const std::string& place, int most_depth);
 
 /// The member of an object; null if there is none, or if `value` is no object.
