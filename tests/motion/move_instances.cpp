@@ -292,6 +292,19 @@ TEST(MoveInstances, MeetBodiesOfAnySizeFromAnyDistance) {
   EXPECT_GT(stops, 20);
 }
 
+TEST(MoveInstances, AreStoppedByNobodyWhomTheyCannotReachHoweverFarItsReportLooks) {
+  for (const double reach : {0.0, 1.0, 100.0}) {
+    Stage stage(Mesh{});
+    Mesh bar;
+    scenes::add_box(bar, {-0.5, -0.05, -0.05}, {0.5, 0.05, 0.05});
+    const ObjectId id = stage.scene.add(bar, {});
+    stage.add({.clearance_reach = reach}, Mode::fly, {3.0, 0.0, -0.9});
+    stage.scene.space.set_velocity(id, {{}, 1000.0});
+    EXPECT_TRUE(roam::move_instances(stage.scene.space, stage.list, 1.0).empty()) << reach;
+    EXPECT_EQ(stage.scene.space.pose(id).heading, 1000.0);
+  }
+}
+
 TEST(MoveInstances, BoundTheArcOfWhatTurnsAndMovesAtOnce) {
   clutter::Random random(33);
   for (int i = 0; i < 2000; ++i) {

@@ -102,8 +102,13 @@ TEST(MoveReports, TellTheVelocityOverAllMovementsSinceTheLastStep) {
     stage.scene.space.set_velocity(id, {{6.0, 0.0, 0.0}});
     stage.step(walker);
     for (int i = 0; i < calls; ++i) stage.advance();
+    stage.step(walker, {}, 0.0);
     stage.step(walker);
     EXPECT_NEAR(glm::length(walker.velocity() - Vec3(6.0, 0.0, 0.0)), 0.0, 1e-6) << calls;
+    stage.advance();
+    walker.set_mode(Mode::ghost);
+    walker.step({}, dt);
+    EXPECT_EQ(walker.velocity(), Vec3(0.0)) << "a ghost does not ride";
   }
 }
 
