@@ -1,6 +1,7 @@
 // The tools of roam view: measuring, the plan.
 #include <fmt/format.h>
 
+#include <chrono>
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
@@ -525,7 +526,9 @@ TEST(Menu, ReachesCommandsWithCtrl) {
   const auto before = std::filesystem::current_path();
   std::filesystem::current_path(d.folder.file(""));
   d.click(at->first, at->second);
-  for (int i = 0; i < 500 && !contains(d.hud(), "roam-1.png"); ++i) d.session->stage().draw();
+  // Another thread writes the picture, which may wait for a processor.
+  const auto limit = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+  while (!contains(d.hud(), "roam-1.png") && std::chrono::steady_clock::now() < limit) d.session->stage().draw();
   EXPECT_TRUE(contains(d.hud(), "roam-1.png")) << d.hud();
   std::filesystem::current_path(before);
 }
