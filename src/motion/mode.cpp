@@ -19,8 +19,7 @@ const StepReport& Walker::State::set_mode(Mode mode) {
   if (before == Mode::walk && mode != before && gait_.level.has_value()) ground_ = safe_;
   if (mode != before) {
     gait_ = {};
-    ridden_ = Vec3(0.0);
-    ridden_seconds_ = 0.0;
+    ride_ = {};
   }
   if (before == Mode::ghost && mode != Mode::ghost && !sizes().settled()) {
     const double lowest = feet().z;

@@ -55,7 +55,8 @@ std::optional<double> gap_to_instance(const InstanceMotion& shift, const Body& b
 /// A body squeezed out between an instance and the rest moves at most this many times as fast as the instance.
 constexpr double steepest_squeeze = 4.0;
 
-/// Whether the instance stays farther from the body. It stays in a ball about its origin that moves with it.
+/// Whether the instance stays farther than `reach` from the body. It stays in a ball about its origin that moves with
+/// it.
 bool is_farther(const InstanceMotion& shift, const Body& body, const Vec3& place, double reach) {
   const Box bounds = shift.world->bounds();
   if (bounds.empty()) return true;
@@ -85,7 +86,7 @@ void Walker::State::note_passing(const walking::InstanceMotion& shift) {
   const double reach = settings_.clearance_reach;
   if (mode_ == Mode::ghost || held() || walking::is_farther(shift, body(), at_.place, reach)) return;
   const auto gap = walking::gap_to_instance(shift, body(), at_.place, Vec3(0.0), reach);
-  // What turns far in one part may have no bound; it does not touch the body.
+  // For an instance that turns far there may be no bound. It does not touch the body, so the gap is at least 0.
   rested_ = std::min(rested_, settings_.radius + gap.value_or(0.0));
 }
 
@@ -159,7 +160,7 @@ void Walker::State::take(const walking::InstanceMotion& shift, const walking::Re
     }
     append(shift, to);
     at_.place += to.way;
-    ridden_ += to.way;
+    ride_.way += to.way;
   }
   // Known facts are about the scene as it was.
   at_.known.forget();
@@ -208,7 +209,7 @@ void Walker::State::append(const walking::InstanceMotion& shift, const walking::
 void Walker::State::end_shifts(const Vec3& ground_velocity, double dt) {
   if (gait_.grounded()) gait_.ground_velocity = ground_velocity;
   if (fitted_) looked_at_ = revision();
-  ridden_seconds_ += dt;
+  ride_.seconds += dt;
   if (!shifted_) return;
   report_.elapsed = dt;
   if (rested_ < std::numeric_limits<double>::infinity()) {

@@ -250,9 +250,8 @@ const StepReport& Walker::State::step(const WalkerInput& wish, double dt) {
   }
   begin();
   if (dt > 0.0) {
-    if (ridden_seconds_ > 0.0) riding_ = ridden_ / ridden_seconds_;
-    ridden_ = Vec3(0.0);
-    ridden_seconds_ = 0.0;
+    if (ride_.seconds > 0.0) riding_ = ride_.way / ride_.seconds;
+    ride_ = {};
   }
   bool is_whole = true;
   if (mode_ == Mode::ghost) {
@@ -396,8 +395,7 @@ const StepReport& Walker::State::place(const Vec3& at, double lift) {
   at_.place = centre;
   take_size_here();
   gait_ = {};
-  ridden_ = Vec3(0.0);
-  ridden_seconds_ = 0.0;
+  ride_ = {};
   at_.known = {};
   vicinity_.forget();
   was_blocked_ = false;

@@ -126,11 +126,14 @@ class Walker::State {
   walking::Refuge safe_;    ///< last position where the body stood; until it has stood, where it fitted
   walking::Refuge ground_;  ///< last position with something below: for the ghost, and for walking before another mode
   walking::Hold hold_ = walking::Hold::none;
-  bool was_blocked_ = false;     ///< at the end of the last step, and it has not been put elsewhere since
-  bool was_put_back_ = false;    ///< and it has not been put elsewhere since
-  Vec3 ridden_{0.0};             ///< metres by which move_instances() has moved it since the last step
-  double ridden_seconds_ = 0.0;  ///< simulated by move_instances() since the last step
-  Vec3 riding_{0.0};             ///< m/s: their ratio before the last call, if that was a step
+  bool was_blocked_ = false;   ///< at the end of the last step, and it has not been put elsewhere since
+  bool was_put_back_ = false;  ///< and it has not been put elsewhere since
+  struct Ride {
+    Vec3 way{0.0};         ///< m, by which move_instances() has moved it
+    double seconds = 0.0;  ///< simulated by move_instances()
+  };
+  Ride ride_;         ///< since the last step
+  Vec3 riding_{0.0};  ///< m/s: its average before the last call, if that was a step
   /// Metres. Certified clearance of the rest since the last segment of a shift, to the instance alone; infinite if
   /// there was no rest.
   double rested_ = std::numeric_limits<double>::infinity();

@@ -292,7 +292,7 @@ TEST(MoveInstances, MeetBodiesOfAnySizeFromAnyDistance) {
   EXPECT_GT(stops, 20);
 }
 
-TEST(MoveInstances, AreStoppedByNobodyWhomTheyCannotReachHoweverFarItsReportLooks) {
+TEST(MoveInstances, AreNotStoppedByABodyOutOfTheirReach) {
   for (const double reach : {0.0, 1.0, 100.0}) {
     Stage stage(Mesh{});
     Mesh bar;
