@@ -312,7 +312,8 @@ void take(const Given& given, BuildVerb& verb) {
 constexpr const char* build_help =
     R"(A store is a folder that `roam walk`, `view`, `sweep` and `info` take like a scene. You walk in it at
 full detail, in little memory. A build may be stopped or killed at any moment: the same command continues it, and the
-manifest, packs and parts are the same to the last byte. After a change of the scene only the changed parts are built again.
+manifest, packs and parts are the same to the last byte. After a change of the scene only the changed parts are built
+again.
 
 An existing store is updated if you built it; a key in $XDG_DATA_HOME/roam or ~/.local/share/roam proves that. Any
 other store may lack a wall, and is refused unless --adopt says that you trust it.

@@ -272,7 +272,7 @@ Json report_of(const ProbeOptions& o, const Surveyed& scene, std::span<const Pro
   return json;
 }
 
-/// Tells of capsules so low that they are searched with lower steps than --step.
+/// Prints a note for each low capsule that is searched with a lower step than --step.
 void note_low_steps(const ProbeQuestion& question, std::span<const ProbedSize> sizes) {
   constexpr double noted = 1e-3;  // m
   for (const ProbedSize& size : sizes) {
@@ -347,9 +347,10 @@ and the missing width. The widest way decides. It is certified, and a walker fol
 status 0 for yes; 3 for no, and if the walker does not get through; with --matrix, 0 if all sizes get through.
 
 Places are of a person's feet or eyes, and are moved down to the floor; in flight, of the centre. The body steps over
-anything lower than --step; a sphere climbs at most its radius, a capsule at most its height minus its diameter. --path writes the way of the body's centre, with the
-body, for `roam walk --path FILE --verify`. --matrix takes sizes R or RxH, separated by commas, or a file of them. R is
-a person of this radius, as with --radius; with --sphere it is a sphere. Ways through the air are found for spheres.
+anything lower than --step; a sphere climbs at most its radius, a capsule at most its height minus its diameter. --path
+writes the way of the body's centre, with the body, for `roam walk --path FILE --verify`. --matrix takes sizes R or RxH,
+separated by commas, or a file of them. R is a person of this radius, as with --radius; with --sphere it is a sphere.
+Ways through the air are found for spheres.
 
 Examples:
   roam probe house.glb --from 1,2,1 --to 8,3,1 --radius 0.3 --height 1.9

@@ -15,8 +15,8 @@
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 namespace {
 
-// What a process keeps for all its files is made with the first one, so each try has a process of its own, and this
-// test is the first.
+// A process makes its list of unfinished files with the first one. So each try has its own process, and no test before
+// this one writes a file.
 TEST(PathAllocations, TheFirstFileOfAProcessIsWholeOrNotThereWhereverOneFails) {
   const roam::test::TemporaryFolder folder;
   const std::filesystem::path file = folder.path() / "a.path";

@@ -26,7 +26,7 @@ struct LoadState {
   double share = 0.0;           ///< of this phase, in [0, 1]
   std::uint64_t triangles = 0;  ///< so far
   double seconds_left = -1.0;   ///< negative: not known yet
-  /// Why, if the phase is failed. Without memory nothing else can be said, so it is said from the beginning.
+  /// Why, if the phase is failed. The first text is for a lack of memory, in which no other one can be set.
   Error error{"out of memory; build a store of it, which takes little (roam build), or take a smaller scene"};
 };
 

@@ -35,7 +35,8 @@ std::string reason_of(std::string what) {
   return what.substr(0, what.find("; last read: "));
 }
 
-/// Whether brackets are nested deeper. The parser's own callback would tell too, in the square of a list's length.
+/// Whether brackets are nested deeper. The parser's callback sees that, too, but takes a time that grows with the
+/// square of a list's length.
 bool is_nested_deeper(std::string_view text, int most_depth) {
   int depth = 0;
   bool in_string = false;

@@ -26,7 +26,7 @@ std::atomic<int> umasks{0};
 std::atomic<bool> renames_without_replacing{false};
 /// Whether closing says that the disk is full, as some network file systems do only then.
 std::atomic<bool> closing_fails{false};
-/// What was done to files, in order: w(rite), s(ync), n(ame), S(ync of a folder).
+/// The calls on files, in order. w: write, s: fsync, n: rename or link, S: fsync of a folder.
 std::string order;
 
 template <class Call, class Short>
