@@ -95,7 +95,7 @@ struct StepReport {
   Vec3 to{0.0};         ///< the centre now
   double height = 0.0;  ///< of the body now
   double radius = 0.0;  ///< of the body now
-  /// At `to`, perhaps only that of the way there. 0: none (ghost, or overlapping).
+  /// A lower bound at `to`, perhaps that of the whole last segment. 0: none (ghost, or overlapping).
   double axis_clearance = 0.0;
   double least_axis_clearance = 0.0;    ///< the least of all segments and `to`
   double least_gap = 0.0;               ///< the least axis clearance - radius of the same, each with its own radius

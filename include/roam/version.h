@@ -1,7 +1,7 @@
 #pragma once
 /// \file
 /// The version of these headers, for programs that serve several: https://semver.org. Before 1.0 a new minor version
-/// may change the interface. `find_package(roam 0.1)` needs one when a program is configured.
+/// may change the interface. `find_package(roam 0.1)` requires one when a program is configured.
 ///
 ///     #if ROAM_VERSION >= ROAM_VERSION_NUMBER(0, 2, 0)
 

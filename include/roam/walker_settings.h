@@ -16,8 +16,8 @@ namespace roam {
 enum class Mode : std::uint8_t { fly, walk, ghost };
 [[nodiscard]] const char* to_string(Mode mode);  ///< "fly", "walk" or "ghost"
 
-/// The body and what it can do; the defaults are an adult on foot. Lengths are metres, angles degrees. The
-/// height is at most Space::reach_limit / 4 = 250, the radius at most 125.
+/// The body and what it can do; the defaults are an adult on foot. Lengths are metres, angles degrees. The height is at
+/// most Space::reach_limit / 4 = 250, the radius at most 125.
 struct WalkerSettings {
   double radius = 0.3;  ///< >= 0.001. Too large a body is kept out of rooms; too small a body falls into cracks
   /// >= 0: radius of the support disc, in walk mode; 0: none. The disc carries the body, at the height of the floor,
