@@ -477,6 +477,18 @@ TEST(Session, SaysAtItsEndThatAPictureCouldNotBeDrawn) {
   }
 }
 
+TEST(Session, DrawsItsPictureThoughItEndsInTheSameFrame) {
+  Driven d(room_obj(), {10, 0, 0.95, 0});
+  const auto before = std::filesystem::current_path();
+  std::filesystem::current_path(d.folder.file(""));
+  d.press('p');
+  d.session->run("quit");
+  EXPECT_FALSE(d.session->frame());
+  EXPECT_NO_THROW(static_cast<void>(d.finish()));
+  std::filesystem::current_path(before);
+  EXPECT_TRUE(std::filesystem::exists(d.folder.file("roam-1.png")));
+}
+
 TEST(Session, KeepsNoMoreThanSomePicturesInMemory) {
   Driven d;
   d.options.size = "8000x4000";  // 92 MiB each
