@@ -39,7 +39,7 @@ struct LowPlace {
 
 class Along {
  public:
-  /// Measures every half radius, at 20,000 positions of a step at most. `space` and `settings` are not copied.
+  /// Measures every half radius, at 20,000 positions of a step at most. `space` must outlive it.
   Along(const Space& space, const WalkerSettings& settings, Mode mode, double least_reach = 0.0);
   /// From now on measures every 5 cm, and narrow() lists all places narrower than `width`. Places no farther apart than
   /// the body is wide count as one.

@@ -19,8 +19,8 @@ double travelled(const Impact& hit, double far) { return hit.time * far + std::m
 
 Room::Room(const Space& space, const WalkerSettings& settings, Mode mode, double least_reach)
     : space_(space),
-      settings_(settings),
       mode_(mode),
+      step_(settings.step),
       reach_(std::min(std::max(side_reach * settings.radius, least_reach), Space::reach_limit - settings.radius)),
       least_upright_(least_upright(settings.slope_degrees)) {}
 
@@ -42,7 +42,7 @@ Free Room::beside_legs_lifted(const Body& body, const Vec3& centre, const Vec3& 
   Body slim = body;
   slim.radius -= less;
   // A body that is hardly taller than wide is lifted as a whole, as far as there is room.
-  const double low = std::min(settings_.step, 2.0 * body.half_height), rest = settings_.step - low;
+  const double low = std::min(step_, 2.0 * body.half_height), rest = step_ - low;
   slim.half_height -= 0.5 * low;
   Vec3 place = centre;
   place.z += 0.5 * low;
@@ -62,16 +62,14 @@ Free Room::beside_legs_lifted(const Body& body, const Vec3& centre, const Vec3& 
   return {std::clamp(free, 0.0, reach_), !hit.unknown, hit.triangle};
 }
 
-double Room::step_above(const Body& body, const Vec3& centre) const {
-  return centre.z - 0.5 * body.height() + settings_.step;
-}
+double Room::step_above(const Body& body, const Vec3& centre) const { return centre.z - 0.5 * body.height() + step_; }
 
 /// Whether it rises as gently as ground that can be walked on. An edge may also be that of a bench.
 bool Room::is_ground(const Impact& hit, const Vec3& side) const {
   if (hit.normal.z < least_upright_) return false;
   if (hit.feature == Feature::face) return true;
   constexpr double before = 0.005;  // m
-  const Impact below = space_.sweep({0.0, 0.0}, hit.point - before * side, {0.0, 0.0, -settings_.step - before});
+  const Impact below = space_.sweep({0.0, 0.0}, hit.point - before * side, {0.0, 0.0, -step_ - before});
   return below.hit && below.normal.z >= least_upright_;
 }
 

@@ -20,7 +20,7 @@ struct Free {
 /// beside the body count above the step height only, and no ground that the body can walk up. Thread-safe.
 class Room {
  public:
-  /// `space` and `settings` are not copied. The reach is 12 radii, or `least_reach` (m) if that is more.
+  /// `space` must outlive it. The reach is 12 radii, or `least_reach` (m) if that is more.
   Room(const Space& space, const WalkerSettings& settings, Mode mode, double least_reach = 0.0);
 
   [[nodiscard]] double reach() const { return reach_; }  ///< m: farthest distance beside the body
@@ -37,9 +37,8 @@ class Room {
   [[nodiscard]] bool is_ground(const Impact& hit, const Vec3& side) const;
 
   const Space& space_;
-  const WalkerSettings& settings_;
   Mode mode_;
-  double reach_, least_upright_;
+  double step_, reach_, least_upright_;
 };
 
 /// The triangles at both ends of a measured distance of `width` (m), centred on `point`; the one along the unit vector
