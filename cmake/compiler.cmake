@@ -27,14 +27,6 @@ function(roam_unity)
   endif()
 endfunction()
 
-# roam_in_sandbox(TARGET...): their code runs in the sandbox of roam-reader. The sandbox forbids the system calls by which
-# a sanitizer checks the types of objects (vptr).
-function(roam_in_sandbox)
-  foreach(target IN LISTS ARGN)
-    target_compile_options(${target} PRIVATE -fno-sanitize=vptr)
-  endforeach()
-endfunction()
-
 # Link sanitizers.cpp into every program of a build with a sanitizer.
 if(CMAKE_CXX_FLAGS MATCHES "-fsanitize=[a-z,]*(thread|address)")
   add_library(roam_sanitizer OBJECT ${CMAKE_CURRENT_LIST_DIR}/sanitizers.cpp)

@@ -36,6 +36,8 @@ extern "C" const char* __lsan_default_suppressions() {
   return
       // It keeps offsets instead of pointers, so the values of each font seem lost.
       "leak:libfontconfig.so\n"
+      // A process may end while tasks that own it wait in memory of TBB's, where nobody looks for pointers.
+      "leak:roam::cracks::RimEdges::RimEdges\n"
       // spnav_open() loses the head of a list when there is no daemon.
       "leak:libspnav.so\n";
 }
