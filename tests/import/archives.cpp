@@ -13,6 +13,7 @@
 #include "import/parts.h"
 #include "import_files.h"
 #include "roam/error.h"
+#include "sanitizer.h"
 #include "shown_scene.h"
 
 namespace roam::test {
@@ -201,6 +202,7 @@ std::string zlib_deflated(const std::string& bytes) {
 }
 
 TEST(ImportArchives, UnpackNoMoreThanTheMemoryHolds) {
+  ROAM_NEEDS_MEMORY_LIMITS();
   const TemporaryFolder folder;
   const std::string bomb = grid_tile(1) + std::string(100u << 20, '\0');
   const MadeEntry entry{"bomb.b3dm", bomb, deflate_method, 0, zlib_deflated(bomb)};

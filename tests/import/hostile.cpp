@@ -17,6 +17,7 @@
 #include "import_files.h"
 #include "messages.h"
 #include "program.h"
+#include "sanitizer.h"
 
 namespace {
 
@@ -271,6 +272,7 @@ std::string repeated(int levels) {
 }
 
 TEST(ImportHostile, EndsASceneThatRepeatsItselfWithoutEnd) {
+  ROAM_NEEDS_MEMORY_LIMITS();
   const TestFolder folder;
   const std::string scene = folder.write("laugh.osg", repeated(9));
   const ProgramResult result =

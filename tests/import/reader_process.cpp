@@ -14,6 +14,7 @@
 
 #include "import/stream.h"
 #include "import_files.h"
+#include "sanitizer.h"
 
 namespace roam::test {
 namespace {
@@ -148,15 +149,14 @@ TEST_F(ImportReaderProcess, BoundsTheMemoryOfWhatAReaderSends) {
       contains(error_of("cat '" + data.string() + "' >&3\n", options), "needs more than the 0.0625 GiB of memory"));
 }
 
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // under which readers have no limit
 TEST_F(ImportReaderProcess, BoundsTheMemoryOfTheReader) {
+  ROAM_NEEDS_MEMORY_LIMITS();
   // The header of an OFF file makes its reader ask for 0.5 GB, which this machine has.
   const auto file = folder_.write("huge.off", "OFF\n20000000 20000000 0\n0 0 0\n");
   ImportOptions options;
   options.memory_limit = 256u << 20;
   EXPECT_TRUE(contains(import_error(file, options), "GiB of memory that importing may use"));
 }
-#endif
 
 TEST_F(ImportReaderProcess, CancelsAtTheCallersWish) {
   ImportOptions options;

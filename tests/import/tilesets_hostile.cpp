@@ -17,6 +17,7 @@
 #include "import_files.h"
 #include "roam/error.h"
 #include "roam/import.h"
+#include "sanitizer.h"
 #include "shown_scene.h"
 
 namespace roam::test {
@@ -68,6 +69,7 @@ std::string error_of_parts(const fs::path& tileset, const ImportOptions& options
 }
 
 TEST(ImportTilesetsHostile, EndLoudlyWhereATileDoesNotFitMemoryAndDisk) {
+  ROAM_NEEDS_MEMORY_LIMITS();
   const TemporaryFolder folder;
   MadeGltf gravel = MadeGrid(20).gltf();
   repeat(gravel, 1500);

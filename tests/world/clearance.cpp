@@ -10,6 +10,7 @@
 #include "counted_allocations.h"
 #include "oracle.h"
 #include "roam/world.h"
+#include "sanitizer.h"
 
 namespace {
 
@@ -164,9 +165,7 @@ TEST(Clearance, OfAWallWithTrianglesOfManySizes) {
 }
 
 TEST(Queries, DoNotAllocate) {
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-  GTEST_SKIP() << "the sanitizer counts allocations itself";
-#endif
+  if (roam::test::has_sanitizer) GTEST_SKIP() << "the sanitizer counts allocations itself";
   Random random(64);
   const Wall wall(random, Vec3(0.0), 60, 2.5, 0.02);
   const World world = World::build({&wall.mesh, 1});

@@ -15,6 +15,7 @@
 #include "counted_allocations.h"
 #include "oracle.h"
 #include "roam/patchwork.h"
+#include "sanitizer.h"
 #include "walker_scenes.h"
 
 namespace {
@@ -247,9 +248,7 @@ TEST(PatchworkQueries, DoNotDependOnTheOrderInWhichPatchesCome) {
 }
 
 TEST(PatchworkQueries, DoNotAllocate) {
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-  GTEST_SKIP() << "the sanitizer counts allocations itself";
-#endif
+  if (roam::test::has_sanitizer) GTEST_SKIP() << "the sanitizer counts allocations itself";
   clutter::Random random(45);
   const Pieces pieces(clutter::make(random, {2000, 10.0, 0.05, 2.0, Vec3(0.0)}), 2.0);
   Patchwork space;
