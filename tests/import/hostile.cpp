@@ -272,7 +272,7 @@ std::string repeated(int levels) {
 }
 
 TEST(ImportHostile, EndsASceneThatRepeatsItselfWithoutEnd) {
-  ROAM_NEEDS_MEMORY_LIMITS();
+  ROAM_NEEDS_PLAIN_MEMORY();
   const TestFolder folder;
   const std::string scene = folder.write("laugh.osg", repeated(9));
   const ProgramResult result =

@@ -150,7 +150,7 @@ TEST_F(ImportReaderProcess, BoundsTheMemoryOfWhatAReaderSends) {
 }
 
 TEST_F(ImportReaderProcess, BoundsTheMemoryOfTheReader) {
-  ROAM_NEEDS_MEMORY_LIMITS();
+  ROAM_NEEDS_PLAIN_MEMORY();
   // The header of an OFF file makes its reader ask for 0.5 GB, which this machine has.
   const auto file = folder_.write("huge.off", "OFF\n20000000 20000000 0\n0 0 0\n");
   ImportOptions options;

@@ -76,7 +76,7 @@ TEST_P(ImportSandbox, KeepsAReaderToTheScenesFolder) {
 }
 
 TEST_P(ImportSandbox, EndsAReaderThatTakesMemory) {
-  ROAM_NEEDS_MEMORY_LIMITS();
+  ROAM_NEEDS_PLAIN_MEMORY();
   options_.memory_limit = 64u << 20;
   EXPECT_TRUE(contains(error_of("memory"), "memory was refused: Cannot allocate memory"));
 }

@@ -10,6 +10,7 @@
 #include "clutter.h"
 #include "memory_cost.h"
 #include "program.h"
+#include "sanitizer.h"
 #include "store/build/divide.h"
 #include "store/build/histogram.h"
 #include "store/build/part_cells.h"
@@ -158,6 +159,7 @@ TEST(StoreDivision, IsTheSameWhereFewCellsAreKept) {
 // 20,000 tiles of 60,000 triangles: their 5 million cells would take 160 MB. As many cells in 1 GiB are those of 1.3
 // million tiles.
 TEST(StoreDivision, TakesTheMemoryThatItIsGivenForAnyNumberOfParts) {
+  ROAM_NEEDS_PLAIN_MEMORY();
   constexpr std::uint32_t parts = 20'000, row = 160, side = 16;
   constexpr int bits = 36;  // 4 m
   constexpr std::size_t most_cells = 1U << 18;

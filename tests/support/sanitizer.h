@@ -15,5 +15,5 @@ inline constexpr bool has_sanitizer = false;
 }  // namespace roam::test
 
 /// Skips the test in a build with a sanitizer.
-#define ROAM_NEEDS_MEMORY_LIMITS() \
-  if (roam::test::has_sanitizer) GTEST_SKIP() << "a process with a sanitizer has no limit of memory"
+#define ROAM_NEEDS_PLAIN_MEMORY() \
+  if (roam::test::has_sanitizer) GTEST_SKIP() << "a sanitizer takes memory of its own, and has no limit of it"

@@ -16,6 +16,7 @@
 #include "pager_made.h"
 #include "roam/generate.h"
 #include "roam/walker.h"
+#include "sanitizer.h"
 #include "store/pager/names.h"
 
 namespace {
@@ -24,20 +25,21 @@ thread_local bool counting = false;
 thread_local long allocations = 0;
 thread_local long held_bytes = 0;  // allocated by this thread, less what it has freed
 
-void* taken(void* p) {
+[[maybe_unused]] void* taken(void* p) {
   if (counting) ++allocations;
   if (p == nullptr) throw std::bad_alloc();
   held_bytes += static_cast<long>(::malloc_usable_size(p));
   return p;
 }
 
-void give_back(void* p) {
+[[maybe_unused]] void give_back(void* p) {
   held_bytes -= static_cast<long>(::malloc_usable_size(p));
   std::free(p);
 }
 
 }  // namespace
 
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // which have an operator new of their own
 // Those of arrays call these. Not inlined: g++ takes malloc and free that it sees through them for a mismatch.
 [[gnu::noinline]] void* operator new(std::size_t bytes) { return taken(std::malloc(bytes > 0 ? bytes : 1)); }
 [[gnu::noinline]] void* operator new(std::size_t bytes, std::align_val_t alignment) {
@@ -48,6 +50,7 @@ void give_back(void* p) {
 [[gnu::noinline]] void operator delete(void* p, std::size_t) noexcept { give_back(p); }
 [[gnu::noinline]] void operator delete(void* p, std::align_val_t) noexcept { give_back(p); }
 [[gnu::noinline]] void operator delete(void* p, std::size_t, std::align_val_t) noexcept { give_back(p); }
+#endif
 
 namespace {
 
@@ -64,6 +67,7 @@ std::uint64_t resident_bytes() {
 }
 
 TEST(PagerMemory, NothingIsAllocatedAndTheProcessDoesNotGrow) {
+  ROAM_NEEDS_PLAIN_MEMORY();
   const made::Folder folder("pager_memory");
   const auto meshes = roam::generate::collect(roam::generate::gallery({.triangles = 800'000, .seed = 2}));
   const auto store = made::store(folder.path(), meshes, {.page_tiles = 16, .tile_triangles = 4000});
@@ -107,6 +111,7 @@ TEST(PagerMemory, NothingIsAllocatedAndTheProcessDoesNotGrow) {
 }
 
 TEST(PagerMemory, KeepsOnlyTheBeginningsOfLongNames) {
+  ROAM_NEEDS_PLAIN_MEMORY();
   std::string longest = "x";  // no character ends after 1024 bytes
   for (int i = 0; i < 32'767; ++i) longest += "\u00fc";
   roam::paging::Names names;
