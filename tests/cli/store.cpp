@@ -8,6 +8,7 @@
 #include <random>
 #include <sstream>
 
+#include "sanitizer.h"
 #include "store/opened.h"
 #include "store_verbs.h"
 
@@ -196,7 +197,8 @@ TEST_F(StoreVerbs, EveryTileDamagedHoldsABodyAndLetsNothingThrough) {
   const fs::path pack = only_pack(bad);
   // The tiles are before the pages.
   auto end = static_cast<std::uint64_t>(fs::file_size(pack));
-  for (const auto& page : roam::Store::open(bad)->state().pages) end = std::min(end, page.ref.offset);
+  const auto opened = roam::Store::open(bad);
+  for (const auto& page : opened->state().pages) end = std::min(end, page.ref.offset);
   for (std::uint64_t at = 64; at < end; at += 64) flip(pack, static_cast<std::streamoff>(at));
   int tiles = 0;
   const json verified = json::parse(run({"verify", bad, "--json"}).out);
@@ -227,9 +229,11 @@ TEST_F(StoreVerbs, OptionsThatMeanNothingForAStoreOrASceneAreRefused) {
   const ProgramResult little = run({"walk", store(), "--memory", "1M", "--path", path()});
   EXPECT_EQ(little.status, 2);
   EXPECT_TRUE(contains(little.err, "--memory") && contains(little.err, "8 MiB")) << little.err;
-  const ProgramResult much = run({"walk", store(), "--memory", "4000000G", "--path", path()});
-  EXPECT_EQ(much.status, 1);
-  EXPECT_TRUE(contains(much.err, "--memory")) << much.err;
+  if (!roam::test::has_sanitizer) {  // which ends a process that asks for so much
+    const ProgramResult much = run({"walk", store(), "--memory", "4000000G", "--path", path()});
+    EXPECT_EQ(much.status, 1);
+    EXPECT_TRUE(contains(much.err, "--memory")) << much.err;
+  }
   const ProgramResult itself = run({"walk", store(), "--path", path(), "--against", store()});
   EXPECT_EQ(itself.status, 2);
   EXPECT_TRUE(contains(itself.err, "--verify")) << itself.err;
