@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "cli_scenes.h"
+#include "interrupted_walk.h"
 #include "messages.h"
 #include "program.h"
 
@@ -225,9 +226,8 @@ TEST(WalkVerb, WritesAllThatItHasWhenItIsInterrupted) {
   const TestFolder folder;
   const std::string scene = folder.write("room.obj", room_obj());
   const std::string trace = folder.file("t.csv"), picture = folder.file("way.svg");
-  const ProgramResult result =
-      run_program(ROAM_PROGRAM, {"walk", scene, "--wander", "1e9", "--trace", trace, "--picture", picture, "--json"},
-                  {.interrupt_after = 1});
+  const ProgramResult result = interrupted_walk(
+      ROAM_PROGRAM, {"walk", scene, "--wander", "1e9", "--trace", trace, "--picture", picture, "--json"});
   EXPECT_EQ(result.status, 130) << result.err;
   const auto report = nlohmann::json::parse(result.out, nullptr, false);
   ASSERT_TRUE(report.is_object()) << result.out << result.err;
@@ -241,7 +241,7 @@ TEST(WalkVerb, WritesAllThatItHasWhenItIsInterrupted) {
   EXPECT_EQ(std::stoll(last), report["steps"]) << last;
   EXPECT_TRUE(folder.read("way.svg").ends_with("</svg>\n")) << result.err;
 
-  const ProgramResult words = run_program(ROAM_PROGRAM, {"walk", scene, "--wander", "1e9"}, {.interrupt_after = 1});
+  const ProgramResult words = interrupted_walk(ROAM_PROGRAM, {"walk", scene, "--wander", "1e9"});
   EXPECT_EQ(words.status, 130);
   EXPECT_TRUE(words.out.starts_with("INTERRUPTED after ")) << words.out;
   EXPECT_FALSE(contains(words.out, "reached")) << words.out;
