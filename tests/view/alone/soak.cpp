@@ -22,11 +22,6 @@
 #include "view/session.h"
 #include "view_scenes.h"
 
-#ifdef __SANITIZE_ADDRESS__
-// The address sanitizer keeps freed memory back, 256 MB of it: that is no growth of ours.
-extern "C" const char* __asan_default_options() { return "quarantine_size_mb=1:thread_local_quarantine_size_kb=64"; }
-#endif
-
 namespace {
 
 using namespace roam;
