@@ -33,8 +33,11 @@ extern "C" int dlclose(void*) { return 0; }
 
 // intercept_tls_get_addr: up to g++ 13, the search for leaks takes some thread-local memory for another, and crashes
 // (google/sanitizers, issue 1322). print_suppressions: tests expect that nothing else is written.
+// Weak: a program may have options of its own.
 extern "C" const char* __asan_default_options();
-extern "C" const char* __asan_default_options() { return "intercept_tls_get_addr=0:print_suppressions=0"; }
+extern "C" [[gnu::weak]] const char* __asan_default_options() {
+  return "intercept_tls_get_addr=0:print_suppressions=0";
+}
 
 extern "C" const char* __lsan_default_suppressions();
 extern "C" const char* __lsan_default_suppressions() {
