@@ -3,9 +3,9 @@
 
 Changes one comparison, sign or constant of the core at a time, in a copy of the tree, and runs the core's tests: each
 mutant must be killed, that is, fail a test, end in a crash or run for ever. FILEs, or folders of them, default to
-src/sweep, src/index, src/world and src/motion. Tries N (all) of the mutants, drawn by the seed S. Results are kept in FOLDER
-(build-mutants), so that the same command goes on where it was stopped. Prints a table, and each mutant that survived.
-Status 1 if one survives that tests/long/mutants.txt does not list as harmless.
+src/sweep, src/index, src/world and src/motion. Tries N (all) of the mutants, drawn by the seed S. Results are kept in
+FOLDER (build-mutants), so that the same command goes on where it was stopped. Prints a table, and each mutant that
+survived. Status 1 if one survives that tests/long/mutants.txt does not list as harmless.
 
 All mutants are in one build, with mutants.h: a variable of the environment says which one acts. Only those tests run in
 which it would change a value, the quickest first, until they have taken T seconds (all: a few minutes for a mutant that
@@ -253,7 +253,8 @@ def main():
     # All of them are in the build, whichever are chosen: it stays the same.
     every = [(path, *mutant) for path in core for mutant in mutants_of(path)]
     lines = {path: (SOURCE / path).read_text(encoding="utf-8").splitlines() for path in core}
-    chosen = [n for n, m in enumerate(every, 1) if not options.files or any((m[0] + "/").startswith(f + "/") for f in options.files)]
+    named = tuple(f.rstrip("/") + "/" for f in options.files)
+    chosen = [n for n, m in enumerate(every, 1) if not named or (m[0] + "/").startswith(named)]
     if options.count is not None:
         chosen = random.Random(options.seed).sample(chosen, min(options.count, len(chosen)))
     # A result holds as long as the mutant's line, and the core's tests.
