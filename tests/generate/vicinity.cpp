@@ -332,7 +332,7 @@ TEST(Vicinity, ThatWasMovedFromIsAsGoodAsNone) {
 }
 
 TEST(Vicinity, DoesNotAllocate) {
-  if (roam::test::has_sanitizer) GTEST_SKIP() << "the sanitizer counts allocations itself";
+  ROAM_NEEDS_PLAIN_MEMORY();
   Random random(11);
   const Mesh mesh = clutter::make(random, {60000, 3.0, 5e-3, 0.1, Vec3(0.0)});
   const World world = build(mesh), other = floor_at(0.0);

@@ -16,4 +16,4 @@ inline constexpr bool has_sanitizer = false;
 
 /// Skips the test in a build with a sanitizer.
 #define ROAM_NEEDS_PLAIN_MEMORY() \
-  if (roam::test::has_sanitizer) GTEST_SKIP() << "a sanitizer takes memory of its own, and has no limit of it"
+  if (roam::test::has_sanitizer) GTEST_SKIP() << "a sanitizer allocates memory by itself, and has no limit of it"

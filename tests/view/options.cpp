@@ -1,4 +1,4 @@
-// What roam view makes of its options and settings.
+// The options of roam view, and the settings that fill them in.
 #include "view/options.h"
 
 #include <gtest/gtest.h>

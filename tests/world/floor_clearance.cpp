@@ -133,7 +133,7 @@ TEST(FloorClearance, RefusesAFloorOutOfRange) {
 }
 
 TEST(FloorClearance, DoesNotAllocate) {
-  if (roam::test::has_sanitizer) GTEST_SKIP() << "the sanitizer counts allocations itself";
+  ROAM_NEEDS_PLAIN_MEMORY();
   clutter::Random random(73);
   const Mesh mesh = floor_oracle::scene(random, Vec3(0.0), 200);
   const roam::World world = scenes::build(mesh);

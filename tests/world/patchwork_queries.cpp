@@ -248,7 +248,7 @@ TEST(PatchworkQueries, DoNotDependOnTheOrderInWhichPatchesCome) {
 }
 
 TEST(PatchworkQueries, DoNotAllocate) {
-  if (roam::test::has_sanitizer) GTEST_SKIP() << "the sanitizer counts allocations itself";
+  ROAM_NEEDS_PLAIN_MEMORY();
   clutter::Random random(45);
   const Pieces pieces(clutter::make(random, {2000, 10.0, 0.05, 2.0, Vec3(0.0)}), 2.0);
   Patchwork space;

@@ -167,7 +167,7 @@ TEST(WorldQueries, MeetTheSidesOfAWorldFromOutside) {
 }
 
 TEST(WorldQueries, DoNotAllocate) {
-  if (roam::test::has_sanitizer) GTEST_SKIP() << "the sanitizer counts allocations itself";
+  ROAM_NEEDS_PLAIN_MEMORY();
   clutter::Random random(34);
   const Mesh mesh = clutter::make(random, {3000, 10.0, 0.05, 3.0, Vec3(0.0)});
   const World world = World::build({&mesh, 1});

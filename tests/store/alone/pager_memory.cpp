@@ -25,21 +25,25 @@ thread_local bool counting = false;
 thread_local long allocations = 0;
 thread_local long held_bytes = 0;  // allocated by this thread, less what it has freed
 
-[[maybe_unused]] void* taken(void* p) {
+}  // namespace
+
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // which have an operator new of their own
+namespace {
+
+void* taken(void* p) {
   if (counting) ++allocations;
   if (p == nullptr) throw std::bad_alloc();
   held_bytes += static_cast<long>(::malloc_usable_size(p));
   return p;
 }
 
-[[maybe_unused]] void give_back(void* p) {
+void give_back(void* p) {
   held_bytes -= static_cast<long>(::malloc_usable_size(p));
   std::free(p);
 }
 
 }  // namespace
 
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // which have an operator new of their own
 // Those of arrays call these. Not inlined: g++ takes malloc and free that it sees through them for a mismatch.
 [[gnu::noinline]] void* operator new(std::size_t bytes) { return taken(std::malloc(bytes > 0 ? bytes : 1)); }
 [[gnu::noinline]] void* operator new(std::size_t bytes, std::align_val_t alignment) {
