@@ -53,7 +53,7 @@ case $3 in
     # A build of a program that says what it was made of.
     mkdir -p "$folder/tree/tests/long" "$folder/tree/tests/fuzz"
     cd "$folder/tree"
-    cp "$source/tests/long/run" tests/long
+    cp "$source"/tests/long/{run,mutants.py} tests/long
     cp "$source/tests/fuzz/text.cpp" tests/fuzz
     printf '/build-check/\n/build-long/\n' > .gitignore
     printf '| proof |\n' > tests/long/results.md
