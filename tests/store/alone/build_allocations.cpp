@@ -120,8 +120,14 @@ TEST_F(StoreBuildAllocations, ReadingThrowsAndThePagerGoesOn) {
                                    << roam::Store::is_store(a_));
        }},
       {"stats and object_name of a pager",
-       [&] { return pager.stats().last_failure + pager.object_name(3) + " and a text too long for no allocation"; }},
+       [&] {
+         // Another thread finds the name, sooner or later.
+         const std::string name = pager.object_name(3);
+         EXPECT_TRUE(name.empty() || name == "a") << name;
+         return pager.stats().last_failure + " and a text too long for no allocation";
+       }},
   });
+  EXPECT_TRUE(made::update_until(pager, {0.3, 0.0}, all.center(), [&] { return pager.object_name(3) == "a"; }));
 }
 
 }  // namespace
