@@ -97,7 +97,7 @@ void write_profile(const TrainVerbOptions& o, const std::filesystem::path& file,
     if (o.profile) {
       write_profile(learnt, file, files::Naming::exact, profiles());
     } else {
-      save_profile(learnt, file);
+      write_profile(learnt, file, files::Naming::beside, {});
     }
     report.profile = file;
     std::error_code none;

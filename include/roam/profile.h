@@ -82,8 +82,8 @@ void check(const Profile& profile);
 /// device; also if it has a frame, but no body. The message names file, line or member, and what to do. Unknown members
 /// are ignored.
 [[nodiscard]] Profile load_profile(const std::filesystem::path& file);
-/// Writes atomically: a temporary file, synced and renamed. Throws roam::Error if it cannot be written, or as check()
-/// does.
+/// Writes atomically: a temporary file, synced and renamed. It replaces only a profile; a link that has the name is
+/// replaced, not followed. Throws roam::Error if it cannot be written, or as check() does.
 void save_profile(const Profile& profile, const std::filesystem::path& file);
 /// The first bytes of each file that save_profile() or save_frame() writes.
 inline constexpr std::string_view profile_start = "{\n  \"roam_profile\":";

@@ -5,12 +5,16 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <span>
 
+#include "files/descriptor.h"
 #include "files/json_text.h"
 #include "files/whole_file.h"
 #include "profile/write_profile.h"
+#include "text/byte_order_mark.h"
 #include "text/printable.h"
 
 namespace roam {
@@ -350,10 +354,23 @@ Profile load_profile(const std::filesystem::path& file) {
   return std::move(*contents.profile);
 }
 
-files::FileKind profiles() { return files::beginning_with(std::string(profile_start), "profile"); }
+files::FileKind profiles() {
+  return {"profile", [](int file) {
+            std::string text(256, '\0');
+            errno = 0;
+            text.resize(files::read_fully(file, 0, std::as_writable_bytes(std::span(text))));
+            if (text.empty()) return errno == 0;
+            // Programs that edit JSON write other spaces.
+            std::string dense(without_byte_order_mark(text)), start(profile_start);
+            for (std::string* some : {&dense, &start})
+              std::erase_if(*some,
+                            [](char c) { return std::string_view(" \t\r\n").find(c) != std::string_view::npos; });
+            return dense.starts_with(start);
+          }};
+}
 
 void save_profile(const Profile& profile, const std::filesystem::path& file) {
-  write_profile(profile, file, files::Naming::beside, {});
+  write_profile(profile, file, files::Naming::beside, profiles());
 }
 
 void write_profile(const Profile& profile, const std::filesystem::path& file, files::Naming naming,

@@ -8,7 +8,7 @@
 
 namespace roam {
 
-/// Profiles that roam wrote, and empty files.
+/// Profiles, whatever spaces they have, and empty files.
 [[nodiscard]] files::FileKind profiles();
 /// save_profile() of this naming, which replaces only files of this kind.
 void write_profile(const Profile& profile, const std::filesystem::path& file, files::Naming naming,

@@ -238,6 +238,25 @@ TEST(Profile, PassesOverMembersThatItDoesNotKnow) {
   expect_same(roam::load_profile(file), full_profile());
 }
 
+TEST(Profile, ReplacesOnlyAProfile) {
+  const TestFolder folder;
+  folder.write("room.ply", "ply\n");
+  const std::string file = folder.file("room.ply"), link = folder.file("link.json");
+  const std::string said = complaint([&] { roam::save_profile(full_profile(), file); });
+  EXPECT_TRUE(contains(said, file) && contains(said, "no profile")) << said;
+  EXPECT_EQ(folder.read("room.ply"), "ply\n");
+  // As another program may write it.
+  folder.write("dense.json", "\xef\xbb\xbf{\"roam_profile\":1}");
+  roam::save_profile(full_profile(), folder.file("dense.json"));
+  expect_same(roam::load_profile(folder.file("dense.json")), full_profile());
+  std::filesystem::create_symlink(file, link);
+  roam::save_profile(full_profile(), link);
+  roam::save_profile(full_profile(), link);
+  EXPECT_FALSE(std::filesystem::is_symlink(link));
+  expect_same(roam::load_profile(link), full_profile());
+  EXPECT_EQ(folder.read("room.ply"), "ply\n");
+}
+
 TEST(Profile, ThatCannotBeWrittenLeavesWhatWasThere) {
   const TestFolder folder;
   const std::string file = folder.file("p.json");
