@@ -104,7 +104,7 @@ typedef struct roam_space roam_space;
 typedef struct roam_mesh {
   size_t size;
   const char* name;       /**< UTF-8, for display; may be NULL */
-  const double* vertices; /**< x, y, z of each: finite, at most 1e9 */
+  const double* vertices; /**< x, y, z of each: finite, at most 1e9, if a triangle has it */
   size_t vertex_count;
   ptrdiff_t vertex_stride;
   const uint32_t* triangles; /**< three indices into vertices each; either winding */
@@ -125,7 +125,8 @@ typedef struct roam_world_options {
 /**
  * Indexes the triangles of meshes in memory. `meshes` may be NULL if `count` is 0: an empty world. Objects are numbered
  * as the meshes, triangles across all of them, in the order passed. `options` may be NULL. ROAM_INVALID: 2^32 triangles
- * or more, an index out of range, a vertex that is not finite or beyond 1e9; the text names mesh and triangle.
+ * or more, an index out of range, a vertex of a triangle that is not finite or beyond 1e9; the text names mesh and
+ * triangle.
  */
 ROAM_API roam_status roam_world_build(const roam_mesh* meshes, size_t count, const roam_world_options* options,
                                       roam_space** world);
@@ -161,7 +162,10 @@ ROAM_API roam_status roam_store_open(const char* path, const roam_store_options*
 
 /** `space` without some objects, none at first: a space that shares its triangles. */
 ROAM_API roam_status roam_filtered_create(const roam_space* space, roam_space** filtered);
-/** Replaces the ignored objects. ROAM_INVALID: `filtered` is not from roam_filtered_create(). */
+/**
+ * Replaces the ignored objects. ROAM_INVALID: `filtered` is not from roam_filtered_create(); objects of a store, whose
+ * triangles have no object.
+ */
 ROAM_API roam_status roam_filtered_ignore_only(roam_space* filtered, const uint32_t* objects, size_t count);
 
 ROAM_API void roam_space_free(roam_space* space);
@@ -197,7 +201,7 @@ typedef struct roam_query {
   roam_vec3 motion;        /**< the centre at time 1 minus `from`; each component at most 1e6 */
   double radius;           /**< [0, 1000] */
   double half_height;      /**< [0, 1000]; 0: a sphere */
-  const uint32_t* ignored; /**< numbers of objects to ignore, ascending */
+  const uint32_t* ignored; /**< numbers of objects to ignore, ascending; none of a store */
   size_t ignored_count;
 } roam_query;
 
@@ -210,7 +214,7 @@ typedef struct roam_impact {
   double gap;       /**< certified lower bound at `time`; negative: the body starts that deep in the triangle */
   roam_vec3 point;  /**< on the triangle */
   roam_vec3 normal; /**< unit vector from `point` towards the body's axis */
-  uint64_t triangle;
+  uint64_t triangle; /**< of a world as roam_world_build() counts; of a store only for roam_object_name() */
   uint32_t object;
   uint8_t hit;     /**< 0 or 1, as `unknown` */
   uint8_t unknown; /**< the hit is the border of space that is not loaded */
@@ -224,7 +228,7 @@ typedef struct roam_contact {
   double gap; /**< certified lower bound of the distance from the body's surface; <= 0: touches or overlaps */
   roam_vec3 point;
   roam_vec3 normal;
-  uint64_t triangle;
+  uint64_t triangle; /**< as in roam_impact */
   uint32_t object;
   uint8_t found; /**< 0: nothing within the reach; `gap` is the reach then */
   uint8_t unknown;
@@ -273,7 +277,7 @@ typedef struct roam_batch {
   roam_input motion;       /**< 3 double each; data NULL: all at rest */
   roam_input radius;       /**< 1 double each; data NULL: 0 */
   roam_input half_height;  /**< 1 double each; data NULL: 0 */
-  const uint32_t* ignored; /**< objects that all queries ignore, ascending */
+  const uint32_t* ignored; /**< objects that all queries ignore, ascending; none of a store */
   size_t ignored_count;
   double reach;         /**< of clearance and contacts, [0, 1000] */
   size_t most;          /**< of contacts: results a query, >= 1 */
@@ -564,7 +568,10 @@ ROAM_API roam_status roam_train(const roam_survey* survey, const roam_train_opti
 /** Reads a profile, or the profile beside a scene: "dam.ply" has "dam.ply.roam.json". It must be of a valid form. */
 ROAM_API roam_status roam_profile_load(const char* file, roam_profile** profile);
 ROAM_API roam_status roam_profile_beside(const char* scene, roam_profile** profile);
-/** Writes it; a reader of the file sees the old or the new one, never a part. */
+/**
+ * Writes it; a reader of the file sees the old or the new one, never a part. It replaces only a profile; a link that
+ * has the name is replaced, not followed.
+ */
 ROAM_API roam_status roam_profile_save(const roam_profile* profile, const char* file);
 /** Sets radius, height, step, slope, support radius and eye of `settings`, which must have been filled in. */
 ROAM_API roam_status roam_profile_apply(const roam_profile* profile, roam_walker_settings* settings);

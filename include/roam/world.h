@@ -23,7 +23,7 @@ namespace roam {
 
 struct BuildOptions {
   int threads = 0;        ///< >= 0; at most one per core; 0: one per core
-  bool lossless = false;  ///< 1e-5 m instead of 2 mm, except triangles over 16 km; 6 to 9 more bytes a triangle
+  bool lossless = false;  ///< 1e-5 m instead of 2 mm, except triangles over 16 km; up to 9 more bytes a triangle
   /// Called with the fraction done, in [0, 1], by one thread at a time. Return false to make build() throw Cancelled.
   std::function<bool(double)> progress = {};
 };

@@ -23,7 +23,7 @@ class Sweep:
     time: Floats  #: (N,): fraction of the motion that is certified free, in [0, 1]
     point: Floats  #: (N, 3): the contact, on the triangle
     normal: Floats  #: (N, 3): unit vector from the point towards the body's axis
-    triangle: NDArray[np.int64]  #: (N,): number of the triangle, in the order of the scene
+    triangle: NDArray[np.int64]  #: (N,): its number, in the order of the scene; in a store only for object_name()
     object: NDArray[np.int32]  #: (N,): number of its mesh; -1 in a store
     gap: Floats  #: (N,): certified lower bound of the gap at `time`; negative: starts so deep in it
     unknown: NDArray[np.bool_]  #: (N,): what is hit is a part of a store that is not loaded

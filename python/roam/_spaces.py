@@ -186,7 +186,7 @@ class Space:
 
 
 class World(Space):
-    """Triangles in memory, with an index: 12 to 14 bytes a triangle, lossless 18 to 23."""
+    """Triangles in memory, with an index: 11 to 25 bytes a triangle."""
 
     @classmethod
     def from_arrays(cls, vertices: ArrayLike, triangles: ArrayLike, *, name: str = "", threads: int = 0,
@@ -197,7 +197,7 @@ class World(Space):
         triangles  (T, 3), integers: indices into vertices; either winding, also without area
         name       of the object, see object_name()
         threads    at most one a core; 0: one a core
-        lossless   bodies stop up to 0.01 mm before a wall instead of 2 mm, for 6 to 9 more bytes a triangle
+        lossless   bodies stop up to 0.01 mm before a wall instead of 2 mm, for up to 9 more bytes a triangle
         """
         return cls.from_meshes([(name, vertices, triangles)], threads=threads, lossless=lossless, progress=progress)
 
@@ -237,8 +237,8 @@ class Store(Space):
     """A scene on disk or on a web server, of any size, in fixed memory. `roam build` makes one.
 
     Each query first loads what it needs; so queries run one after another. Space that does not fit into memory, or does
-    not come within `patience` seconds, is `unknown` in the results, and hit as if it were solid; so is what lies more
-    than 1000 m from the start of a motion. OSError if it cannot be read. After os.fork(), open a store anew.
+    not come within `patience` seconds, is `unknown` in the results, and hit as if it were solid; so may be what lies
+    more than 1000 m from the start of a motion. A store has no objects to ignore. OSError if it cannot be read. After os.fork(), open a store anew.
     """
 
     @classmethod

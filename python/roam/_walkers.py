@@ -239,7 +239,7 @@ class Walker:
 
     @property
     def settings(self) -> Dict[str, float]:
-        """The body and what it can do, with its present size."""
+        """The body, standing, and what it can do, with its present radius."""
         settings = _structs.WalkerSettings()
         with self._lock:
             call("roam_walker_get_settings", self._handle.value, ctypes.byref(settings))

@@ -38,11 +38,11 @@ void write(const roam_output& to, std::size_t i, std::size_t entry, const T& val
 
 class Batch {
  public:
-  explicit Batch(const roam_batch* from) : it(given(from, "roam_batch")) {
+  Batch(const roam_space& space, const roam_batch* from) : it(given(from, "roam_batch")) {
     if (it.count > 0) needed(it.from.data, "roam_batch::from");
     if (it.ignored_count > 0) (void)needed(it.ignored, "roam_batch::ignored");
     filter_.objects = {it.ignored, it.ignored_count};
-    check_ascending(filter_.objects);
+    check_ignored(space, filter_.objects);
     for (const roam_output* to : {&it.hit, &it.time, &it.gap, &it.point, &it.normal, &it.triangle, &it.object,
                                   &it.feature, &it.unknown, &it.found}) {
       if (to->data != nullptr && to->stride == 0 && it.count > 1) {
@@ -138,9 +138,9 @@ void compute_all(const roam_batch& batch, const Compute& compute) {
 template <class Compute>
 roam_status run(const roam_space* space, const roam_batch* from, const Compute& compute) {
   return guarded([&] {
-    const Space& in = *needed(space, "the space").space;
-    const Batch batch(from);
-    if (batch.it.count > 0) compute_all(batch.it, [&](std::size_t i) { compute(in, batch, i); });
+    const roam_space& in = needed(space, "the space");
+    const Batch batch(in, from);
+    if (batch.it.count > 0) compute_all(batch.it, [&](std::size_t i) { compute(*in.space, batch, i); });
   });
 }
 

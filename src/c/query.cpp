@@ -40,15 +40,17 @@ roam_contact near_of(const Near& near, bool found) {
 
 /// A query of the caller, with its filter.
 struct Given {
-  explicit Given(const roam_query* from) : query(given(from, "roam_query")) {
+  Given(const roam_space* space, const roam_query* from)
+      : in(needed(space, "the space")), query(given(from, "roam_query")) {
     if (query.ignored_count > 0) (void)needed(query.ignored, "roam_query::ignored");
     filter.objects = {query.ignored, query.ignored_count};
-    check_ascending(filter.objects);
+    check_ignored(in, filter.objects);
     it = {{query.radius, query.half_height}, cpp_of(query.from), cpp_of(query.motion), &filter};
   }
   Given(const Given&) = delete;
   Given& operator=(const Given&) = delete;
 
+  const roam_space& in;
   roam_query query;
   ObjectFilter filter;
   Query it;
@@ -59,7 +61,10 @@ struct Given {
 roam_contact c_of(const Contact& contact) { return near_of(contact, true); }
 roam_contact c_of(const Clearance& clearance) { return near_of(clearance, clearance.found); }
 
-void check_ascending(std::span<const ObjectId> objects) {
+void check_ignored(const roam_space& space, std::span<const ObjectId> objects) {
+  if (space.store != nullptr && !objects.empty()) {
+    throw Invalid("a store has no objects to ignore; leave them out when it is built");
+  }
   if (!std::is_sorted(objects.begin(), objects.end())) throw Invalid("the numbers of ignored objects must ascend");
 }
 
@@ -78,7 +83,8 @@ using namespace roam::c;
 roam_status roam_sweep(const roam_space* space, const roam_query* query, roam_impact* impact) {
   return guarded([&] {
     check_room(impact, "roam_impact");
-    put(*impact, c_of(needed(space, "the space").space->sweep(Given(query).it)));
+    const Given asked(space, query);
+    put(*impact, c_of(asked.in.space->sweep(asked.it)));
   });
 }
 
@@ -92,7 +98,8 @@ roam_status roam_ray(const roam_space* space, roam_vec3 from, roam_vec3 motion, 
 roam_status roam_clearance(const roam_space* space, const roam_query* query, double reach, roam_contact* nearest) {
   return guarded([&] {
     check_room(nearest, "roam_contact");
-    put(*nearest, c_of(needed(space, "the space").space->clearance(Given(query).it, reach)));
+    const Given asked(space, query);
+    put(*nearest, c_of(asked.in.space->clearance(asked.it, reach)));
   });
 }
 
@@ -102,7 +109,8 @@ roam_status roam_contacts(const roam_space* space, const roam_query* query, doub
     (void)needed(count, "the address for the number of contacts");
     if (capacity > 0) check_room(contacts, "roam_contact");
     std::vector<roam::Contact> found(capacity);
-    const std::size_t n = needed(space, "the space").space->contacts(Given(query).it, reach, found);
+    const Given asked(space, query);
+    const std::size_t n = asked.in.space->contacts(asked.it, reach, found);
     put_contacts(std::span(found).first(n), contacts, count);
   });
 }
@@ -110,6 +118,7 @@ roam_status roam_contacts(const roam_space* space, const roam_query* query, doub
 roam_status roam_fits(const roam_space* space, const roam_query* query, int32_t* fits) {
   return guarded([&] {
     (void)needed(fits, "the address for the result");
-    *fits = Fit(*needed(space, "the space").space, Given(query).it).fits ? 1 : 0;
+    const Given asked(space, query);
+    *fits = Fit(*asked.in.space, asked.it).fits ? 1 : 0;
   });
 }

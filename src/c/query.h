@@ -18,7 +18,8 @@ namespace roam::c {
 void put_contacts(std::span<const Contact> contacts, roam_contact* to, std::size_t* count);
 
 /// Throws Invalid unless ObjectFilter can search them.
-void check_ascending(std::span<const ObjectId> objects);
+/// Throws Invalid unless they ascend, or if there are any in a store, whose triangles have no object.
+void check_ignored(const roam_space& space, std::span<const ObjectId> objects);
 
 /// Space::fits, with a filter: whether the body fits, and what is in the way.
 struct Fit {

@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "c/meshes.h"
+#include "c/query.h"
 #include "c/space.h"
 #include "c/structs.h"
 #include "c/walker.h"
@@ -130,6 +131,7 @@ roam_status roam_filtered_ignore_only(roam_space* filtered, const uint32_t* obje
     roam::Filtered* space = needed(filtered, "the space").filtered;
     if (space == nullptr) throw Invalid("this space does not come from roam_filtered_create()");
     if (count > 0) (void)needed(objects, "the array of objects");
+    check_ignored(*filtered, {objects, count});
     space->ignore_only({objects, count});
   });
 }
