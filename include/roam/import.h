@@ -50,7 +50,7 @@ struct ImportOptions {
   /// Shell patterns (fnmatch; case counts, * matches / too). Objects are left out if their Mesh::name or an ancestor's
   /// name matches. An object without a name has the file's name without its extension.
   std::vector<std::string> ignore{};
-  std::uint64_t memory_limit = 8ull << 30;  ///< bytes, >= 64 MiB: of the reader, and of the meshes it sends
+  std::uint64_t memory_limit = 8ull << 30;  ///< bytes, >= least_memory: of the reader, and of the meshes it sends
   /// Seconds, > 0. A reader is ended if it reports nothing for so long, plus 1 s for each 4 MB of its file; or if it is
   /// not done after five times as long, plus 1 s for each 33 kB that it has read.
   double silence_limit = 120.0;
@@ -60,6 +60,7 @@ struct ImportOptions {
   std::filesystem::path reader{};  ///< the program roam-reader; empty: looked for as above
   /// Called from the calling thread at least twice a second. Returning false ends the reader and throws Cancelled.
   std::function<bool(const ImportProgress&)> progress{};
+  static constexpr std::uint64_t least_memory = 64ull << 20;
 };
 
 /// The frame of a scene: that of the options; without ImportOptions::up, y is up in glTF and z in every other format.

@@ -15,8 +15,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uint64_t least_memory_limit = 64ull << 20;
-
 /// Entries of a folder between two calls of the progress function.
 constexpr std::uint64_t entries_in_between = 1000;
 
@@ -79,7 +77,7 @@ std::vector<Source> sources(std::span<const fs::path> paths) {
 
 void check(std::span<const Source> sources, const ImportOptions& options) {
   if (sources.empty()) throw Error("no scene was named; name one or more files or folders to import.");
-  if (options.memory_limit < least_memory_limit) {
+  if (options.memory_limit < ImportOptions::least_memory) {
     throw Error(
         fmt::format("an import memory limit of {} bytes is too small; allow at least 64 MiB.", options.memory_limit));
   }

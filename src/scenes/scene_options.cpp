@@ -219,6 +219,10 @@ std::optional<double> doubted_ceilings(const SceneOptions& options, const Import
 ImportedScene read_scene(const SceneOptions& options) {
   options.check_there();
   ImportOptions how = options.import_options();
+  if (how.memory_limit < ImportOptions::least_memory) {
+    throw UsageError(fmt::format("--memory {:.5g} MiB", std::ldexp(static_cast<double>(how.memory_limit), -20)),
+                     fmt::format("reading a scene needs at least {} MiB", ImportOptions::least_memory >> 20));
+  }
   ImportedScene scene;
   {
     Progress progress("reading " + options.names(), "B");

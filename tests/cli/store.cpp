@@ -223,8 +223,8 @@ TEST_F(StoreVerbs, OptionsThatMeanNothingForAStoreOrASceneAreRefused) {
   EXPECT_EQ(run({"info", store(), scene()}).status, 2);
   EXPECT_EQ(run({"sweep", store(), scene()}).status, 2);
   const ProgramResult reading = run({"walk", scene(), "--memory", "1M", "--path", path()});
-  EXPECT_EQ(reading.status, 1);
-  EXPECT_TRUE(contains(reading.err, "allow at least 64 MiB")) << reading.err;
+  EXPECT_EQ(reading.status, 2);
+  EXPECT_TRUE(contains(reading.err, "--memory 1 MiB: reading a scene needs at least 64 MiB")) << reading.err;
   EXPECT_EQ(run({"walk", store(), "--memory", "lots", "--path", path()}).status, 2);
   const ProgramResult little = run({"walk", store(), "--memory", "1M", "--path", path()});
   EXPECT_EQ(little.status, 2);
