@@ -67,7 +67,7 @@ WalkerSettings WalkerSettings::sphere(double radius) {
 void check(const WalkerSettings& s) {
   const DefaultFloatingPoint guard;
   constexpr const char* whose = "the walker's";
-  demand(whose, "radius", s.radius, "m", {least_radius, length_limit, false});
+  demand(whose, "radius", s.radius, "m", {least_radius, 0.5 * length_limit, false});
   demand(whose, "support radius", s.support_radius, "m", {0.0, length_limit, false}, "0 is no support disc");
   demand(whose, "height", s.height, "m", {2.0 * s.radius, length_limit, false},
          "a body is at least two radii high, and then a sphere");

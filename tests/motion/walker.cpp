@@ -293,7 +293,7 @@ TEST(Walker, RefusesBadSettingsAndInputWithAReason) {
   EXPECT_TRUE(refused({.radius = 0.0}, "radius"));
   EXPECT_TRUE(refused({.radius = -1.0}, "radius"));
   EXPECT_TRUE(refused({.radius = nan}, "radius"));
-  EXPECT_TRUE(refused({.radius = 0.000999, .height = 0.01, .eye = 0.0, .step = 0.0}, "at least 0.001"));
+  EXPECT_TRUE(refused({.radius = 0.000999, .height = 0.01, .eye = 0.0, .step = 0.0}, "at least 0.001 and at most 125"));
   EXPECT_NO_THROW(roam::check(WalkerSettings::sphere(0.001)));
   EXPECT_TRUE(refused({.radius = 1.0}, "height"));
   EXPECT_TRUE(refused({.eye = 2.0}, "eye"));
