@@ -24,6 +24,8 @@ constexpr double least_skin = 1e-4;
 
 /// m/s. A faster wish counts as this one in the same direction: its square is finite, and no step can tell them apart.
 constexpr double fastest_wish = 1e100;
+/// m: a shorter way proves nothing. The square of one far shorter would be 0.
+constexpr double least_proof = 1e-12;
 
 /// Greatest number of pieces of one flight among regions, each half a radius long.
 constexpr int flight_limit = 4096;
@@ -264,8 +266,10 @@ const StepReport& Walker::State::step(const WalkerInput& wish, double dt) {
     }
   } else {
     const bool changed = may_have_changed();
-    // A free way that starts at the body's position proves that nothing has come there.
-    if (!held() && changed && input.velocity * dt != Vec3(0.0)) {
+    // A free way that starts at the body's position proves that nothing has come there. A change of size before it, in
+    // which the centre moves, needs a proof of its own.
+    const bool shrinks = (mode_ == Mode::walk && input.crouch && !(at_.height < settings_.height)) || !regions_.empty();
+    if (!held() && changed && !shrinks && largest(input.velocity * dt) > least_proof) {
       at_.known.fit = walking::Fit::unproven;
       looked_at_ = revision();
       resized_ = false;
@@ -376,11 +380,15 @@ bool Walker::State::resize(double radius, double support_radius) {
   resized_ = true;
   const walking::Sizes sizes = this->sizes();
   if (mode_ != Mode::ghost && !held()) {
-    walking::Move m = under_way();
-    walking::adapt(m, gait_, sizes);
-    at_ = m;
-    // The new body may fit where something met the old one.
-    if (may_have_changed()) look_again();
+    const bool changed = may_have_changed();
+    if (changed && embedded()) {
+      take_size_here();  // where its centre is: the new body may fit where something met the old one
+    } else {
+      walking::Move m = under_way();
+      walking::adapt(m, gait_, sizes);
+      at_ = m;
+    }
+    if (changed) look_again();
     resized_ = true;
   }
   finish();

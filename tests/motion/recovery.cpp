@@ -1,7 +1,11 @@
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
+#include <string>
+#include <vector>
 
+#include "roam/filtered.h"
 #include "walker_judged.h"
 
 namespace {
@@ -28,6 +32,44 @@ TEST(Recovery, AnEmbeddedStartIsFreedByAShortWay) {
   EXPECT_LT(w.position().x, 2.0);  // on its side of the wall
   EXPECT_NEAR(w.position().x, 1.7, 0.01);
   EXPECT_NEAR(w.position().z, 0.9, 0.01);
+}
+
+TEST(Recovery, ABodyInWhichAPlateAppearsPassesItByNoMoveWhateverItsSizeDoesThen) {
+  const std::vector<Mesh> meshes{floor_mesh(), [] {
+                                   Mesh plate;
+                                   add_quad(plate, {-5, -5, 0.8}, {5, -5, 0.8}, {5, 5, 0.8}, {-5, 5, 0.8});
+                                   return plate;
+                                 }()};
+  const World world = World::build(meshes);
+  const roam::SizeRegion low{.bounds = {Vec3(-9.0), Vec3(9.0)}, .radius = 0.2, .support_radius = 0.0, .why = "a test"};
+  for (const Mode mode : {Mode::walk, Mode::fly}) {
+    for (const char* change : {"none", "crouch", "resize", "region"}) {
+      for (const double speed : {0.5, 1e-170, 0.0}) {
+        SCOPED_TRACE(std::string(to_string(mode)) + ", " + change + ", " + std::to_string(speed));
+        roam::Filtered space(world);
+        space.ignore_only(std::array<roam::ObjectId, 1>{1});
+        Walker w(space, {}, mode, {0.0, 0.0, 0.95});
+        static_cast<void>(w.step({}, 0.1));
+        space.ignore_only({});
+        const std::string what = change;
+        if (what == "region") w.set_regions(std::array{low});
+        const auto judge = [&](const StepReport& report) {
+          Vec3 at = report.from;
+          for (const roam::Segment& s : report.segments) {
+            const bool crosses = (at.z - 0.8) * (s.position.z - 0.8) < 0.0;
+            EXPECT_TRUE(!crosses || s.teleport) << at.z << " to " << s.position.z;
+            at = s.position;
+          }
+        };
+        if (what == "resize") {
+          static_cast<void>(w.resize(0.1, 0.0));
+          judge(w.report());
+        }
+        judge(w.step({.velocity = {speed, 0.0, 0.0}, .crouch = what == "crouch"}, 0.016));
+        EXPECT_TRUE(w.held() || space.clearance(w.body(), w.position(), 0.1).distance > -1e-6);
+      }
+    }
+  }
 }
 
 TEST(Recovery, AStartInTheMiddleOfAWallIsHeldAndSaidAndAGhostGetsOut) {
