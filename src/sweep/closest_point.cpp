@@ -50,6 +50,7 @@ Closest at_face(Obstacle& o, const Vec3& p, double a_share, double b_share, doub
   const double sum = a_share + b_share + c_share, whole = 1.0 / sum;
   const Vec3 x = p - (o.corner[0] + (b_share * whole) * o.edge[0] - (c_share * whole) * o.edge[2]);
   double squared = glm::dot(x, x);
+  if (squared == 0.0 && normal == Vec3(0.0)) return at_any_edge(o, p);
   const double longest = std::max({o.edge_squared[0], o.edge_squared[1], o.edge_squared[2]});
   const bool is_sliver = sum < sliver_part * longest * longest;
   if (!(squared <= height * height * face_trust)) {

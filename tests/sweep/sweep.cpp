@@ -325,6 +325,22 @@ TEST(Sweep, CapsuleMeetsFloorCeilingWallAndTableEdge) {
   EXPECT_EQ(waist.feature, Feature::edge);
 }
 
+TEST(Sweep, HasAUnitNormalWhereTheCentreIsInTheMiddleOfAWire) {
+  int differ = 0;
+  for (int i = 0; i < 300; ++i) {
+    // Lengths that are no multiples of each other: half of the sum is then often exactly on the wire.
+    const double x = 100.0 * std::sin(1.7 * i), y = 100.0 * std::cos(2.3 * i);
+    roam::Triangle wire{roam::Vec3(x, y, x + y), roam::Vec3(x, y, x + y), roam::Vec3(x, y, x + y)};
+    for (int k = 0; k < 3; ++k) wire[static_cast<std::size_t>(k)][i % 3] += 50.0 * std::sin(3.1 * i + k);
+    const roam::Vec3 middle = 0.5 * wire[0] + 0.5 * wire[2];
+    const auto p = roam::proximity({0.3, 0.0}, middle, wire);
+    EXPECT_NEAR(glm::length(p.normal), 1.0, 1e-9) << i;
+    EXPECT_NEAR(p.normal[i % 3], 0.0, 1e-9) << i;
+    differ += p.distance < -0.2999 ? 1 : 0;
+  }
+  EXPECT_GT(differ, 100);
+}
+
 TEST(Sweep, ProximityTellsPointNormalFeatureAndGap) {
   const auto face = roam::proximity(ball, {1, 1, 2}, floor_triangle);
   EXPECT_EQ(face.feature, Feature::face);
