@@ -238,7 +238,8 @@ class Store(Space):
 
     Each query first loads what it needs; so queries run one after another. Space that does not fit into memory, or does
     not come within `patience` seconds, is `unknown` in the results, and hit as if it were solid; so may be what lies
-    more than 1000 m from the start of a motion. A store has no objects to ignore. OSError if it cannot be read. After os.fork(), open a store anew.
+    more than 1000 m from the start of a motion. A store has no objects to ignore. OSError if it cannot be read. After
+    os.fork(), open a store anew.
     """
 
     @classmethod
